@@ -1,0 +1,173 @@
+//! Contracts, written once.
+//!
+//! The step function of a monitor is declared by one `contract!` block: a precondition and a list of *clauses*. A clause is
+//! an implication over one step, `when premise => conclusion`, with the requirements it stands for. From the one list
+//! come
+//!
+//! * a predicate function per clause, and `CLAUSES`, the list as data (the proof harnesses and the inventory read it);
+//! * under `cfg(kani)` one `kani::requires` and one `kani::ensures` per clause on `next`, and a cover per premise;
+//! * with debug assertions a check of every clause after every call of `next`: it panics when, and only when, the
+//!   contract is broken. Release builds contain neither checks nor panics;
+//! * with the feature `creusot` one `requires` and one `ensures` per clause as Creusot contracts.
+//!
+//! `next` is pure and takes its state by value, so no clause needs the value of an expression before the call.
+//! Together with the invariant, which every contract assumes and re-establishes, the clauses are inductive: what holds for
+//! one step from any state that satisfies the invariant holds along every run from the initial state.
+//!
+//! Caveat of the Creusot form: the attributes are checked for syntax by an ordinary compiler; the predicates are logic
+//! functions only under Creusot's own compiler (`cfg(creusot)`).
+
+/// One observed step of a monitor: everything a clause may talk about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Step<S, C, I, O> {
+    /// The state before the step.
+    pub before: S,
+    /// The parameters.
+    pub config: C,
+    /// The inputs of the cycle.
+    pub inputs: I,
+    /// The state after the step.
+    pub after: S,
+    /// The outputs of the cycle.
+    pub outputs: O,
+}
+
+/// One clause of a contract as data.
+#[derive(Debug)]
+pub struct Clause<S, C, I, O> {
+    /// The name of the predicate function.
+    pub name: &'static str,
+    /// The clause in words.
+    pub text: &'static str,
+    /// The requirements and properties it stands for.
+    pub requirements: &'static [&'static str],
+    /// Whether the clause says something about this step; a check that never meets the premise proves nothing.
+    pub premise: fn(Step<S, C, I, O>) -> bool,
+    /// Whether the step satisfies the clause (also when the premise does not hold).
+    pub holds: fn(Step<S, C, I, O>) -> bool,
+}
+
+/// A state handed in from outside does not satisfy the invariant of its monitor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct InvalidState;
+
+impl core::fmt::Display for InvalidState {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str("the state does not satisfy the invariant of the monitor")
+    }
+}
+
+impl core::error::Error for InvalidState {}
+
+/// Declares `next` with its contract, from the module's `State`, `Config`, `Inputs`, `Outputs` and `transition`.
+macro_rules! contract {
+    ($(
+        $(#[doc = $text:literal])+
+        $clause:ident [$($requirement:literal),+]: when |$step:ident| $premise:expr => $conclusion:expr;
+    )+) => {
+        /// One observed step of this monitor.
+        pub type Step = $crate::contract::Step<State, Config, Inputs, Outputs>;
+
+        /// The type of [`next`], for code that takes a step function as a parameter.
+        pub type Next = fn(State, &Config, &Inputs) -> (State, Outputs);
+
+        $(
+            $(#[doc = $text])+
+            #[doc = concat!("\n\nStands for:" $(, " ", $requirement)+, ".")]
+            #[cfg_attr(creusot, creusot_contracts::macros::logic)]
+            pub fn $clause($step: Step) -> bool {
+                !($premise) || $conclusion
+            }
+        )+
+
+        /// The clauses of the contract of [`next`].
+        pub const CLAUSES: &[$crate::contract::Clause<State, Config, Inputs, Outputs>] = &[$(
+            $crate::contract::Clause {
+                name: stringify!($clause),
+                text: concat!($($text),+),
+                requirements: &[$($requirement),+],
+                premise: |$step| $premise,
+                holds: $clause,
+            }
+        ),+];
+
+        /// One cycle: the state after it and the outputs.
+        ///
+        /// Requires a state that satisfies [`State::invariant`]; ensures every clause of [`CLAUSES`]. Pure; total also for
+        /// states that break the invariant, of whose outcome nothing is then claimed.
+        #[cfg_attr(kani, kani::requires(state.invariant(config)))]
+        $(#[cfg_attr(kani, kani::ensures(|result| $clause($crate::contract::Step {
+            before: state, config: *config, inputs: *inputs, after: result.0, outputs: result.1,
+        })))])+
+        #[cfg_attr(feature = "creusot", creusot_contracts::macros::requires(state.invariant(config)))]
+        $(#[cfg_attr(feature = "creusot", creusot_contracts::macros::ensures($clause($crate::contract::Step {
+            before: state, config: *config, inputs: *inputs, after: result.0, outputs: result.1,
+        })))])+
+        pub fn next(state: State, config: &Config, inputs: &Inputs) -> (State, Outputs) {
+            // Kani and Creusot check the attributes; asserting the same again would only slow them down.
+            #[cfg(all(debug_assertions, not(any(kani, creusot))))]
+            assert!(state.invariant(config), "the state before the step breaks the invariant");
+            let result = transition(state, config, inputs);
+            #[cfg(all(debug_assertions, not(any(kani, creusot))))]
+            {
+                let step = $crate::contract::Step {
+                    before: state, config: *config, inputs: *inputs, after: result.0, outputs: result.1,
+                };
+                $(assert!($clause(step), concat!("contract broken: ", stringify!($clause)));)+
+            }
+            result
+        }
+
+        /// States for Kani that the premise of every clause can be met: no clause holds vacuously.
+        #[cfg(kani)]
+        pub fn cover_premises(step: Step) {
+            $({
+                let $step = step;
+                kani::cover!($premise);
+            })+
+        }
+
+        /// The monitor as an object: the state kept between the cycles, with its configuration.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub struct Monitor {
+            config: Config,
+            state: State,
+        }
+
+        impl Monitor {
+            /// A monitor in its initial state.
+            pub const fn new(config: Config) -> Self {
+                Self { config, state: State::INITIAL }
+            }
+
+            /// A monitor that starts from a given state, for instance one kept in non-volatile memory.
+            ///
+            /// # Errors
+            /// [`InvalidState`](crate::contract::InvalidState) when `state` does not satisfy the invariant.
+            pub fn resume(config: Config, state: State) -> Result<Self, $crate::contract::InvalidState> {
+                if state.invariant(&config) {
+                    Ok(Self { config, state })
+                } else {
+                    Err($crate::contract::InvalidState)
+                }
+            }
+
+            /// The present state.
+            pub const fn state(&self) -> State {
+                self.state
+            }
+
+            /// The parameters.
+            pub const fn config(&self) -> &Config {
+                &self.config
+            }
+
+            /// Advances the monitor by one cycle.
+            pub fn step(&mut self, inputs: &Inputs) -> Outputs {
+                let (state, outputs) = next(self.state, &self.config, inputs);
+                self.state = state;
+                outputs
+            }
+        }
+    };
+}

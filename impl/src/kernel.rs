@@ -1,0 +1,366 @@
+//! Primitives shared by the monitors: time in cycles, stop levels, positions and speeds.
+
+use core::num::NonZeroU32;
+
+/// A duration in monitoring cycles (T_SI), 0 to `u32::MAX`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Cycles(u32);
+
+/// A duration does not fit [`Cycles`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct DurationTooLong;
+
+impl core::fmt::Display for DurationTooLong {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str("the duration has more cycles than 32 bits hold")
+    }
+}
+
+impl core::error::Error for DurationTooLong {}
+
+impl Cycles {
+    /// No time: a timer started with it expires at once.
+    pub const ZERO: Self = Self(0);
+
+    /// Ten seconds in cycles of 31.25 us, the unit of the drive's monitoring cycle (MD1300) and so the shortest possible:
+    /// the longest t_B and t_C.
+    pub const TEN_SECONDS: Self = Self(320_000);
+
+    /// Sixty seconds in cycles of 31.25 us: the longest of all other delays.
+    pub const SIXTY_SECONDS: Self = Self(1_920_000);
+
+    /// A duration of `count` cycles.
+    pub const fn new(count: u32) -> Self {
+        Self(count)
+    }
+
+    /// The number of cycles.
+    pub const fn count(self) -> u32 {
+        self.0
+    }
+
+    /// The shortest number of cycles that lasts at least `millis` milliseconds, for a cycle of `cycle_us` microseconds.
+    ///
+    /// Rounds up: the safe side wherever a reaction needs a minimum time, such as braking before the standstill window
+    /// is watched. Also the convention of the specification for all stop timers.
+    ///
+    /// # Errors
+    /// [`DurationTooLong`] when the result needs more than 32 bits.
+    pub const fn from_millis_up(
+        millis: u32,
+        cycle_us: NonZeroU32,
+    ) -> Result<Self, DurationTooLong> {
+        let micros = millis as u64 * 1000;
+        Self::checked(micros.div_ceil(cycle_us.get() as u64))
+    }
+
+    /// The longest number of cycles that lasts at most `millis` milliseconds, for a cycle of `cycle_us` microseconds.
+    ///
+    /// Rounds down: the safe side wherever a hazard may last no longer than the given time.
+    ///
+    /// # Errors
+    /// [`DurationTooLong`] when the result needs more than 32 bits.
+    pub const fn from_millis_down(
+        millis: u32,
+        cycle_us: NonZeroU32,
+    ) -> Result<Self, DurationTooLong> {
+        let micros = millis as u64 * 1000;
+        Self::checked(micros / cycle_us.get() as u64)
+    }
+
+    /// The same duration, if it is at most `limit`.
+    ///
+    /// # Errors
+    /// [`ConfigError::DelayTooLong`] when it is longer.
+    pub const fn at_most(self, limit: Self) -> Result<Self, ConfigError> {
+        if self.0 <= limit.0 {
+            Ok(self)
+        } else {
+            Err(ConfigError::DelayTooLong)
+        }
+    }
+
+    const fn checked(count: u64) -> Result<Self, DurationTooLong> {
+        if count > u32::MAX as u64 {
+            Err(DurationTooLong)
+        } else {
+            Ok(Self(count as u32))
+        }
+    }
+
+    /// What is left one cycle later; zero stays zero.
+    pub const fn tick(self) -> Self {
+        Self(self.0.saturating_sub(1))
+    }
+
+    /// The shorter of the two durations.
+    pub const fn min(self, other: Self) -> Self {
+        if self.0 <= other.0 { self } else { other }
+    }
+
+    /// Whether the time is up.
+    pub const fn is_zero(self) -> bool {
+        self.0 == 0
+    }
+}
+
+/// Why a configuration was refused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ConfigError {
+    /// A delay is longer than the manual allows in the shortest monitoring cycle: see [`Cycles::TEN_SECONDS`] and
+    /// [`Cycles::SIXTY_SECONDS`].
+    DelayTooLong,
+    /// A delay must be at least one cycle.
+    NoDelay,
+    /// Errors of the safe logic shall raise STOP E, but external stops or STOP E are not enabled (S840D-PARAM-505).
+    StopENotEnabled,
+    /// The highest gear index is above 7 (S840D-GEAR-501).
+    GearIndexTooHigh,
+}
+
+impl core::fmt::Display for ConfigError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str(match self {
+            Self::DelayTooLong => "a delay is longer than the manual allows",
+            Self::NoDelay => "a delay must be at least one cycle",
+            Self::StopENotEnabled => {
+                "STOP E on errors of the safe logic needs external stops and STOP E enabled"
+            }
+            Self::GearIndexTooHigh => "the highest gear index is above 7",
+        })
+    }
+}
+
+impl core::error::Error for ConfigError {}
+
+/// A safe position in increments of the axis (the user fixes the unit, usually micrometres).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Position(pub i32);
+
+/// A speed magnitude in mm/min (linear axes) or in the unit the user fixes for the axis.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Speed(pub u32);
+
+/// The effective stop level of a channel, in rising priority (S840D-STOP-003).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Level {
+    /// No stop.
+    #[default]
+    None,
+    /// Cross comparison found a discrepancy; no motion reaction by itself.
+    F,
+    /// Extended stop and retract, then operating stop.
+    E,
+    /// Braking along the path, then operating stop.
+    D,
+    /// Braking at the current limit, then operating stop.
+    C,
+    /// Test of the shutdown path.
+    Test,
+    /// Braking at the current limit, then pulse cancellation.
+    B,
+    /// Pulse cancellation.
+    A,
+}
+
+impl Level {
+    /// Every level, lowest first.
+    pub const ALL: [Self; 8] = [
+        Self::None,
+        Self::F,
+        Self::E,
+        Self::D,
+        Self::C,
+        Self::Test,
+        Self::B,
+        Self::A,
+    ];
+
+    /// The number of the level in the cross comparison: 0 (none) to 7 (A).
+    pub const fn rank(self) -> u8 {
+        match self {
+            Self::None => 0,
+            Self::F => 1,
+            Self::E => 2,
+            Self::D => 3,
+            Self::C => 4,
+            Self::Test => 5,
+            Self::B => 6,
+            Self::A => 7,
+        }
+    }
+
+    /// The higher of the two levels.
+    pub const fn max(self, other: Self) -> Self {
+        if self.rank() >= other.rank() {
+            self
+        } else {
+            other
+        }
+    }
+
+    /// Whether the stop ends in the operating stop: E, D or C.
+    pub const fn ends_in_standstill(self) -> bool {
+        matches!(self, Self::E | Self::D | Self::C)
+    }
+}
+
+/// A stop raised inside a channel: latched until it is acknowledged (S840D-STOP-001). There is no internal test stop,
+/// and STOP F is a machine of its own ([`crate::fault`]).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum InternalStop {
+    /// No stop.
+    #[default]
+    None,
+    /// STOP E.
+    E,
+    /// STOP D.
+    D,
+    /// STOP C.
+    C,
+    /// STOP B.
+    B,
+    /// STOP A.
+    A,
+}
+
+impl InternalStop {
+    /// Every internal stop, lowest first.
+    pub const ALL: [Self; 6] = [Self::None, Self::E, Self::D, Self::C, Self::B, Self::A];
+
+    /// The place of the stop in the common order.
+    pub const fn level(self) -> Level {
+        match self {
+            Self::None => Level::None,
+            Self::E => Level::E,
+            Self::D => Level::D,
+            Self::C => Level::C,
+            Self::B => Level::B,
+            Self::A => Level::A,
+        }
+    }
+
+    /// The internal stop of a level; `None` for the levels F and TEST, which are no internal stops.
+    pub const fn from_level(level: Level) -> Option<Self> {
+        match level {
+            Level::None => Some(Self::None),
+            Level::E => Some(Self::E),
+            Level::D => Some(Self::D),
+            Level::C => Some(Self::C),
+            Level::B => Some(Self::B),
+            Level::A => Some(Self::A),
+            Level::F | Level::Test => None,
+        }
+    }
+
+    /// The higher of the two stops.
+    pub const fn max(self, other: Self) -> Self {
+        if self.level().rank() >= other.level().rank() {
+            self
+        } else {
+            other
+        }
+    }
+}
+
+/// A stop requested by signals: lasts as long as its request. There is no external STOP B (S840D-STOP-088).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum ExternalStop {
+    /// No stop.
+    #[default]
+    None,
+    /// STOP E.
+    E,
+    /// STOP D.
+    D,
+    /// STOP C.
+    C,
+    /// STOP A.
+    A,
+}
+
+impl ExternalStop {
+    /// Every external stop, lowest first.
+    pub const ALL: [Self; 5] = [Self::None, Self::E, Self::D, Self::C, Self::A];
+
+    /// The place of the stop in the common order.
+    pub const fn level(self) -> Level {
+        match self {
+            Self::None => Level::None,
+            Self::E => Level::E,
+            Self::D => Level::D,
+            Self::C => Level::C,
+            Self::A => Level::A,
+        }
+    }
+
+    /// The external stop of a level; `None` for the levels F, TEST and B, which cannot be requested by signals.
+    pub const fn from_level(level: Level) -> Option<Self> {
+        match level {
+            Level::None => Some(Self::None),
+            Level::E => Some(Self::E),
+            Level::D => Some(Self::D),
+            Level::C => Some(Self::C),
+            Level::A => Some(Self::A),
+            Level::F | Level::Test | Level::B => None,
+        }
+    }
+
+    /// The higher of the two stops.
+    pub const fn max(self, other: Self) -> Self {
+        if self.level().rank() >= other.level().rank() {
+            self
+        } else {
+            other
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn conversion_rounds_to_the_named_side() {
+        let cycle = NonZeroU32::new(12_000).expect("not zero");
+        assert_eq!(Cycles::from_millis_up(100, cycle), Ok(Cycles::new(9)));
+        assert_eq!(Cycles::from_millis_down(100, cycle), Ok(Cycles::new(8)));
+        assert_eq!(
+            Cycles::from_millis_up(96, cycle),
+            Cycles::from_millis_down(96, cycle)
+        );
+        assert_eq!(
+            Cycles::from_millis_up(u32::MAX, NonZeroU32::MIN),
+            Err(DurationTooLong)
+        );
+        assert_eq!(Cycles::from_millis_up(0, cycle), Ok(Cycles::ZERO));
+    }
+
+    #[test]
+    fn the_three_orders_agree() {
+        for pair in Level::ALL.windows(2) {
+            assert!(pair[0] < pair[1] && pair[0].rank() < pair[1].rank());
+        }
+        for a in InternalStop::ALL {
+            assert_eq!(InternalStop::from_level(a.level()), Some(a));
+            for b in InternalStop::ALL {
+                assert_eq!(a <= b, a.level() <= b.level());
+                assert_eq!(a.max(b).level(), a.level().max(b.level()));
+            }
+        }
+        for a in ExternalStop::ALL {
+            assert_eq!(ExternalStop::from_level(a.level()), Some(a));
+            for b in ExternalStop::ALL {
+                assert_eq!(a <= b, a.level() <= b.level());
+                assert_eq!(a.max(b).level(), a.level().max(b.level()));
+            }
+        }
+    }
+
+    #[test]
+    fn time_runs_down_and_stops_at_zero() {
+        assert_eq!(Cycles::new(2).tick(), Cycles::new(1));
+        assert!(Cycles::new(1).tick().is_zero());
+        assert!(Cycles::ZERO.tick().is_zero());
+    }
+}

@@ -1,0 +1,160 @@
+//! Input choices: the odometer that enumerates them on demand, and the replay of recorded ones.
+
+use crate::system::Choices;
+
+#[derive(Clone, Copy, Debug)]
+struct Read {
+    input: u32,
+    size: u32,
+    value: u32,
+    /// Input combinations that agree with the reads up to this one.
+    weight: u128,
+}
+
+/// Enumerates the choices of one cycle in lexicographic order of the reads, only over what is really read.
+///
+/// The caller runs the cycle between `begin` and `advance`, until `advance` says that no vector is left.
+#[derive(Clone, Debug)]
+pub(crate) struct Odometer {
+    reads: Vec<Read>,
+    at: usize,
+    /// Input numbers read in this run, modulo 64: a quick negative answer to "was it read already".
+    seen: u64,
+    total: u128,
+}
+
+impl Odometer {
+    pub(crate) fn new(combinations: u128) -> Self {
+        Odometer {
+            reads: Vec::with_capacity(64),
+            at: 0,
+            seen: 0,
+            total: combinations,
+        }
+    }
+
+    /// Forgets everything: the next run is the first of a new cycle.
+    #[inline]
+    pub(crate) fn reset(&mut self) {
+        self.reads.clear();
+        self.begin();
+    }
+
+    /// Starts a run with the present choice vector.
+    #[inline]
+    pub(crate) fn begin(&mut self) {
+        self.at = 0;
+        self.seen = 0;
+    }
+
+    /// The next choice vector; false if there is none.
+    #[inline]
+    pub(crate) fn advance(&mut self) -> bool {
+        debug_assert_eq!(self.at, self.reads.len(), "a run read less than the one before it");
+        self.reads.truncate(self.at);
+        while let Some(last) = self.reads.last_mut() {
+            last.value += 1;
+            if last.value < last.size {
+                return true;
+            }
+            self.reads.pop();
+        }
+        false
+    }
+
+    /// How many input combinations the run just made stands for.
+    #[inline]
+    pub(crate) fn weight(&self) -> u128 {
+        self.reads.last().map_or(self.total, |last| last.weight)
+    }
+
+    /// The inputs read and their values.
+    pub(crate) fn values(&self) -> Vec<(u32, u32)> {
+        self.reads[..self.at].iter().map(|r| (r.input, r.value)).collect()
+    }
+
+    #[inline(never)]
+    fn first(&mut self, input: u32, size: u32) {
+        let size = size.max(1);
+        let before = self.weight();
+        let weight = match u64::try_from(before) {
+            Ok(small) => u128::from(small / u64::from(size)),
+            Err(_) => before / u128::from(size),
+        };
+        self.reads.push(Read { input, size, value: 0, weight });
+    }
+}
+
+impl Choices for Odometer {
+    #[inline]
+    fn choose(&mut self, input: u32, size: u32) -> u32 {
+        let bit = 1u64 << (input & 63);
+        if self.seen & bit != 0 {
+            if let Some(read) = self.reads[..self.at].iter().find(|r| r.input == input) {
+                return read.value;
+            }
+        }
+        self.seen |= bit;
+        if self.at == self.reads.len() {
+            self.first(input, size);
+        }
+        let read = self.reads[self.at];
+        debug_assert_eq!(read.input, input, "the same answers led to another question");
+        self.at += 1;
+        read.value
+    }
+}
+
+/// Answers from a recorded step. What was not recorded was not read then, so it does not matter: it reads 0.
+#[derive(Clone, Copy, Debug)]
+pub struct Replay<'a> {
+    step: &'a [(u32, u32)],
+}
+
+impl<'a> Replay<'a> {
+    /// Replays the pairs (input, value) of one step.
+    pub fn new(step: &'a [(u32, u32)]) -> Self {
+        Replay { step }
+    }
+}
+
+impl Choices for Replay<'_> {
+    fn choose(&mut self, input: u32, size: u32) -> u32 {
+        let found = self.step.iter().find(|(i, _)| *i == input);
+        found.map_or(0, |(_, value)| *value).min(size.saturating_sub(1))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn enumerates_only_what_is_read_and_the_weights_add_up() {
+        let mut odometer = Odometer::new(2 * 3 * 5 * 7);
+        let mut seen = Vec::new();
+        let mut sum = 0;
+        odometer.reset();
+        loop {
+            odometer.begin();
+            // Input 1 is read only where input 0 is 1; input 65 shares the quick mark of input 1; 3 is never read.
+            if odometer.choose(0, 2) == 1 {
+                let value = odometer.choose(1, 3);
+                odometer.choose(65, 5);
+                assert_eq!(odometer.choose(1, 3), value);
+            }
+            sum += odometer.weight();
+            seen.push(odometer.values());
+            if !odometer.advance() {
+                break;
+            }
+        }
+        assert_eq!(seen.len(), 1 + 3 * 5);
+        assert_eq!(seen[0], [(0, 0)]);
+        assert_eq!(seen[15], [(0, 1), (1, 2), (65, 4)]);
+        assert_eq!(sum, 2 * 3 * 5 * 7);
+        let mut sorted = seen.clone();
+        sorted.sort();
+        assert_eq!(sorted, seen);
+    }
+}

@@ -1,0 +1,99 @@
+//! The worker threads, and the limits they watch.
+
+use crate::report::{Error, Limits};
+use std::sync::atomic::{AtomicU8, AtomicUsize, Ordering};
+use std::time::Instant;
+
+/// Why work ended early.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Stop {
+    Time,
+    Memory,
+}
+
+/// The limits of one exploration, and whether one was reached.
+pub(crate) struct Watch {
+    start: Instant,
+    limits: Limits,
+    stopped: AtomicU8,
+}
+
+impl Watch {
+    pub(crate) fn new(limits: Limits) -> Self {
+        Watch { start: Instant::now(), limits, stopped: AtomicU8::new(0) }
+    }
+
+    pub(crate) fn seconds(&self) -> f64 {
+        self.start.elapsed().as_secs_f64()
+    }
+
+    /// True if work must end; `bytes` are held now.
+    pub(crate) fn over(&self, bytes: u64) -> bool {
+        if self.stopped.load(Ordering::Relaxed) != 0 {
+            return true;
+        }
+        let reason = if self.limits.memory.is_some_and(|most| bytes > most) {
+            2
+        } else if self.limits.time.is_some_and(|most| self.start.elapsed() >= most) {
+            1
+        } else {
+            return false;
+        };
+        self.stopped.store(reason, Ordering::Relaxed);
+        true
+    }
+
+    /// True if `bytes` are more than may be held. Ends nothing.
+    pub(crate) fn too_much(&self, bytes: u64) -> bool {
+        self.limits.memory.is_some_and(|most| bytes > most)
+    }
+
+    pub(crate) fn stopped(&self) -> Option<Stop> {
+        match self.stopped.load(Ordering::Relaxed) {
+            0 => None,
+            1 => Some(Stop::Time),
+            _ => Some(Stop::Memory),
+        }
+    }
+}
+
+/// A fixed number of threads.
+pub(crate) struct Crew {
+    pool: rayon::ThreadPool,
+}
+
+impl Crew {
+    pub(crate) fn new(threads: usize) -> Result<Self, Error> {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        Ok(Crew { pool: pool.map_err(|e| Error::Threads(e.to_string()))? })
+    }
+
+    pub(crate) fn size(&self) -> usize {
+        self.pool.current_num_threads()
+    }
+
+    /// Does pieces of work, each once, by whichever worker is free.
+    pub(crate) fn share<W: Send>(&self, workers: &mut [W], pieces: usize, work: impl Fn(&mut W, usize) + Sync) {
+        if pieces <= 1 || workers.len() <= 1 {
+            if let Some(worker) = workers.first_mut() {
+                (0..pieces).for_each(|piece| work(worker, piece));
+            }
+            return;
+        }
+        let next = AtomicUsize::new(0);
+        let (next, work) = (&next, &work);
+        self.pool.scope(|scope| {
+            for worker in workers {
+                scope.spawn(move |_| {
+                    loop {
+                        let piece = next.fetch_add(1, Ordering::Relaxed);
+                        if piece >= pieces {
+                            return;
+                        }
+                        work(worker, piece);
+                    }
+                });
+            }
+        });
+    }
+}

@@ -1,0 +1,190 @@
+//! What an exploration is asked and what it answers.
+
+use std::time::Duration;
+
+/// Bounds on an exploration. Reaching one ends it early with `complete = false`; it is no error.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Limits {
+    /// Bytes for the tables of the explorer; none for a default choice of storage without a limit.
+    pub memory: Option<u64>,
+    /// Wall time of search and verdicts. Traces of violations already found are still produced after it.
+    pub time: Option<Duration>,
+    /// Worker threads; 0 for as many as the machine has.
+    pub threads: usize,
+}
+
+/// How to explore.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Options {
+    /// When to give up.
+    pub limits: Limits,
+    /// Whether properties that hold get a witness trace.
+    pub witnesses: bool,
+    /// Whether the search stops when it has decided every property (`complete` is then false if states were left).
+    pub stop_when_decided: bool,
+    /// The most absorbing states listed.
+    pub examples: usize,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Options { limits: Limits::default(), witnesses: true, stop_when_decided: false, examples: 8 }
+    }
+}
+
+/// Follows the search; the default methods do nothing.
+pub trait Progress {
+    /// Called after each level: its depth in cycles, the states found so far, the transitions so far (weighted with
+    /// unread inputs), and the number of states found in the level just made.
+    fn on_level(&mut self, depth: u32, states: u64, transitions: u128, frontier: u64) {
+        let _ = (depth, states, transitions, frontier);
+    }
+}
+
+impl Progress for () {}
+
+/// Why a system or property cannot be explored at all.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Error {
+    /// A variable has no value.
+    #[error("state variable {variable} has an empty domain")]
+    EmptyDomain {
+        /// Its number.
+        variable: usize,
+    },
+    /// The number of states of the index space needs more than 128 bits.
+    #[error("the index space of the state variables does not fit 128 bits; make their ranges smaller")]
+    SpaceTooLarge,
+    /// `initial` wrote a state outside the domains.
+    #[error("an initial state lies outside the domains of the state variables")]
+    InitialOutOfDomain,
+    /// The weights of the transitions do not add up to the declared input combinations of the cycles made.
+    #[error("the system declares {declared} input combinations a cycle, but its reads make another number")]
+    Combinations {
+        /// The declared number.
+        declared: u128,
+    },
+    /// A property with a bound has fairness conditions.
+    #[error("property {id}: `within` and `fair` exclude each other")]
+    FairWithBound {
+        /// The property.
+        id: String,
+    },
+    /// More fairness conditions than supported.
+    #[error("property {id}: more than 31 fairness conditions")]
+    TooManyFair {
+        /// The property.
+        id: String,
+    },
+    /// The operating system gave no threads.
+    #[error("cannot start the worker threads: {0}")]
+    Threads(String),
+}
+
+/// How a property was judged.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// It holds on every run.
+    Holds,
+    /// It is violated; there is a counterexample.
+    Violated,
+    /// Its condition never holds, so it says nothing.
+    Vacuous,
+    /// What was looked for exists.
+    Reached,
+    /// What was looked for does not exist.
+    Unreachable,
+    /// A limit was reached first.
+    Inconclusive,
+}
+
+/// A run from an initial state, to be replayed with [`crate::Replay`].
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Trace {
+    /// Choices (input, value) of the initial state.
+    pub initial: Vec<(u32, u32)>,
+    /// Choices of each cycle; an input that is not listed was not read and has any value.
+    pub steps: Vec<Vec<(u32, u32)>>,
+    /// The steps from this one on repeat forever.
+    pub loop_start: Option<usize>,
+}
+
+/// A property and its verdict.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Judgement {
+    /// The property's name.
+    pub id: String,
+    /// The verdict.
+    pub verdict: Verdict,
+    /// Cycles of the counterexample or witness, where there is one.
+    pub length: Option<u64>,
+    /// For a response with a bound: the least bound that holds; none if no bound does (or it is not known).
+    pub bound: Option<u64>,
+    /// The counterexample or witness. It may be missing where memory did not suffice to rebuild it.
+    pub trace: Option<Trace>,
+}
+
+/// A fault that a reachable cycle meets.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FaultReport {
+    /// The place, see [`crate::Fault`].
+    pub code: u32,
+    /// Cycles of the shortest run to it, where known.
+    pub length: Option<u64>,
+    /// That run.
+    pub trace: Option<Trace>,
+}
+
+/// How states are stored.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Storage {
+    /// One bit an index (and a second one where a level is wide).
+    Bitmap,
+    /// An exact hash set of 64-bit indices.
+    Hash64,
+    /// An exact hash set of 128-bit indices.
+    Hash128,
+}
+
+/// The answer of an exploration.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Report {
+    /// Reachable states found.
+    pub states: u64,
+    /// Transitions, every input combination counted (also those that need not be enumerated); saturating.
+    pub transitions: u128,
+    /// Cycles from the initial states to the farthest state found.
+    pub depth: u32,
+    /// Wall time.
+    pub seconds: f64,
+    /// Whether every reachable state was explored and every property decided.
+    pub complete: bool,
+    /// For each rule in how many transitions (weighted as above, saturating) it fired.
+    pub coverage: Vec<u64>,
+    /// The number of states whose only successor is the state itself.
+    pub absorbing: u64,
+    /// The first absorbing states in the order of their indices.
+    pub absorbing_examples: Vec<Vec<i32>>,
+    /// The most bytes the explorer's tables held.
+    pub memory: u64,
+    /// How states were stored.
+    pub storage: Storage,
+    /// The number of indices of the state variables.
+    pub index_space: u128,
+    /// Faults by code.
+    pub faults: Vec<FaultReport>,
+    /// Verdicts in the order of the properties.
+    pub properties: Vec<Judgement>,
+}
+
+impl Report {
+    /// Bytes of the explorer's tables for each reachable state.
+    pub fn bytes_per_state(&self) -> f64 {
+        self.memory as f64 / self.states.max(1) as f64
+    }
+
+    /// The verdict on the property named `id`.
+    pub fn judgement(&self, id: &str) -> Option<&Judgement> {
+        self.properties.iter().find(|p| p.id == id)
+    }
+}

@@ -1,0 +1,274 @@
+//! The one breadth-first search: counts, coverage, faults, and what every property needs to know.
+
+use crate::crew::{Crew, Watch};
+use crate::cursor::{Cursor, Leaf};
+use crate::hashed::{Batch, Sharded};
+use crate::pack::{Key, Packer};
+use crate::property::{Eval, Property};
+use crate::report::{Error, Options, Progress};
+use crate::store::Store;
+use crate::system::{Fault, System};
+use std::collections::BTreeMap;
+use std::ops::ControlFlow;
+
+/// A system with its packing, its workers and its limits.
+pub(crate) struct Model<'a, S, K> {
+    pub(crate) system: &'a S,
+    pub(crate) packer: Packer<K>,
+    pub(crate) crew: &'a Crew,
+    pub(crate) watch: &'a Watch,
+}
+
+/// The first places, in the order (depth, state), at which something about a property showed.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Signs<K> {
+    pub(crate) first: Option<(u32, K)>,
+    pub(crate) bad: Option<(u32, K)>,
+}
+
+/// What a search found.
+pub(crate) struct Found<K> {
+    pub(crate) states: u64,
+    pub(crate) transitions: u128,
+    pub(crate) depth: u32,
+    /// Every reachable state was explored.
+    pub(crate) complete: bool,
+    pub(crate) signs: Vec<Signs<K>>,
+    /// For each property the states in which a duty that just began is pending.
+    pub(crate) pending: Vec<Sharded<K>>,
+    /// By code: the first place.
+    pub(crate) faults: BTreeMap<u32, (u32, K)>,
+    pub(crate) coverage: Vec<u64>,
+    pub(crate) absorbing: u64,
+    pub(crate) examples: Vec<K>,
+    pub(crate) bytes: u64,
+}
+
+// The alignment keeps the counters of two threads out of one cache line.
+#[repr(align(128))]
+struct Worker<'s, S: System, K, L> {
+    cursor: Cursor<'s, S>,
+    local: L,
+    transitions: u128,
+    /// Of all leaves, modulo 2^128; must be the declared combinations for each state explored.
+    weights: u128,
+    explored: u64,
+    first: Vec<Option<K>>,
+    bad: Vec<Option<K>>,
+    pending: Vec<Batch<K>>,
+    faults: BTreeMap<u32, K>,
+    coverage: Vec<u64>,
+    absorbing: u64,
+    examples: Vec<K>,
+}
+
+#[inline]
+pub(crate) fn lower<K: Ord + Copy>(slot: &mut Option<K>, key: K) {
+    if slot.is_none_or(|old| key < old) {
+        *slot = Some(key);
+    }
+}
+
+/// Explores level by level. The answer does not depend on the number of threads as long as no limit is reached.
+pub(crate) fn search<S: System, T: Store>(
+    model: &Model<S, T::Key>,
+    store: &mut T,
+    properties: &[Property],
+    options: &Options,
+    progress: &mut dyn Progress,
+) -> Result<Found<T::Key>, Error> {
+    let system = model.system;
+    let mut workers: Vec<_> = (0..model.crew.size())
+        .map(|_| Worker {
+            cursor: Cursor::new(system),
+            local: store.local(),
+            transitions: 0,
+            weights: 0,
+            explored: 0,
+            first: vec![None; properties.len()],
+            bad: vec![None; properties.len()],
+            pending: properties.iter().map(|_| Batch::new()).collect(),
+            faults: BTreeMap::new(),
+            coverage: vec![0; system.rules()],
+            absorbing: 0,
+            examples: Vec::new(),
+        })
+        .collect();
+    let mut found = Found {
+        states: initial(model, store)?,
+        transitions: 0,
+        depth: 0,
+        complete: false,
+        signs: vec![Signs { first: None, bad: None }; properties.len()],
+        pending: properties.iter().map(|_| Sharded::new()).collect(),
+        faults: BTreeMap::new(),
+        coverage: vec![0; system.rules()],
+        absorbing: 0,
+        examples: Vec::new(),
+        bytes: store.bytes(),
+    };
+    progress.on_level(0, found.states, 0, found.states);
+    loop {
+        let open: Vec<usize> = (0..properties.len())
+            .filter(|p| {
+                let signs = found.signs[*p];
+                !properties[*p].form.settled(signs.first.is_some(), signs.bad.is_some())
+            })
+            .collect();
+        let level = Level { model, store: &*store, properties, open: &open, pending: &found.pending, options };
+        model.crew.share(&mut workers, store.pieces(), |worker, piece| level.explore(worker, piece));
+        for worker in &mut workers {
+            gather(&mut found, worker, options.examples);
+        }
+        found.bytes = found.bytes.max(bytes(store, &found.pending));
+        let frontier = store.advance(workers.iter_mut().map(|w| &mut w.local).collect());
+        found.bytes = found.bytes.max(bytes(store, &found.pending));
+        found.states += frontier;
+        let transitions = workers.iter().fold(0u128, |sum, w| sum.saturating_add(w.transitions));
+        if frontier > 0 {
+            found.depth += 1;
+            progress.on_level(found.depth, found.states, transitions, frontier);
+        }
+        let decided = options.stop_when_decided
+            && properties.iter().zip(&found.signs).all(|(p, s)| p.form.decided_by(s.first.is_some(), s.bad.is_some()));
+        if model.watch.stopped().is_some() || frontier == 0 || decided {
+            found.complete = model.watch.stopped().is_none() && frontier == 0;
+            found.transitions = transitions;
+            break;
+        }
+    }
+    let explored = workers.iter().fold(0u128, |sum, w| sum + u128::from(w.explored));
+    let weights = workers.iter().fold(0u128, |sum, w| sum.wrapping_add(w.weights));
+    if weights != explored.wrapping_mul(system.combinations()) {
+        return Err(Error::Combinations { declared: system.combinations() });
+    }
+    Ok(found)
+}
+
+fn bytes<T: Store>(store: &T, pending: &[Sharded<T::Key>]) -> u64 {
+    store.bytes() + pending.iter().map(Sharded::bytes).sum::<u64>()
+}
+
+/// Makes the initial states the frontier of an empty store.
+pub(crate) fn initial<S: System, T: Store>(model: &Model<S, T::Key>, store: &mut T) -> Result<u64, Error> {
+    let mut local = store.local();
+    Cursor::new(model.system).initial(&model.packer, |key, _| {
+        store.visit(&mut local, key);
+        ControlFlow::Continue(())
+    })?;
+    Ok(store.advance(vec![&mut local]))
+}
+
+/// What is the same for all workers during a level.
+struct Level<'a, S, T: Store> {
+    model: &'a Model<'a, S, T::Key>,
+    store: &'a T,
+    properties: &'a [Property],
+    open: &'a [usize],
+    pending: &'a [Sharded<T::Key>],
+    options: &'a Options,
+}
+
+impl<S: System, T: Store> Level<'_, S, T> {
+    fn explore(&self, worker: &mut Worker<S, T::Key, T::Local>, piece: usize) {
+        if self.model.watch.over(bytes(self.store, self.pending)) {
+            return;
+        }
+        self.store.each(piece, |key| self.state(worker, key));
+    }
+
+    #[inline]
+    fn state(&self, worker: &mut Worker<S, T::Key, T::Local>, key: T::Key) {
+        let system = self.model.system;
+        let Worker { cursor, local, first, bad, pending, faults, coverage, .. } = worker;
+        let mut last = key;
+        let (mut stays, mut makes) = (true, false);
+        let (mut weights, mut discarded) = (0u128, 0u128);
+        cursor.leaves(&self.model.packer, key, |work, odometer, leaf| {
+            match leaf {
+                Leaf::To(after) => {
+                    makes = true;
+                    stays &= after == key;
+                    for property in self.open.iter().copied() {
+                        let mut eval =
+                            Eval { system, work, choices: odometer, fault: |fault: Fault| record(faults, fault.code, key) };
+                        let sign = eval.sign(&self.properties[property].form);
+                        if sign.first {
+                            lower(&mut first[property], key);
+                        }
+                        if sign.bad {
+                            lower(&mut bad[property], key);
+                        }
+                        if sign.pending {
+                            self.pending[property].insert(&mut pending[property], after, |_| ());
+                        }
+                    }
+                    if after != last {
+                        self.store.visit(local, after);
+                        last = after;
+                    }
+                    if !coverage.is_empty() {
+                        let weight = u64::try_from(odometer.weight()).unwrap_or(u64::MAX);
+                        system.fired(work, &mut |rule| {
+                            if let Some(count) = coverage.get_mut(rule) {
+                                *count = count.saturating_add(weight);
+                            }
+                        });
+                    }
+                }
+                Leaf::Fault(fault) => {
+                    makes = true;
+                    stays = false;
+                    record(faults, fault.code, key);
+                }
+                Leaf::Discarded => discarded = discarded.wrapping_add(odometer.weight()),
+            }
+            weights = weights.wrapping_add(odometer.weight());
+            ControlFlow::Continue(())
+        });
+        worker.explored += 1;
+        worker.weights = worker.weights.wrapping_add(weights);
+        worker.transitions = worker.transitions.saturating_add(weights.wrapping_sub(discarded));
+        if stays && makes {
+            worker.absorbing += 1;
+            worker.examples.push(key);
+            if worker.examples.len() > 2 * self.options.examples + 64 {
+                least(&mut worker.examples, self.options.examples);
+            }
+        }
+    }
+}
+
+fn record<K: Key>(faults: &mut BTreeMap<u32, K>, code: u32, key: K) {
+    let least = faults.entry(code).or_insert(key);
+    *least = key.min(*least);
+}
+
+fn least<K: Ord>(keys: &mut Vec<K>, most: usize) {
+    keys.sort_unstable();
+    keys.truncate(most);
+}
+
+/// Takes over what a worker found in the level just explored (at depth `found.depth`).
+fn gather<S: System, K: Key, L>(found: &mut Found<K>, worker: &mut Worker<S, K, L>, examples: usize) {
+    let depth = found.depth;
+    for (property, signs) in found.signs.iter_mut().enumerate() {
+        if let Some(key) = worker.first[property].take() {
+            lower(&mut signs.first, (depth, key));
+        }
+        if let Some(key) = worker.bad[property].take() {
+            lower(&mut signs.bad, (depth, key));
+        }
+        found.pending[property].flush(&mut worker.pending[property], |_| ());
+    }
+    for (code, key) in std::mem::take(&mut worker.faults) {
+        let least = found.faults.entry(code).or_insert((depth, key));
+        *least = (depth, key).min(*least);
+    }
+    for (sum, count) in found.coverage.iter_mut().zip(&mut worker.coverage) {
+        *sum = sum.saturating_add(std::mem::take(count));
+    }
+    found.absorbing += std::mem::take(&mut worker.absorbing);
+    found.examples.append(&mut worker.examples);
+    least(&mut found.examples, examples);
+}

@@ -1,0 +1,210 @@
+//! The set of states found and the frontier of the level being explored.
+
+use crate::pack::Key;
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// A set of states that grows level by level. `visit` runs in all workers at once, the rest between levels.
+pub(crate) trait Store: Sync {
+    type Key: Key;
+    /// What one worker collects during a level.
+    type Local: Send;
+    fn local(&self) -> Self::Local;
+    /// Adds a state; if it is new it becomes part of the next frontier.
+    fn visit(&self, local: &mut Self::Local, key: Self::Key);
+    /// Ends the level: what the workers found is the frontier now. Gives its size.
+    fn advance(&mut self, locals: Vec<&mut Self::Local>) -> u64;
+    /// The frontier in pieces, to be shared out.
+    fn pieces(&self) -> usize;
+    fn each(&self, piece: usize, visit: impl FnMut(Self::Key));
+    /// Bytes held.
+    fn bytes(&self) -> u64;
+    /// Empties the set.
+    fn clear(&mut self);
+
+    /// The frontier in ascending order.
+    fn frontier(&self) -> Vec<Self::Key> {
+        let mut keys = Vec::new();
+        for piece in 0..self.pieces() {
+            self.each(piece, |key| keys.push(key));
+        }
+        keys.sort_unstable();
+        keys
+    }
+}
+
+/// States of a list handed out at once.
+pub(crate) const PIECE: usize = 512;
+/// Bitmap words handed out at once.
+const WORDS: usize = 512;
+
+/// A bitmap with one bit an index, and a list of the frontier. Where a level has more states than such a list may hold,
+/// a second bitmap carries the frontier. With both, a state is (visited, wave):
+/// 00 not found, 10 explored, 01 in the present frontier, 11 in the next one.
+pub(crate) struct Dense {
+    visited: Vec<AtomicU64>,
+    wave: OnceLock<Vec<AtomicU64>>,
+    /// The frontier is in the wave bitmap, else in the list.
+    in_wave: bool,
+    list: Vec<u64>,
+    /// The longest list of one worker.
+    most: usize,
+    peak: u64,
+}
+
+/// What a worker found in a level.
+pub(crate) struct DenseLocal {
+    found: Vec<u64>,
+    count: u64,
+    spilled: bool,
+}
+
+impl Dense {
+    /// The bytes needed for `space` indices at most.
+    pub(crate) fn need(space: u128) -> u128 {
+        space / 4 + 4096
+    }
+
+    pub(crate) fn new(space: u64, threads: usize) -> Self {
+        let words = usize::try_from(space.div_ceil(64)).unwrap_or(usize::MAX);
+        // Lists of 64-bit indices that together take at most a quarter bit an index.
+        let most = (words / 4 / threads.max(1)).max(4096);
+        Dense {
+            visited: zeros(words),
+            wave: OnceLock::new(),
+            in_wave: false,
+            list: Vec::new(),
+            most,
+            peak: 0,
+        }
+    }
+
+    fn wave(&self) -> &[AtomicU64] {
+        self.wave.get_or_init(|| zeros(self.visited.len()))
+    }
+}
+
+fn zeros(words: usize) -> Vec<AtomicU64> {
+    let mut bits = Vec::new();
+    bits.resize_with(words, AtomicU64::default);
+    bits
+}
+
+#[inline]
+fn place(key: u64) -> (usize, u64) {
+    ((key >> 6) as usize, 1 << (key & 63))
+}
+
+impl Store for Dense {
+    type Key = u64;
+    type Local = DenseLocal;
+
+    fn local(&self) -> DenseLocal {
+        DenseLocal { found: Vec::new(), count: 0, spilled: false }
+    }
+
+    #[inline]
+    fn visit(&self, local: &mut DenseLocal, key: u64) {
+        let (word, bit) = place(key);
+        if self.visited[word].load(Ordering::Relaxed) & bit != 0 {
+            return;
+        }
+        // In the present frontier: the wave bit stands alone.
+        if self.in_wave && self.wave()[word].load(Ordering::Relaxed) & bit != 0 {
+            return;
+        }
+        if self.visited[word].fetch_or(bit, Ordering::Relaxed) & bit != 0 {
+            return;
+        }
+        local.count += 1;
+        if local.spilled {
+            // Release: who sees the wave bit sees the visited bit too, and does not take the state for a present one.
+            self.wave()[word].fetch_or(bit, Ordering::Release);
+            return;
+        }
+        local.found.push(key);
+        if local.found.len() >= self.most {
+            local.spilled = true;
+            let wave = self.wave();
+            for key in std::mem::take(&mut local.found) {
+                let (word, bit) = place(key);
+                wave[word].fetch_or(bit, Ordering::Release);
+            }
+        }
+    }
+
+    fn advance(&mut self, locals: Vec<&mut DenseLocal>) -> u64 {
+        let lists: usize = self.list.capacity() + locals.iter().map(|l| l.found.capacity()).sum::<usize>();
+        self.peak = self.peak.max(8 * lists as u64);
+        let count = locals.iter().map(|l| l.count).sum();
+        let spilled = locals.iter().any(|l| l.spilled);
+        if spilled || self.in_wave {
+            if let Some(wave) = self.wave.get_mut() {
+                for (visited, wave) in self.visited.iter_mut().zip(wave) {
+                    let (v, w) = (*visited.get_mut(), *wave.get_mut());
+                    *visited.get_mut() = v ^ w;
+                    *wave.get_mut() = v & w;
+                }
+            }
+        }
+        self.list.clear();
+        self.in_wave = spilled;
+        for local in locals {
+            if spilled {
+                for key in local.found.drain(..) {
+                    let (word, bit) = place(key);
+                    *self.visited[word].get_mut() &= !bit;
+                    if let Some(wave) = self.wave.get_mut() {
+                        *wave[word].get_mut() |= bit;
+                    }
+                }
+            } else {
+                self.list.append(&mut local.found);
+            }
+            local.count = 0;
+            local.spilled = false;
+        }
+        count
+    }
+
+    fn pieces(&self) -> usize {
+        if self.in_wave {
+            self.visited.len().div_ceil(WORDS)
+        } else {
+            self.list.len().div_ceil(PIECE)
+        }
+    }
+
+    #[inline]
+    fn each(&self, piece: usize, mut visit: impl FnMut(u64)) {
+        if !self.in_wave {
+            let end = self.list.len().min((piece + 1) * PIECE);
+            for key in &self.list[piece * PIECE..end] {
+                visit(*key);
+            }
+            return;
+        }
+        let wave = self.wave();
+        for word in piece * WORDS..self.visited.len().min((piece + 1) * WORDS) {
+            let next = wave[word].load(Ordering::Acquire);
+            let mut present = next & !self.visited[word].load(Ordering::Relaxed);
+            while present != 0 {
+                visit((word as u64) << 6 | u64::from(present.trailing_zeros()));
+                present &= present - 1;
+            }
+        }
+    }
+
+    fn bytes(&self) -> u64 {
+        let bitmaps = 1 + u64::from(self.wave.get().is_some());
+        8 * bitmaps * self.visited.len() as u64 + self.peak
+    }
+
+    fn clear(&mut self) {
+        for word in self.visited.iter_mut().chain(self.wave.get_mut().into_iter().flatten()) {
+            *word.get_mut() = 0;
+        }
+        self.list = Vec::new();
+        self.in_wave = false;
+    }
+}

@@ -1,0 +1,231 @@
+//! Specification tables as systems to explore: interpreted, or through their generated step functions.
+
+use std::marker::PhantomData;
+
+use stillpoint_spec::bind::Bound;
+use stillpoint_spec::eval;
+use stillpoint_spec::ir;
+use stillpoint_tables::{Cells, Table};
+
+use crate::property::{Form, Property};
+use crate::system::{Choices, Domain, Fault, System};
+
+/// What both evaluators share: ranges, and where the rules of each machine start.
+struct Shape {
+    domains: Vec<Domain>,
+    inputs: Vec<(i32, u32)>,
+    first_rule: Vec<usize>,
+    rules: usize,
+    combinations: u128,
+}
+
+impl Shape {
+    fn new(bound: &Bound) -> Self {
+        let mut first_rule = Vec::new();
+        let mut rules = 0;
+        for instance in &bound.system.instances {
+            first_rule.push(rules);
+            rules += instance.rules.len();
+        }
+        Self {
+            domains: bound.states.iter().map(|(lo, hi)| Domain { lo: *lo, hi: *hi }).collect(),
+            inputs: bound
+                .inputs
+                .iter()
+                .map(|(lo, hi)| (*lo, u32::try_from(i64::from(*hi) - i64::from(*lo) + 1).unwrap_or(u32::MAX)))
+                .collect(),
+            first_rule,
+            rules,
+            combinations: bound.combinations(),
+        }
+    }
+
+    #[inline]
+    fn read<C: Choices>(&self, choices: &mut C, k: usize) -> i32 {
+        let (lo, size) = self.inputs[k];
+        // The value is below `size`, so the sum stays within the input's range.
+        lo.wrapping_add(choices.choose(k as u32, size) as i32)
+    }
+
+    fn initial<C: Choices>(&self, bound: &Bound, choices: &mut C, state: &mut [i32]) {
+        for (k, cell) in state.iter_mut().enumerate() {
+            *cell = match bound.initial[k] {
+                Some(v) => v,
+                None => {
+                    let domain = self.domains[k];
+                    let size = u32::try_from(domain.size()).unwrap_or(u32::MAX);
+                    domain.lo.wrapping_add(choices.choose(k as u32, size) as i32)
+                }
+            };
+        }
+    }
+
+    fn fired(&self, fired: &[i32], each: &mut impl FnMut(usize)) {
+        for (first, rule) in self.first_rule.iter().zip(fired) {
+            if *rule > 0 {
+                each(first + *rule as usize - 1);
+            }
+        }
+    }
+}
+
+/// A table run by the interpreter.
+pub struct Interpreted<'a> {
+    bound: &'a Bound,
+    shape: Shape,
+}
+
+impl<'a> Interpreted<'a> {
+    /// A system over `bound`.
+    pub fn new(bound: &'a Bound) -> Self {
+        Self { bound, shape: Shape::new(bound) }
+    }
+
+    /// The table and its parameter values.
+    pub fn bound(&self) -> &'a Bound {
+        self.bound
+    }
+}
+
+impl System for Interpreted<'_> {
+    type Work = eval::Frame;
+
+    fn work(&self) -> Self::Work {
+        eval::Frame::new(self.bound)
+    }
+
+    fn domains(&self) -> &[Domain] {
+        &self.shape.domains
+    }
+
+    fn combinations(&self) -> u128 {
+        self.shape.combinations
+    }
+
+    fn initial<C: Choices>(&self, _: &mut Self::Work, choices: &mut C, state: &mut [i32]) {
+        self.shape.initial(self.bound, choices, state);
+    }
+
+    fn next<C: Choices>(
+        &self,
+        work: &mut Self::Work,
+        before: &[i32],
+        choices: &mut C,
+        after: &mut [i32],
+    ) -> Result<(), Fault> {
+        work.start(before);
+        let mut read = |k| self.shape.read(choices, k);
+        self.bound.step(work, &mut read).map_err(|code| Fault { code })?;
+        after.copy_from_slice(&work.now);
+        Ok(())
+    }
+
+    fn atom<C: Choices>(&self, work: &mut Self::Work, atom: usize, choices: &mut C) -> Result<bool, Fault> {
+        Ok(self.bound.atom(atom, work, &mut |k| self.shape.read(choices, k)))
+    }
+
+    fn rules(&self) -> usize {
+        self.shape.rules
+    }
+
+    fn fired(&self, work: &Self::Work, each: &mut impl FnMut(usize)) {
+        self.shape.fired(&work.fired, each);
+    }
+
+    fn observe<C: Choices>(&self, work: &mut Self::Work, expression: usize, choices: &mut C) -> Result<i64, Fault> {
+        Ok(self.bound.observe(expression, work, &mut |k| self.shape.read(choices, k)))
+    }
+}
+
+/// A table run by its generated step function.
+pub struct Generated<'a, T> {
+    bound: &'a Bound,
+    shape: Shape,
+    table: PhantomData<T>,
+}
+
+impl<'a, T: Table> Generated<'a, T> {
+    /// A system over `bound`, which must be the specification that `T` was generated from.
+    pub fn new(bound: &'a Bound) -> Self {
+        Self { bound, shape: Shape::new(bound), table: PhantomData }
+    }
+}
+
+impl<T: Table> System for Generated<'_, T> {
+    type Work = T::Frame;
+
+    fn work(&self) -> Self::Work {
+        T::Frame::unset()
+    }
+
+    fn domains(&self) -> &[Domain] {
+        &self.shape.domains
+    }
+
+    fn combinations(&self) -> u128 {
+        self.shape.combinations
+    }
+
+    fn initial<C: Choices>(&self, _: &mut Self::Work, choices: &mut C, state: &mut [i32]) {
+        self.shape.initial(self.bound, choices, state);
+    }
+
+    #[inline]
+    fn next<C: Choices>(
+        &self,
+        work: &mut Self::Work,
+        before: &[i32],
+        choices: &mut C,
+        after: &mut [i32],
+    ) -> Result<(), Fault> {
+        work.start(before);
+        T::step(work, &self.bound.values, &mut |k| self.shape.read(choices, k)).map_err(|code| Fault { code })?;
+        after.copy_from_slice(work.now());
+        Ok(())
+    }
+
+    #[inline]
+    fn atom<C: Choices>(&self, work: &mut Self::Work, atom: usize, choices: &mut C) -> Result<bool, Fault> {
+        Ok(T::atom(atom, work, &self.bound.values, &mut |k| self.shape.read(choices, k)))
+    }
+
+    fn rules(&self) -> usize {
+        self.shape.rules
+    }
+
+    #[inline]
+    fn fired(&self, work: &Self::Work, each: &mut impl FnMut(usize)) {
+        self.shape.fired(work.fired(), each);
+    }
+
+    fn observe<C: Choices>(&self, work: &mut Self::Work, expression: usize, choices: &mut C) -> Result<i64, Fault> {
+        Ok(T::observe(expression, work, &self.bound.values, &mut |k| self.shape.read(choices, k)))
+    }
+}
+
+/// The properties of a table that speak of single runs, in the explorer's terms, with their place in
+/// `bound.system.properties`. The `independent` ones speak of two runs, see [`crate::Twin`].
+pub fn properties(bound: &Bound) -> Vec<(usize, Property)> {
+    let mut out = Vec::new();
+    for (k, p) in bound.system.properties.iter().enumerate() {
+        let form = match &p.form {
+            ir::Form::Always { when, then } => Form::Always { when: *when, then: *then },
+            ir::Form::LeadsTo { when, goal, within, fair, assuming } => Form::LeadsTo {
+                when: *when,
+                goal: *goal,
+                within: within.as_ref().map(|n| u32::try_from(bound.constant(n).max(0)).unwrap_or(u32::MAX)),
+                fair: fair.clone(),
+                assuming: *assuming,
+            },
+            ir::Form::Unless { when, holds, unless } => {
+                Form::Unless { when: *when, holds: *holds, unless: *unless }
+            }
+            ir::Form::CanAlwaysReach { goal, using } => Form::CanAlwaysReach { goal: *goal, using: *using },
+            ir::Form::Reachable { goal } => Form::Reachable { goal: *goal },
+            ir::Form::Independent { .. } => continue,
+        };
+        let index = p.index.map_or(String::new(), |i| format!("[{i}]"));
+        out.push((k, Property { id: format!("{}{index}", p.id), form }));
+    }
+    out
+}

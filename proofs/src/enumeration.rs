@@ -1,0 +1,158 @@
+//! The engine that tries every choice.
+//!
+//! An odometer: the choices of a run are its digits, each with the range it was asked for. The next run repeats the digits
+//! up to the last one that can still rise. A choice that a run does not make costs nothing.
+
+use stillpoint_monitors::kernel::{Cycles, Position, Speed};
+
+use crate::source::{Source, Verdict};
+
+/// The result of an enumeration.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Count {
+    /// Runs inside the domain of the property, each a different case.
+    pub cases: u64,
+    /// Runs outside the domain.
+    pub discarded: u64,
+    /// How often each cover was met, in the order of the harness's list.
+    pub covers: Vec<u64>,
+    /// The first broken law, with the digits that lead to it; the enumeration stops there.
+    pub broken: Option<(&'static str, Vec<u32>)>,
+}
+
+impl Count {
+    /// Whether no law was broken and every one of the covers was met.
+    pub fn proves(&self) -> bool {
+        self.broken.is_none() && self.cases > 0 && self.covers.iter().all(|met| *met > 0)
+    }
+}
+
+struct Digit {
+    value: u32,
+    highest: u32,
+}
+
+/// The odometer as a source.
+pub struct Odometer {
+    digits: Vec<Digit>,
+    next: usize,
+    window: u32,
+    covers: Vec<u64>,
+}
+
+impl Odometer {
+    fn choose(&mut self, count: u32) -> u32 {
+        let position = self.next;
+        self.next += 1;
+        if let Some(digit) = self.digits.get(position) {
+            digit.value
+        } else {
+            self.digits.push(Digit { value: 0, highest: count });
+            0
+        }
+    }
+
+    /// Moves on to the next run; `false` when all have been made.
+    fn advance(&mut self) -> bool {
+        self.digits.truncate(self.next);
+        self.next = 0;
+        while let Some(last) = self.digits.last_mut() {
+            if last.value < last.highest {
+                last.value += 1;
+                return true;
+            }
+            self.digits.pop();
+        }
+        false
+    }
+}
+
+impl Source for Odometer {
+    fn any_in(&mut self, low: u32, high: u32) -> u32 {
+        low + self.choose(high.saturating_sub(low))
+    }
+
+    fn any_cycles(&mut self, longest: Cycles) -> Cycles {
+        Cycles::new(self.choose(self.window.min(longest.count())))
+    }
+
+    fn any_position(&mut self) -> Position {
+        // Two positions tell "the same" from "another one", which is all the monitors compare.
+        Position(if self.choose(1) == 0 { 0 } else { -7 })
+    }
+
+    fn any_speed(&mut self) -> Speed {
+        Speed(self.choose(self.window))
+    }
+
+    fn cover(&mut self, index: usize, met: bool) {
+        if let Some(count) = self.covers.get_mut(index) {
+            *count += u64::from(met);
+        }
+    }
+}
+
+/// Runs the property for every choice, or until it breaks.
+///
+/// `window` is the highest wide value tried, `covers` the number of covers of the harness.
+pub fn enumerate(window: u32, covers: usize, mut property: impl FnMut(&mut Odometer) -> Verdict) -> Count {
+    let mut source = Odometer { digits: Vec::new(), next: 0, window, covers: vec![0; covers] };
+    let mut cases = 0;
+    let mut discarded = 0;
+    let mut broken = None;
+    loop {
+        match property(&mut source) {
+            Verdict::Held => cases += 1,
+            Verdict::Discarded => discarded += 1,
+            Verdict::Broken(law) => {
+                cases += 1;
+                broken = Some((law, source.digits.iter().take(source.next).map(|digit| digit.value).collect()));
+                break;
+            }
+        }
+        if !source.advance() {
+            break;
+        }
+    }
+    Count { cases, discarded, covers: source.covers, broken }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_combination_comes_exactly_once() {
+        let mut seen = Vec::new();
+        let count = enumerate(2, 1, |source| {
+            let first = source.any_in(3, 5);
+            // The second choice exists only on one branch: on demand.
+            let second = if first == 4 { source.any_in(0, 1) } else { 9 };
+            source.cover(0, second == 1);
+            seen.push((first, second));
+            Verdict::Held
+        });
+        assert_eq!(seen, [(3, 9), (4, 0), (4, 1), (5, 9)]);
+        assert_eq!((count.cases, count.discarded, count.covers.as_slice()), (4, 0, [1].as_slice()));
+        assert!(count.proves());
+    }
+
+    #[test]
+    fn the_first_broken_law_is_kept_with_its_digits() {
+        let count = enumerate(2, 0, |source| {
+            let (a, b) = (source.any_bool(), source.any_in(0, 2));
+            if a && b == 1 { Verdict::Broken("law") } else { Verdict::Held }
+        });
+        assert_eq!(count.broken, Some(("law", vec![1, 1])));
+        assert!(!count.proves());
+    }
+
+    #[test]
+    fn a_cover_never_met_proves_nothing() {
+        let count = enumerate(0, 1, |source| {
+            source.cover(0, false);
+            Verdict::Held
+        });
+        assert!(!count.proves());
+    }
+}

@@ -1,0 +1,25 @@
+//! Proof harnesses of the monitors: one source for enumeration, property tests and Kani.
+//!
+//! A property is a plain function over a [`source::Source`] of nondeterministic values and the step functions under test.
+//! Three engines run it:
+//!
+//! * [`enumeration`]: every choice the source can make, one after the other. Domains are finite and the cases are counted,
+//!   so a pass is a proof for that domain;
+//! * sampling ([`sampling`], driven by proptest in the tests): random choices over the full width, with shrinking. A test,
+//!   never a proof;
+//! * Kani (`cargo kani -p stillpoint-proofs -Z function-contracts`): every choice over the full width, symbolically.
+//!
+//! Every harness has covers: situations that must be met, or the harness proves nothing. [`inventory`] lists the harnesses;
+//! the macro that lists one also makes its Kani harness, so that list and harnesses cannot drift apart. The binary
+//! `inventory` runs the enumerations and writes the page `docs/src/proofs.md`.
+
+pub mod enumeration;
+#[macro_use]
+pub mod inventory;
+pub mod arbitrary;
+#[cfg(kani)]
+mod kani_source;
+pub mod page;
+pub mod properties;
+pub mod sampling;
+pub mod source;

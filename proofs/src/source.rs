@@ -1,0 +1,47 @@
+//! The source of nondeterministic values that every property is written over.
+
+use stillpoint_monitors::kernel::{Cycles, Position, Speed};
+
+/// What one run of a property found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// The choices are outside the domain of the property (a broken assumption); the run does not count.
+    Discarded,
+    /// The property held.
+    Held,
+    /// The property did not hold; the name of the clause or law that was broken.
+    Broken(&'static str),
+}
+
+/// Nondeterministic values, one choice after the other.
+///
+/// Engines differ in what "every value" means: the narrow ranges of [`Source::any_in`] are complete in every engine, the
+/// wide values are cut to a window by the enumeration and complete under Kani.
+pub trait Source {
+    /// Any value from `low` to `high`, both included. `low` must not be above `high`.
+    fn any_in(&mut self, low: u32, high: u32) -> u32;
+
+    /// Any duration of at most `longest`; the enumeration takes 0 to its window.
+    fn any_cycles(&mut self, longest: Cycles) -> Cycles;
+
+    /// Any position; the enumeration takes two.
+    fn any_position(&mut self) -> Position;
+
+    /// Any speed; the enumeration takes 0 to its window.
+    fn any_speed(&mut self) -> Speed;
+
+    /// Notes whether the situation `index` of the harness's list of covers was met.
+    fn cover(&mut self, index: usize, met: bool);
+
+    /// Either truth value.
+    fn any_bool(&mut self) -> bool {
+        self.any_in(0, 1) == 1
+    }
+
+    /// Any of the values of a list; the first one of an empty list's type default.
+    fn any_of<T: Copy + Default>(&mut self, values: &[T]) -> T {
+        let last = values.len().saturating_sub(1) as u32;
+        let index = self.any_in(0, last);
+        values.get(index as usize).copied().unwrap_or_default()
+    }
+}

@@ -1,0 +1,230 @@
+//! The interpreter: one step of a system over a frame of cells.
+
+use crate::bind::Bound;
+use crate::ir::{BinaryOp, Lazy, Node, Space, Stmt};
+
+/// Marks a cell that has no value yet in this cycle. No variable can have this value.
+pub const UNSET: i32 = i32::MIN;
+
+/// The values of one cycle.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Frame {
+    /// State at the start of the cycle.
+    pub before: Vec<i32>,
+    /// State as the rules have changed it.
+    pub now: Vec<i32>,
+    /// Inputs, [`UNSET`] until read.
+    pub inputs: Vec<i32>,
+    /// Named expressions, [`UNSET`] until evaluated.
+    pub lazies: Vec<i32>,
+    /// For each instance the number of the rule that fired, from 1; 0 for none.
+    pub fired: Vec<i32>,
+}
+
+impl Frame {
+    /// A frame without cells.
+    pub(crate) fn empty() -> Self {
+        Self {
+            before: Vec::new(),
+            now: Vec::new(),
+            inputs: Vec::new(),
+            lazies: Vec::new(),
+            fired: Vec::new(),
+        }
+    }
+
+    /// A frame for `bound`, with nothing set.
+    pub fn new(bound: &Bound) -> Self {
+        let s = &bound.system;
+        Self {
+            before: vec![UNSET; s.states.len()],
+            now: vec![UNSET; s.states.len()],
+            inputs: vec![UNSET; s.inputs.len()],
+            lazies: vec![UNSET; s.lazies.len()],
+            fired: vec![0; s.instances.len()],
+        }
+    }
+
+    /// Starts a cycle in state `before`.
+    pub fn start(&mut self, before: &[i32]) {
+        self.before.copy_from_slice(before);
+        self.now.copy_from_slice(before);
+        self.inputs.fill(UNSET);
+        self.lazies.fill(UNSET);
+        self.fired.fill(0);
+    }
+}
+
+#[derive(Clone, Copy)]
+pub(crate) struct Cells<'a> {
+    pub params: &'a [i32],
+    pub lazies: &'a [Lazy],
+}
+
+/// Reads input `k` from the environment.
+pub trait Read: FnMut(usize) -> i32 {}
+impl<F: FnMut(usize) -> i32> Read for F {}
+
+impl Bound {
+    fn cells(&self) -> Cells<'_> {
+        Cells { params: &self.values, lazies: &self.system.lazies }
+    }
+
+    /// One step from the state with which the frame was started; `read(k)` gives input `k` when it is first needed.
+    ///
+    /// # Errors
+    /// The index of the assignment (in `system.sites`) whose value left its range.
+    pub fn step(&self, f: &mut Frame, read: &mut impl Read) -> Result<(), u32> {
+        let cells = self.cells();
+        for (k, instance) in self.system.instances.iter().enumerate() {
+            let mut fired = 0;
+            for (n, rule) in instance.rules.iter().enumerate() {
+                if value(&rule.when, cells, f, read) != 0 {
+                    fired = n + 1;
+                    break;
+                }
+            }
+            f.fired[k] = fired as i32;
+            if fired > 0 {
+                self.run(&instance.rules[fired - 1].then, f, read)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn run(&self, list: &[Stmt], f: &mut Frame, read: &mut impl Read) -> Result<(), u32> {
+        let cells = self.cells();
+        for s in list {
+            match s {
+                Stmt::Assign { base, index, value: node, checked, site } => {
+                    let offset = match index {
+                        Some((k, lo, _)) => (value(k, cells, f, read) - lo) as usize,
+                        None => 0,
+                    };
+                    let v = value(node, cells, f, read);
+                    let cell = *base as usize + offset;
+                    let (lo, hi) = self.states[cell];
+                    if *checked && (v < i64::from(lo) || v > i64::from(hi)) {
+                        return Err(*site);
+                    }
+                    f.now[cell] = v as i32;
+                }
+                Stmt::If(branches, rest) => {
+                    let mut body = rest;
+                    for (g, then) in branches {
+                        if value(g, cells, f, read) != 0 {
+                            body = then;
+                            break;
+                        }
+                    }
+                    self.run(body, f, read)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Atom `k` over the cycle just made.
+    pub fn atom(&self, k: usize, f: &mut Frame, read: &mut impl Read) -> bool {
+        value(&self.system.atoms[k], self.cells(), f, read) != 0
+    }
+
+    /// Observed expression `k` over the cycle just made.
+    pub fn observe(&self, k: usize, f: &mut Frame, read: &mut impl Read) -> i64 {
+        value(&self.system.observed[k], self.cells(), f, read)
+    }
+
+    /// Named expression `k` over the cycle just made.
+    pub fn lazy(&self, k: usize, f: &mut Frame, read: &mut impl Read) -> i64 {
+        value(&Node::Lazy(k as u32), self.cells(), f, read)
+    }
+
+    /// Any expression of this system over the cycle just made.
+    pub fn value(&self, node: &Node, f: &mut Frame, read: &mut impl Read) -> i64 {
+        value(node, self.cells(), f, read)
+    }
+}
+
+fn load(space: Space, k: usize, cells: Cells, f: &mut Frame, read: &mut impl Read) -> i64 {
+    i64::from(match space {
+        Space::Param => cells.params[k],
+        Space::Before => f.before[k],
+        Space::Now => f.now[k],
+        Space::Input => {
+            if f.inputs[k] == UNSET {
+                f.inputs[k] = read(k);
+            }
+            f.inputs[k]
+        }
+    })
+}
+
+/// Value of an expression. Truth values are 0 and 1.
+pub(crate) fn value(node: &Node, cells: Cells, f: &mut Frame, read: &mut impl Read) -> i64 {
+    match node {
+        Node::Const(v) => *v,
+        Node::Cell(space, k) => load(*space, *k as usize, cells, f, read),
+        Node::Lazy(k) => {
+            let k = *k as usize;
+            if f.lazies[k] == UNSET {
+                let v = value(&cells.lazies[k].value, cells, f, read);
+                f.lazies[k] = v as i32;
+            }
+            i64::from(f.lazies[k])
+        }
+        Node::Element { space, base, lo, index, .. } => {
+            let offset = value(index, cells, f, read) - lo;
+            load(*space, *base as usize + offset as usize, cells, f, read)
+        }
+        Node::Not(a) => i64::from(value(a, cells, f, read) == 0),
+        Node::Neg(a) => -value(a, cells, f, read),
+        Node::Abs(a) => value(a, cells, f, read).abs(),
+        Node::Binary(op, a, b) => binary(*op, a, b, cells, f, read),
+        Node::Sel(g, a, b) => {
+            let chosen = if value(g, cells, f, read) == 0 { a } else { b };
+            value(chosen, cells, f, read)
+        }
+        Node::Mux(k, values) => {
+            let k = value(k, cells, f, read) as usize;
+            value(&values[k], cells, f, read)
+        }
+        Node::Min(values) => {
+            let mut least = i64::MAX;
+            for v in values {
+                least = least.min(value(v, cells, f, read));
+            }
+            least
+        }
+        Node::Max(values) => {
+            let mut most = i64::MIN;
+            for v in values {
+                most = most.max(value(v, cells, f, read));
+            }
+            most
+        }
+    }
+}
+
+fn binary(op: BinaryOp, a: &Node, b: &Node, cells: Cells, f: &mut Frame, read: &mut impl Read) -> i64 {
+    let x = value(a, cells, f, read);
+    match op {
+        BinaryOp::And if x == 0 => return 0,
+        BinaryOp::Or if x != 0 => return 1,
+        _ => {}
+    }
+    let y = value(b, cells, f, read);
+    match op {
+        BinaryOp::And | BinaryOp::Or => i64::from(y != 0),
+        BinaryOp::Xor | BinaryOp::Ne => i64::from(x != y),
+        BinaryOp::Eq => i64::from(x == y),
+        BinaryOp::Lt => i64::from(x < y),
+        BinaryOp::Gt => i64::from(x > y),
+        BinaryOp::Le => i64::from(x <= y),
+        BinaryOp::Ge => i64::from(x >= y),
+        BinaryOp::Add => x + y,
+        BinaryOp::Sub => x - y,
+        BinaryOp::Mul => x * y,
+        BinaryOp::Div => x / y,
+        BinaryOp::Mod => x % y,
+    }
+}

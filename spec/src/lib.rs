@@ -1,0 +1,21 @@
+//! Loads, type-checks and analyses specifications of safety functions; interprets them and generates Rust from them.
+//!
+//! The language is defined in the book, chapter "The specification language".
+//!
+//! The way of a specification: [`Spec::load`] reads the TOML files, [`Spec::system`] resolves one system to an
+//! [`ir::System`], [`bind::Bound`] gives it parameter values, and [`bind::Bound::step`] runs it.
+
+mod assemble;
+pub mod bind;
+pub mod codegen;
+pub mod diag;
+pub mod eval;
+mod interval;
+pub mod ir;
+pub mod lang;
+mod property;
+mod schema;
+mod scope;
+mod spec;
+
+pub use spec::{Spec, read_text};

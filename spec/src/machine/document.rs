@@ -1,0 +1,265 @@
+//! A TOML text with the place of every key and value, and the collection of everything that is wrong in it.
+
+use std::fs;
+use std::ops::Range;
+use std::path::Path;
+use std::sync::Arc;
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use crate::diag::{Diagnostic, Diagnostics, Result, nearest};
+
+/// No file of a user is that long; a longer one is a mistake (a device, a log).
+const LONGEST: u64 = 4 << 20;
+
+/// The errors of one file, collected while it is read.
+pub(super) struct Findings {
+    file: String,
+    source: Arc<str>,
+    list: Vec<Diagnostic>,
+}
+
+/// Reads a text file. `kind` names it in messages: `machine file`.
+///
+/// # Errors
+/// Not there, not readable, a directory or device, longer than 4 MiB, not UTF-8, nothing in it.
+pub(super) fn read_text(path: &Path, kind: &str) -> Result<Arc<str>> {
+    let name = path.display().to_string();
+    let fail = |message: String, help: &str| {
+        Diagnostics::from(Diagnostic::new(&name, &Arc::from(""), None, message).help(help))
+    };
+    let meta = fs::metadata(path).map_err(|e| {
+        fail(
+            format!("cannot read this {kind}: {}", plain(&e)),
+            "check the path and the permissions",
+        )
+    })?;
+    if meta.is_dir() {
+        return Err(fail(
+            format!("this is a directory, not a {kind}"),
+            "name one file in it, such as milling.toml",
+        ));
+    }
+    if !meta.is_file() {
+        return Err(fail(
+            format!("this is a device or pipe, not a {kind}"),
+            "name a regular file",
+        ));
+    }
+    if meta.len() > LONGEST {
+        return Err(fail(
+            format!("{} bytes are too long for a {kind}", meta.len()),
+            "at most 4 MiB are read",
+        ));
+    }
+    let bytes = fs::read(path).map_err(|e| {
+        fail(
+            format!("cannot read this {kind}: {}", plain(&e)),
+            "check the path and the permissions",
+        )
+    })?;
+    decode(&name, bytes, kind)
+}
+
+/// The operating system's words without its error number.
+fn plain(error: &std::io::Error) -> String {
+    match error.kind() {
+        std::io::ErrorKind::NotFound => "no such file".to_owned(),
+        std::io::ErrorKind::PermissionDenied => "permission denied".to_owned(),
+        _ => error.to_string(),
+    }
+}
+
+/// Checks that `bytes` are UTF-8 and that something is in them.
+pub(super) fn decode(name: &str, bytes: Vec<u8>, kind: &str) -> Result<Arc<str>> {
+    let text = String::from_utf8(bytes).map_err(|error| {
+        let at = error.utf8_error().valid_up_to();
+        let byte = error.as_bytes().get(at).copied().unwrap_or(0);
+        // The replacement text keeps every offset up to the bad byte.
+        let shown: Arc<str> = String::from_utf8_lossy(error.as_bytes()).into();
+        Diagnostic::new(
+            name,
+            &shown,
+            Some(at..at + '\u{fffd}'.len_utf8()),
+            format!("the file is not UTF-8: byte 0x{byte:02X} at offset {at}"),
+        )
+        .label("not UTF-8 from here")
+        .help("save the file as UTF-8; editors call this the encoding of the file")
+    })?;
+    let filled = |line: &str| !line.trim().is_empty() && !line.trim_start().starts_with('#');
+    if !text.trim_start_matches('\u{feff}').lines().any(filled) {
+        return Err(
+            Diagnostic::new(name, &text.into(), None, format!("this {kind} is empty"))
+                .help("it starts with a line such as: family = \"sinumerik-840d\"")
+                .into(),
+        );
+    }
+    Ok(text.into())
+}
+
+impl Findings {
+    /// No finding yet in the file `file` with this text.
+    pub(super) fn new(file: &str, source: &Arc<str>) -> Self {
+        Self {
+            file: file.to_owned(),
+            source: source.clone(),
+            list: Vec::new(),
+        }
+    }
+
+    /// Adds one finding; the place may be missing.
+    pub(super) fn add(
+        &mut self,
+        span: impl Into<Option<Range<usize>>>,
+        message: impl Into<String>,
+        label: impl Into<String>,
+        help: impl Into<String>,
+    ) {
+        let one = Diagnostic::new(&self.file, &self.source, span.into(), message);
+        self.list.push(one.label(label).help(help));
+    }
+
+    /// Whether nothing is wrong so far.
+    pub(super) fn none(&self) -> bool {
+        self.list.is_empty()
+    }
+
+    /// The findings in the order of the file.
+    pub(super) fn into_diagnostics(mut self) -> Diagnostics {
+        self.list
+            .sort_by_key(|d| d.span.as_ref().map_or(usize::MAX, |s| s.start));
+        Diagnostics(self.list)
+    }
+
+    /// `value` if nothing is wrong, else the findings in the order of the file.
+    pub(super) fn finish<T>(self, value: T) -> Result<T> {
+        if self.list.is_empty() {
+            Ok(value)
+        } else {
+            Err(self.into_diagnostics())
+        }
+    }
+
+    /// Parses TOML. Keys given twice become findings and the rest is returned; after a syntax error nothing is, since
+    /// what follows it can be misread.
+    pub(super) fn parse<'t>(&mut self, text: &'t str) -> Option<DeTable<'t>> {
+        let (table, errors) = DeTable::parse_recoverable(text);
+        let mut sound = true;
+        for error in errors {
+            let span = error.span();
+            let key = span.clone().and_then(|s| text.get(s)).unwrap_or("");
+            if error.message() == "duplicate key" {
+                self.add(
+                    span,
+                    format!("'{key}' stands twice in this file"),
+                    "the second one",
+                    "give each axis, door and parameter once, each under a name of its own",
+                );
+            } else {
+                sound = false;
+                self.add(
+                    span,
+                    format!("not valid TOML: {}", error.message()),
+                    "here",
+                    "the form is `key = value`, with tables `[axis.X]`; texts stand in double quotes",
+                );
+            }
+        }
+        sound.then(|| table.into_inner())
+    }
+
+    /// The value as text, or a finding.
+    pub(super) fn text(&mut self, key: &str, value: &Spanned<DeValue<'_>>) -> Option<String> {
+        match value.get_ref() {
+            DeValue::String(text) => Some(text.to_string()),
+            other => {
+                let got = kind_of(other);
+                self.add(
+                    value.span(),
+                    format!("'{key}' needs a text; got {got}"),
+                    got,
+                    format!("write {key} = \"...\""),
+                );
+                None
+            }
+        }
+    }
+
+    /// The value as a list of texts, each with its place, or findings.
+    pub(super) fn texts(
+        &mut self,
+        key: &str,
+        value: &Spanned<DeValue<'_>>,
+    ) -> Vec<Spanned<String>> {
+        let DeValue::Array(items) = value.get_ref() else {
+            let got = kind_of(value.get_ref());
+            self.add(
+                value.span(),
+                format!("'{key}' needs a list of texts; got {got}"),
+                got,
+                format!("write {key} = [\"...\", \"...\"]"),
+            );
+            return Vec::new();
+        };
+        let mut list = Vec::new();
+        for item in items.iter() {
+            if let Some(text) = self.text(key, item) {
+                list.push(Spanned::new(item.span(), text));
+            }
+        }
+        list
+    }
+
+    /// The value as a table, or a finding.
+    pub(super) fn table<'a, 't>(
+        &mut self,
+        key: &str,
+        value: &'a Spanned<DeValue<'t>>,
+    ) -> Option<&'a DeTable<'t>> {
+        if let DeValue::Table(table) = value.get_ref() {
+            return Some(table);
+        }
+        let got = kind_of(value.get_ref());
+        self.add(
+            value.span(),
+            format!("'{key}' needs a table; got {got}"),
+            got,
+            format!("write a line [{key}] and the values below it"),
+        );
+        None
+    }
+
+    /// A key that does not exist in `place`, with the nearest one that does.
+    pub(super) fn unknown_key(
+        &mut self,
+        span: Range<usize>,
+        key: &str,
+        place: &str,
+        known: &[&str],
+    ) {
+        let help = match nearest(key, known.iter().copied()) {
+            Some(near) => format!("did you mean '{near}'?"),
+            None => format!("keys that can stand here: {}", known.join(", ")),
+        };
+        self.add(
+            span,
+            format!("unknown key '{key}' in {place}"),
+            "not a key of this table",
+            help,
+        );
+    }
+}
+
+/// With article, for messages.
+pub(super) fn kind_of(value: &DeValue<'_>) -> &'static str {
+    match value {
+        DeValue::String(_) => "a text",
+        DeValue::Integer(_) => "a whole number",
+        DeValue::Float(_) => "a decimal number",
+        DeValue::Boolean(_) => "true or false",
+        DeValue::Datetime(_) => "a date",
+        DeValue::Array(_) => "a list",
+        DeValue::Table(_) => "a table",
+    }
+}

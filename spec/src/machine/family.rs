@@ -1,0 +1,188 @@
+//! The data of a family that machine files are read with: parameters, functions, plausibility rules, systems to explore.
+//! They stand in `<family>/family.toml`; nothing of them is known to the code.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use indexmap::IndexMap;
+use serde::Deserialize;
+use toml::Spanned;
+
+use super::AxisKind;
+use super::units::Dimension;
+use crate::lang::ast::Expr;
+
+/// Everything that `family.toml` says, checked.
+#[derive(Debug)]
+pub(super) struct Family {
+    /// Its folder, which holds the specification files too.
+    pub folder: PathBuf,
+    /// The file and its text, for diagnostics about the data themselves.
+    pub file: String,
+    pub source: Arc<str>,
+    pub title: String,
+    pub max_axes: usize,
+    pub monitoring_cycle: Formula,
+    /// TRUE for an axis whose stops act on every axis of the machine.
+    pub coupled_to_all: Formula,
+    pub functions: Vec<Function>,
+    pub control: IndexMap<String, Param>,
+    pub axis: IndexMap<String, Param>,
+    pub door: IndexMap<String, Param>,
+    /// Named expressions over the values of an axis, in order.
+    pub lets: Vec<(String, Formula)>,
+    pub rules: Vec<Rule>,
+    pub explore: Vec<Explore>,
+}
+
+/// A safety function that can be enabled for an axis.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Function {
+    pub name: String,
+    /// Its bit in the enable word.
+    #[allow(dead_code)] // part of the data; the tests compare it with the machine data table
+    pub bit: u32,
+    /// The Boolean that expressions know it by, and its index there.
+    pub variable: String,
+    #[serde(default)]
+    pub index: usize,
+    /// Whether one of the explored systems contains it.
+    pub explored: bool,
+    #[allow(dead_code)]
+    pub text: String,
+    #[allow(dead_code)]
+    pub id: Vec<String>,
+}
+
+/// What a parameter measures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum Quantity {
+    Length,
+    Angle,
+    Speed,
+    Time,
+    Percent,
+    Frequency,
+    Count,
+    Choice,
+    Bool,
+}
+
+impl Quantity {
+    /// The dimension for an axis of this kind; choices and Booleans are plain numbers inside.
+    pub fn dimension(self, kind: AxisKind) -> Dimension {
+        match (self, kind) {
+            (Self::Length, AxisKind::Linear) => Dimension::Length,
+            (Self::Length, AxisKind::Rotary) | (Self::Angle, _) => Dimension::Angle,
+            (Self::Speed, AxisKind::Linear) => Dimension::Speed,
+            (Self::Speed, AxisKind::Rotary) => Dimension::Rotation,
+            (Self::Time, _) => Dimension::Time,
+            (Self::Percent, _) => Dimension::Percent,
+            (Self::Frequency, _) => Dimension::Frequency,
+            (Self::Count | Self::Choice | Self::Bool, _) => Dimension::Count,
+        }
+    }
+}
+
+/// A parameter of the control, an axis or a door.
+#[derive(Debug)]
+pub(super) struct Param {
+    pub quantity: Quantity,
+    /// The manual's names: `MD36930 $MA_SAFE_STANDSTILL_TOL`; empty for what is no machine datum.
+    pub manual: String,
+    /// Number of values; 0 for a scalar.
+    pub count: usize,
+    /// What the values of an array are, for messages: `SG1 to SG4`.
+    pub elements: String,
+    pub choices: Vec<(String, i64)>,
+    pub linear: Limits,
+    pub rotary: Limits,
+}
+
+/// The allowed range and the default of a parameter, in base units.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Limits {
+    pub min: i64,
+    pub max: i64,
+    pub default: i64,
+}
+
+impl Param {
+    pub fn limits(&self, kind: AxisKind) -> &Limits {
+        match kind {
+            AxisKind::Linear => &self.linear,
+            AxisKind::Rotary => &self.rotary,
+        }
+    }
+
+    /// The value as a user writes it.
+    pub fn show(&self, value: i64, kind: AxisKind) -> String {
+        match self.quantity {
+            Quantity::Choice => self
+                .choices
+                .iter()
+                .find(|(_, code)| *code == value)
+                .map_or_else(|| value.to_string(), |(name, _)| format!("\"{name}\"")),
+            Quantity::Bool => (value != 0).to_string(),
+            _ => self.quantity.dimension(kind).show(value),
+        }
+    }
+}
+
+/// An expression of the data and the place of its text.
+#[derive(Debug)]
+pub(super) struct Formula {
+    pub text: Spanned<String>,
+    pub expr: Expr,
+}
+
+/// What a rule or a system speaks about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum Scope {
+    Control,
+    Axis,
+    Door,
+    Group,
+}
+
+/// A plausibility rule: `when` must not hold.
+#[derive(Debug)]
+pub(super) struct Rule {
+    pub of: Scope,
+    pub id: Vec<String>,
+    pub alarm: Option<u32>,
+    /// The values of `k`; one pass with k = 0 where there are none.
+    pub each: Vec<i64>,
+    pub when: Formula,
+    /// The key whose place is shown: `POS_LIMIT_PLUS[k]` or `functions`.
+    pub at: String,
+    pub text: String,
+    pub fix: String,
+}
+
+/// A system to explore for an axis or a group of coupled axes.
+#[derive(Debug)]
+pub(super) struct Explore {
+    pub file: String,
+    pub system: String,
+    pub each: Scope,
+    pub when: Formula,
+    pub text: String,
+    pub params: Vec<(String, Binding)>,
+}
+
+/// How a parameter of a system follows from the values of an axis.
+#[derive(Debug)]
+pub(super) enum Binding {
+    /// As it is.
+    Value(Formula),
+    /// A time: whole monitoring cycles, rounded up; divided by the common step where the system is scaled.
+    Time(Formula),
+    /// A list of values, by their order only: equal values get equal ranks, from 0.
+    Rank(String),
+    /// The number of axes of the group.
+    Axes,
+}

@@ -1,0 +1,247 @@
+//! Machine files: a machine's axes, functions, limits and doors in user units, checked against the data of its family
+//! and mapped to the systems to explore.
+//!
+//! A machine file is TOML with the key `family`. Everything it may say stands in `<family>/family.toml`: the parameters
+//! with range, default and the manual's names, the functions, the plausibility rules and the systems. Values become
+//! exact integers in base units (see [`units`]).
+//!
+//! ```toml
+//! family = "sinumerik-840d"
+//! [axis.X]
+//! kind = "linear"
+//! functions = ["SBH/SG", "external stops"]
+//! STANDSTILL_TOL = "0.5 mm"
+//! ```
+
+mod document;
+mod eval;
+mod family;
+mod family_file;
+mod plausible;
+mod read;
+mod runs;
+pub mod units;
+mod value;
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use crate::diag::{Result, nearest};
+use document::Findings;
+use family::Param;
+
+/// A byte range of the machine file.
+pub type Place = Range<usize>;
+
+/// Values by the name of their parameter.
+pub type Settings = BTreeMap<String, Setting>;
+
+/// A machine that passed all checks, and what is to be explored for it.
+#[derive(Debug, Clone)]
+pub struct Machine {
+    /// Its name: the key `name`, else the name of the file.
+    pub name: String,
+    /// One line about it; may be empty.
+    pub title: String,
+    /// Its family: the name of a folder with a `family.toml`.
+    pub family: String,
+    /// The family in words.
+    pub family_title: String,
+    /// Values of the control common to all axes.
+    pub control: Settings,
+    /// The monitoring cycle T_SI in microseconds; one cycle of a check.
+    pub monitoring_cycle: i64,
+    /// Its axes and spindles, in the order of the file.
+    pub axes: Vec<Axis>,
+    /// Axes whose stops act on one another, by name; an axis on its own is in none. Each in the order of the file.
+    pub groups: Vec<Vec<String>>,
+    /// Its guard doors, in the order of the file.
+    pub doors: Vec<Door>,
+    /// What has to be explored to cover the machine.
+    pub runs: Vec<Run>,
+    /// What the file describes but no run explores, in words.
+    pub not_explored: Vec<String>,
+}
+
+/// Linear axis or rotary axis; a spindle is a rotary axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum AxisKind {
+    /// Path in mm, speed in mm/min.
+    Linear,
+    /// Path in degrees, speed in revolutions per minute.
+    Rotary,
+}
+
+/// An axis or spindle.
+#[derive(Debug, Clone)]
+pub struct Axis {
+    /// Its name in the file.
+    pub name: String,
+    /// One line about it; may be empty.
+    pub title: String,
+    /// What it moves.
+    pub kind: AxisKind,
+    /// The safety functions enabled for it, in the order of the file.
+    pub functions: Vec<String>,
+    /// A value for every parameter of an axis.
+    pub values: Settings,
+    /// The axes it moves with on one path.
+    pub interpolates_with: Vec<Spanned<String>>,
+    place: Place,
+    functions_place: Option<Place>,
+}
+
+/// A guard door.
+#[derive(Debug, Clone)]
+pub struct Door {
+    /// Its name in the file.
+    pub name: String,
+    /// One line about it; may be empty.
+    pub title: String,
+    /// The axes a person can reach through it.
+    pub axes: Vec<Spanned<String>>,
+    /// A value for every parameter of a door.
+    pub values: Settings,
+    place: Place,
+}
+
+/// The value of one parameter.
+#[derive(Debug, Clone)]
+pub struct Setting {
+    /// In base units; one cell for a scalar.
+    pub cells: Vec<i64>,
+    /// As a user writes them, in the usual unit.
+    pub shown: Vec<String>,
+    /// Where they stand in the file; empty: the family's default.
+    pub places: Vec<Place>,
+}
+
+/// One exploration: a system of a specification file under fixed parameters.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Run {
+    /// What it shows, with the axes it stands for.
+    pub title: String,
+    /// The axes it stands for: one, the members of a group, or all axes with the same parameters.
+    pub axes: Vec<String>,
+    /// The specification file.
+    pub file: PathBuf,
+    /// The system in that file.
+    pub system: String,
+    /// Values of the system's parameters; one cell for a scalar. Times in cycles of the monitoring cycle, or in steps.
+    pub params: BTreeMap<String, Vec<i64>>,
+    /// Where the run is coarser than the machine: what was rounded, scaled or replaced by its order. Empty: exact.
+    pub abstractions: Vec<String>,
+}
+
+impl Setting {
+    /// Whether the machine file gives it.
+    pub fn is_given(&self) -> bool {
+        !self.places.is_empty()
+    }
+
+    fn by_default(param: &Param, kind: AxisKind) -> Self {
+        let cells = vec![param.limits(kind).default; param.count.max(1)];
+        Self::given(param, kind, cells, Vec::new())
+    }
+
+    fn given(param: &Param, kind: AxisKind, cells: Vec<i64>, places: Vec<Place>) -> Self {
+        let shown = cells.iter().map(|c| param.show(*c, kind)).collect();
+        Self {
+            cells,
+            shown,
+            places,
+        }
+    }
+}
+
+/// Reads and checks the machine file at `path`; `families` is the folder that holds the families.
+///
+/// # Errors
+/// Everything that is wrong with the file, in its order: unreadable, not TOML, unknown keys, values outside their range
+/// or in a wrong unit, names that do not exist, violated plausibility rules.
+pub fn load(path: &Path, families: &Path) -> Result<Machine> {
+    let source = document::read_text(path, "machine file")?;
+    read_source(path, &source, families)
+}
+
+/// [`load`] of bytes that were read already; `path` only names them.
+///
+/// # Errors
+/// As [`load`].
+pub fn load_bytes(path: &Path, bytes: Vec<u8>, families: &Path) -> Result<Machine> {
+    let source = document::decode(&path.display().to_string(), bytes, "machine file")?;
+    read_source(path, &source, families)
+}
+
+fn read_source(path: &Path, source: &std::sync::Arc<str>, families: &Path) -> Result<Machine> {
+    let mut findings = Findings::new(&path.display().to_string(), source);
+    let Some(table) = findings.parse(source) else {
+        return Err(findings.into_diagnostics());
+    };
+    let Some(name) = family_name(&table, families, &mut findings) else {
+        return Err(findings.into_diagnostics());
+    };
+    let family = family_file::load(&families.join(&name))?;
+    let draft = read::read(&family, &table, &mut findings);
+    let judged = plausible::judge(&family, &draft, &mut findings)?;
+    let (Some(judged), Some(control), true) = (judged, draft.control, findings.none()) else {
+        return Err(findings.into_diagnostics());
+    };
+    let runs = runs::plan(&family, &draft.axes, &judged)?;
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    Ok(Machine {
+        name: draft.name.unwrap_or_else(|| stem.into_owned()),
+        title: draft.title.unwrap_or_default(),
+        family: name,
+        family_title: family.title.clone(),
+        monitoring_cycle: judged.cycle,
+        not_explored: runs::not_explored(&family, &draft.axes, &draft.doors),
+        groups: runs.groups,
+        runs: runs.runs,
+        control,
+        axes: draft.axes,
+        doors: draft.doors,
+    })
+}
+
+/// The name of the family, when there is such a family.
+fn family_name(table: &DeTable<'_>, root: &Path, findings: &mut Findings) -> Option<String> {
+    let known = family_file::families(root);
+    let list = || known.join(", ");
+    let Some(value) = table.get("family") else {
+        if let Some(spec) = table.get("spec") {
+            findings.add(
+                spec.span(),
+                "this is a specification file, not a machine file",
+                "the key 'spec' makes it one",
+                "a machine file starts with: family = \"sinumerik-840d\"",
+            );
+        } else {
+            findings.add(
+                None,
+                "the key 'family' is missing",
+                "",
+                format!("start the file with the family of the control; known: {}", list()),
+            );
+        }
+        return None;
+    };
+    let name = match value.get_ref() {
+        DeValue::String(name) => name.to_string(),
+        _ => findings.text("family", value)?,
+    };
+    if known.contains(&name) {
+        return Some(name);
+    }
+    let help = match nearest(&name, known.iter().map(String::as_str)) {
+        Some(near) => format!("did you mean \"{near}\"?"),
+        None if known.is_empty() => format!("no folder in {} holds a family.toml", root.display()),
+        None => format!("known families: {}", list()),
+    };
+    findings.add(value.span(), format!("unknown family \"{name}\""), "no such family", help);
+    None
+}

@@ -1,0 +1,298 @@
+//! A specification file with everything it includes.
+
+use std::collections::HashSet;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use indexmap::IndexMap;
+
+use crate::diag::{Diagnostic, Diagnostics, Result};
+use crate::lang::{self, SyntaxError, ast};
+use crate::schema::{self, Text};
+
+/// A file that was read.
+#[derive(Debug, Clone)]
+pub(crate) struct Source {
+    pub name: String,
+    pub text: Arc<str>,
+}
+
+/// A definition and the file it stands in.
+#[derive(Clone)]
+pub(crate) struct Located<T> {
+    pub file: usize,
+    pub span: Range<usize>,
+    pub def: T,
+}
+
+/// A specification: enums, functions, readings, machines and systems of a file and of the files it includes.
+#[derive(Clone)]
+pub struct Spec {
+    /// Name given by the key `spec`.
+    pub name: String,
+    /// Title.
+    pub title: String,
+    /// Where its facts come from.
+    pub source: String,
+    pub(crate) sources: Vec<Source>,
+    pub(crate) enums: IndexMap<String, Located<schema::Enum>>,
+    pub(crate) functions: IndexMap<String, Located<schema::Function>>,
+    pub(crate) readings: IndexMap<String, Located<schema::Reading>>,
+    pub(crate) machines: IndexMap<String, Located<schema::Machine>>,
+    pub(crate) systems: IndexMap<String, Located<schema::System>>,
+}
+
+/// Largest file that is read, in bytes.
+const MAX_BYTES: u64 = 16 << 20;
+
+/// Reads a text file; the error says what is there instead of one.
+pub fn read_text(path: &Path) -> Result<Arc<str>> {
+    let name = path.display().to_string();
+    let empty: Arc<str> = Arc::from("");
+    let fail = |message: String, help: &str| -> Diagnostics {
+        Diagnostic::new(&name, &empty, None, message).help(help).into()
+    };
+    let meta = std::fs::metadata(path).map_err(|e| {
+        fail(format!("cannot be opened: {e}"), "check the name and the permissions")
+    })?;
+    if meta.is_dir() {
+        return Err(fail(
+            "is a directory, not a file".to_owned(),
+            "name a TOML file in it",
+        ));
+    }
+    if meta.len() > MAX_BYTES {
+        return Err(fail(
+            format!("has {} bytes; at most {MAX_BYTES} are read", meta.len()),
+            "split it into files joined by `use`",
+        ));
+    }
+    let bytes = std::fs::read(path)
+        .map_err(|e| fail(format!("cannot be read: {e}"), "check the permissions"))?;
+    let text = String::from_utf8(bytes).map_err(|e| {
+        let at = e.utf8_error().valid_up_to();
+        let line = e.as_bytes()[..at].iter().filter(|b| **b == b'\n').count() + 1;
+        fail(
+            format!("is not UTF-8 text: byte {at} (line {line}) has no meaning"),
+            "save it as UTF-8",
+        )
+    })?;
+    if text.trim().is_empty() {
+        return Err(fail(
+            "is empty".to_owned(),
+            "a specification starts with `spec = \"name\"`, a machine file with `family = \"sinumerik-840d\"`",
+        ));
+    }
+    Ok(Arc::from(text))
+}
+
+/// Turns an error of the TOML reader into a diagnostic.
+pub(crate) fn toml_error(file: &str, text: &Arc<str>, e: &toml::de::Error) -> Diagnostic {
+    let message = e.message().trim().replace('\n', ", ");
+    let help = if message.contains("unknown field") {
+        "only the keys named are allowed here; check the spelling and the table it stands in"
+    } else if message.contains("missing field") {
+        "add the key"
+    } else {
+        "correct the TOML syntax or the value at the marked place"
+    };
+    Diagnostic::new(file, text, e.span(), message).help(help)
+}
+
+impl Spec {
+    /// Reads a specification file and all it includes.
+    ///
+    /// # Errors
+    /// Everything wrong in the files' TOML, and definitions that stand twice.
+    pub fn load(path: &Path) -> Result<Self> {
+        let text = read_text(path)?;
+        Self::from_text(path, text)
+    }
+
+    /// Like [`Spec::load`], from a text already read; `path` names it and locates its includes.
+    ///
+    /// # Errors
+    /// As [`Spec::load`].
+    pub fn from_text(path: &Path, text: Arc<str>) -> Result<Self> {
+        let mut spec = Spec {
+            name: String::new(),
+            title: String::new(),
+            source: String::new(),
+            sources: Vec::new(),
+            enums: IndexMap::new(),
+            functions: IndexMap::new(),
+            readings: IndexMap::new(),
+            machines: IndexMap::new(),
+            systems: IndexMap::new(),
+        };
+        let mut errors = Vec::new();
+        let mut seen = HashSet::new();
+        spec.include(path, text, &mut seen, &mut errors);
+        if errors.is_empty() {
+            Ok(spec)
+        } else {
+            Err(Diagnostics(errors))
+        }
+    }
+
+    fn include(
+        &mut self,
+        path: &Path,
+        text: Arc<str>,
+        seen: &mut HashSet<PathBuf>,
+        errors: &mut Vec<Diagnostic>,
+    ) {
+        seen.insert(path.canonicalize().unwrap_or_else(|_| path.to_owned()));
+        let name = path.display().to_string();
+        let file: schema::File = match toml::from_str(&text) {
+            Ok(file) => file,
+            Err(e) => return errors.push(toml_error(&name, &text, &e)),
+        };
+        let id = self.sources.len();
+        self.sources.push(Source {
+            name: name.clone(),
+            text: text.clone(),
+        });
+        if id == 0 {
+            self.name = file.spec.get_ref().clone();
+            self.title = file.title;
+            self.source = file.source;
+        }
+        for used in &file.uses {
+            let target = path
+                .parent()
+                .unwrap_or_else(|| Path::new("."))
+                .join(used.get_ref());
+            let known = target.canonicalize().unwrap_or_else(|_| target.clone());
+            if seen.contains(&known) {
+                continue;
+            }
+            match read_text(&target) {
+                Ok(inner) => self.include(&target, inner, seen, errors),
+                Err(Diagnostics(list)) => errors.extend(list.into_iter().map(|d| {
+                    Diagnostic::new(&name, &text, Some(used.span()), d.to_string())
+                        .label("included here")
+                        .help("`use` names files relative to this one")
+                })),
+            }
+        }
+        let mut duplicates = Vec::new();
+        merge(&mut self.enums, file.enums, id, &mut duplicates);
+        merge(&mut self.functions, file.function, id, &mut duplicates);
+        merge(&mut self.readings, file.reading, id, &mut duplicates);
+        merge(&mut self.machines, file.machine, id, &mut duplicates);
+        if id == 0 {
+            merge(&mut self.systems, file.system, id, &mut duplicates);
+        }
+        for (what, span) in duplicates {
+            errors.push(
+                Diagnostic::new(&name, &text, Some(span), format!("`{what}` is defined twice"))
+                    .label("second definition")
+                    .help("rename one of them, or include the common file once"),
+            );
+        }
+    }
+
+    /// Names of the systems of this file, in the order they stand there.
+    pub fn systems(&self) -> impl Iterator<Item = &str> {
+        self.systems.keys().map(String::as_str)
+    }
+
+    /// Names of the machines, included ones too.
+    pub fn machines(&self) -> impl Iterator<Item = &str> {
+        self.machines.keys().map(String::as_str)
+    }
+
+    /// Names of the machines declared in the file itself.
+    pub fn own_machines(&self) -> impl Iterator<Item = &str> {
+        self.machines.iter().filter(|(_, m)| m.file == 0).map(|(n, _)| n.as_str())
+    }
+
+    /// The files this specification was read from.
+    pub fn files(&self) -> impl Iterator<Item = &str> {
+        self.sources.iter().map(|s| s.name.as_str())
+    }
+
+    /// A diagnostic at a text of a file.
+    pub(crate) fn error(
+        &self,
+        file: usize,
+        span: Range<usize>,
+        message: impl Into<String>,
+    ) -> Diagnostic {
+        let source = &self.sources[file];
+        Diagnostic::new(&source.name, &source.text, Some(span), message)
+    }
+
+    /// Where byte range `inner` of the parsed value of `text` stands in the file.
+    pub(crate) fn locate(&self, file: usize, text: &Text, inner: &Range<usize>) -> Range<usize> {
+        let span = text.span();
+        let Some(raw) = self.sources[file].text.get(span.clone()) else {
+            return span;
+        };
+        let quotes = if raw.starts_with("\"\"\"") || raw.starts_with("'''") {
+            if raw[3..].starts_with('\n') { 4 } else { 3 }
+        } else {
+            1
+        };
+        // With escapes in the text the offsets differ: then the whole text is marked.
+        match raw.get(quotes..) {
+            Some(body) if body.starts_with(text.get_ref().as_str()) => {
+                let start = span.start + quotes + inner.start;
+                start..(span.start + quotes + inner.end).max(start)
+            }
+            _ => span,
+        }
+    }
+
+    fn syntax(&self, file: usize, text: &Text, e: SyntaxError) -> Diagnostic {
+        self.error(file, self.locate(file, text, &e.span), e.message)
+            .help(e.help)
+    }
+
+    pub(crate) fn expr(&self, file: usize, text: &Text) -> std::result::Result<ast::Expr, Diagnostic> {
+        lang::parse_expr(text.get_ref()).map_err(|e| self.syntax(file, text, e))
+    }
+
+    pub(crate) fn effect(
+        &self,
+        file: usize,
+        text: &Text,
+    ) -> std::result::Result<Vec<ast::Stmt>, Diagnostic> {
+        lang::parse_effect(text.get_ref()).map_err(|e| self.syntax(file, text, e))
+    }
+
+    pub(crate) fn type_of(
+        &self,
+        file: usize,
+        text: &Text,
+    ) -> std::result::Result<ast::TypeExpr, Diagnostic> {
+        lang::parse_type(text.get_ref()).map_err(|e| self.syntax(file, text, e))
+    }
+
+    pub(crate) fn decl(
+        &self,
+        file: usize,
+        text: &Text,
+    ) -> std::result::Result<(String, ast::TypeExpr), Diagnostic> {
+        lang::parse_decl(text.get_ref()).map_err(|e| self.syntax(file, text, e))
+    }
+}
+
+fn merge<T>(
+    into: &mut IndexMap<String, Located<T>>,
+    from: schema::Map<T>,
+    file: usize,
+    duplicates: &mut Vec<(String, Range<usize>)>,
+) {
+    for (key, def) in from {
+        let span = key.span();
+        let name = key.into_inner();
+        if into.contains_key(&name) {
+            duplicates.push((name, span));
+        } else {
+            into.insert(name, Located { file, span, def });
+        }
+    }
+}
