@@ -1,1 +1,11 @@
 //! Stillpoint proves that a machine stops: model checker and differential checker of drive safety functions.
+//!
+//! The library behind the command line: [`subject`] loads what a command works on, [`check`] explores it, [`report`] and
+//! [`timing`] show the result.
+
+pub mod check;
+pub mod engine;
+pub mod readings;
+pub mod report;
+pub mod subject;
+pub mod timing;

@@ -4,7 +4,7 @@
 //! axis, and withdrawn by the user, by a change of the gear stage, by a failed comparison with the history, by altered
 //! machine data, and when the channels differ for too long.
 //!
-//! Steps before [`crate::reference`] in the cycle and sees its state of the cycle before. Recommended reading of the manual
+//! Steps before [`mod@crate::reference`] in the cycle and sees its state of the cycle before. Recommended reading of the manual
 //! implemented here: A-30 SE_ON_UA.
 
 use crate::kernel::{ConfigError, Cycles};

@@ -14,8 +14,10 @@
 //! Together with the invariant, which every contract assumes and re-establishes, the clauses are inductive: what holds for
 //! one step from any state that satisfies the invariant holds along every run from the initial state.
 //!
-//! Caveat of the Creusot form: the attributes are checked for syntax by an ordinary compiler; the predicates are logic
-//! functions only under Creusot's own compiler (`cfg(creusot)`).
+//! Caveat of the Creusot form: it has been built with an ordinary compiler only, which checks the syntax of the attributes
+//! and nothing else; no Creusot run has been made. Under Creusot's own compiler (`cfg(creusot)`) the predicates are logic
+//! functions, and what calls them as ordinary functions is left out; the small functions of [`crate::kernel`] that the
+//! predicates call would need logic counterparts there.
 
 /// One observed step of a monitor: everything a clause may talk about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,6 +47,23 @@ pub struct Clause<S, C, I, O> {
     pub premise: fn(Step<S, C, I, O>) -> bool,
     /// Whether the step satisfies the clause (also when the premise does not hold).
     pub holds: fn(Step<S, C, I, O>) -> bool,
+}
+
+/// The clauses of a contract evaluated on one step, as bit sets by the index of the clause.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Evaluation {
+    /// The clauses whose premise is met.
+    pub premises: u64,
+    /// The clauses that hold; a clause whose premise is not met holds.
+    pub held: u64,
+}
+
+impl Evaluation {
+    /// The index of the first clause of `count` that does not hold.
+    pub const fn first_broken(self, count: usize) -> Option<usize> {
+        let first = self.held.trailing_ones() as usize;
+        if first < count { Some(first) } else { None }
+    }
 }
 
 /// A state handed in from outside does not satisfy the invariant of its monitor.
@@ -81,6 +100,7 @@ macro_rules! contract {
         )+
 
         /// The clauses of the contract of [`next`].
+        #[cfg(not(creusot))]
         pub const CLAUSES: &[$crate::contract::Clause<State, Config, Inputs, Outputs>] = &[$(
             $crate::contract::Clause {
                 name: stringify!($clause),
@@ -90,6 +110,23 @@ macro_rules! contract {
                 holds: $clause,
             }
         ),+];
+
+        /// Evaluates every clause on one step: the clauses whose premise is met and the clauses that hold, as bit sets
+        /// by the index in [`CLAUSES`].
+        #[cfg(not(creusot))]
+        pub fn evaluate(step: Step) -> $crate::contract::Evaluation {
+            const { assert!(CLAUSES.len() < u64::BITS as usize) };
+            let mut result = $crate::contract::Evaluation { premises: 0, held: 0 };
+            let mut clause = 0_u32;
+            $(
+                let $step = step;
+                result.premises |= u64::from($premise) << clause;
+                result.held |= u64::from($clause(step)) << clause;
+                clause += 1;
+            )+
+            let _ = clause;
+            result
+        }
 
         /// One cycle: the state after it and the outputs.
         ///
@@ -144,6 +181,7 @@ macro_rules! contract {
             ///
             /// # Errors
             /// [`InvalidState`](crate::contract::InvalidState) when `state` does not satisfy the invariant.
+            #[cfg(not(creusot))]
             pub fn resume(config: Config, state: State) -> Result<Self, $crate::contract::InvalidState> {
                 if state.invariant(&config) {
                     Ok(Self { config, state })

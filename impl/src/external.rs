@@ -134,6 +134,11 @@ contract! {
             => s.after.spl_latched == (s.inputs.spl_error || !s.inputs.reset)
                 && s.outputs.spl_stop == s.after.spl_latched;
 
+    /// Power-on clears the stop by the safe logic, unless its cause is present.
+    power_on_clears_the_spl_stop ["S840D-EXT-015"]:
+        when |s| s.inputs.power_on
+            => s.after.spl_latched == s.inputs.spl_error;
+
     /// The start of the comparison is remembered until power-on.
     start_is_remembered ["S840D-EXT-002"]:
         when |s| s.before.started || s.inputs.spl_started

@@ -165,6 +165,11 @@ contract! {
             && (s.inputs.discrepancy || s.inputs.rx_fault)
             => s.after.fault != FaultState::None && s.outputs.alarm;
 
+    /// Power-on acknowledges every fault; only a discrepancy found in the same cycle raises a new one.
+    power_on_acknowledges ["S840D-ACK-001", "S840D-STOP-084"]:
+        when |s| s.inputs.power_on && !s.inputs.discrepancy
+            => s.after == State::INITIAL;
+
     /// An alarm needs a discrepancy: found here, or received without power-on.
     no_alarm_without_discrepancy ["S840D-STOP-068"]:
         when |s| s.outputs.alarm

@@ -112,10 +112,10 @@ contract! {
         when |s| s.inputs.index.get() <= 7
             => s.after.stage == s.inputs.index && s.after.known && s.outputs.stage == s.inputs.index;
 
-    /// A stage without parameterised ratio is reported.
+    /// A stage without parameterised ratio is reported, and only such a one.
     unconfigured_stage_is_reported ["S840D-GEAR-501"]:
-        when |s| s.inputs.index > s.config.gear_max
-            => s.outputs.unconfigured;
+        when |s| s.inputs.index > s.config.gear_max || s.outputs.unconfigured
+            => s.outputs.unconfigured && s.inputs.index > s.config.gear_max;
 }
 
 pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (State, Outputs) {

@@ -6,7 +6,7 @@
 //! | --- | --- | --- |
 //! | [`gear`] | gear stage of a selector gearbox and its change event | - |
 //! | [`agreement`] | user agreement | `gear` |
-//! | [`reference`] | axis referencing up to "safely referenced" | `agreement` of both channels |
+//! | [`mod@reference`] | axis referencing up to "safely referenced" | `agreement` of both channels |
 //! | [`external`] | external stops by signal, reaction to errors of the safe logic | - |
 //! | [`fault`] | STOP F: reaction to a discrepancy between the channels | - |
 //! | [`stop`] | arbitration of all stop requests, STOP A to E with their timers | `external`, `fault` |

@@ -231,7 +231,7 @@ fn stop_releases_standstill(
     inputs: &stop::Inputs,
 ) -> (stop::State, stop::Outputs) {
     let mut state = state;
-    if state.phase == stop::Phase::SbhInt && inputs.demand.level() > state.level {
+    if state.phase == stop::Phase::SbhInt && !inputs.reset && inputs.demand.level() > state.level {
         state = stop::State {
             internal: state.internal,
             ..stop::State::INITIAL

@@ -136,6 +136,11 @@ contract! {
             => s.outputs.nst_reference_reached
                 && (s.after.axis == AxisState::Ref || s.after.axis == AxisState::SafeRef);
 
+    /// The missing safe reference is reported where position monitors need it, and only there.
+    missing_reference_is_reported ["S840D-REF-011", "S840D-REF-013"]:
+        when |s| s.config.se_sn_enabled || s.outputs.message
+            => s.config.se_sn_enabled && s.outputs.message != s.outputs.safely_referenced;
+
     /// The step keeps the invariant and shows its state.
     state_stays_consistent ["S840D-REF-005"]:
         when |s| s.before.invariant(&s.config)

@@ -234,20 +234,34 @@ contract! {
         when |s| s.inputs.rx_internal != InternalStop::None && !s.inputs.power_on && !s.inputs.reset
             => s.after.internal >= s.inputs.rx_internal;
 
-    /// The latch rises only to what was requested: to a demanded or received stop, to B by STOP F, from B to A.
-    latch_rises_only_on_request ["S840D-STOP-001", "S840D-STOP-090"]:
+    /// The latch rises only to what was requested: a demanded or received stop, B by STOP F, and A as the end of B.
+    latch_rises_only_on_request ["S840D-STOP-001", "S840D-STOP-013", "S840D-STOP-090"]:
         when |s| s.after.internal > s.before.internal
             => s.after.internal == s.inputs.demand || s.after.internal == s.inputs.rx_internal
                 || (s.after.internal == InternalStop::B && s.inputs.f_stop_b)
                 || (s.after.internal == InternalStop::A
-                    && (s.before.internal == InternalStop::B || s.inputs.f_stop_b
-                        || s.inputs.demand == InternalStop::B || s.inputs.rx_internal == InternalStop::B));
+                    && (s.before.phase == Phase::BBraking
+                        || (s.config.t_b.is_zero() && (s.before.internal == InternalStop::B || s.inputs.f_stop_b
+                            || s.inputs.demand == InternalStop::B || s.inputs.rx_internal == InternalStop::B))));
+
+    /// STOP B is not cut short: while its time runs and the axis moves, only a request for A makes it STOP A.
+    stop_b_is_not_cut_short ["S840D-STOP-020", "S840D-STOP-022"]:
+        when |s| s.before.phase == Phase::BBraking && !s.inputs.power_on && !s.inputs.standstill
+            && s.before.timer > Cycles::new(1)
+            => s.after.internal == InternalStop::B || s.inputs.demand == InternalStop::A
+                || s.inputs.rx_internal == InternalStop::A;
 
     /// The effective level is the highest of the latch, both channels' requests by signal and the test.
     level_is_the_highest_request ["S840D-P-38", "S840D-STOP-003", "S840D-EXT-005"]:
         when |s| !s.inputs.power_on
             => s.after.level == s.after.internal.level().max(s.inputs.external.level())
                 .max(s.inputs.rx_external.level()).max(if s.inputs.test { Level::Test } else { Level::None });
+
+    /// Power-on acknowledges everything; what this channel demands in the same cycle is latched anew.
+    power_on_acknowledges ["S840D-ACK-001", "S840D-STOP-012"]:
+        when |s| s.inputs.power_on && !s.inputs.f_stop_b
+            => s.after.internal == s.inputs.demand
+                || (s.inputs.demand == InternalStop::B && s.after.internal == InternalStop::A);
 
     /// In the cycle of power-on nothing received counts.
     power_on_ignores_the_other_channel ["S840D-ACK-001"]:
@@ -271,6 +285,15 @@ contract! {
         when |s| s.before.phase == Phase::Braking && s.after.phase == Phase::Braking && !s.inputs.power_on
             => s.after.timer < s.before.timer;
 
+    /// While STOP E, D or C brakes, a repeated or lower request changes no timer; a higher one may only shorten it.
+    repeated_request_restarts_no_timer ["S840D-STOP-004", "S840D-STOP-091", "S840D-SG-011"]:
+        when |s| s.before.phase == Phase::Braking && s.after.level.ends_in_standstill() && !s.inputs.power_on
+            => if s.after.level > s.before.level {
+                s.after.timer == s.before.timer.tick().min(s.config.time(s.after.level))
+            } else {
+                s.after.timer == s.before.timer.tick()
+            };
+
     /// A STOP E, D or C that becomes effective from another level starts its own time.
     braking_starts_its_timer ["S840D-P-06", "S840D-STOP-030", "S840D-STOP-040", "S840D-STOP-050"]:
         when |s| s.after.level.ends_in_standstill()
@@ -293,12 +316,33 @@ contract! {
                 && s.outputs.sga_stop_d == (s.after.level == Level::D)
                 && s.outputs.sga_stop_e == (s.after.level == Level::E);
 
+    /// Setpoint 0 while STOP B or C brakes; the braking ramp is watched in STOP B and as long as STOP C lasts.
+    current_limit_braking_and_its_ramp ["S840D-STOP-020", "S840D-STOP-030", "S840D-EXT-010"]:
+        when |s| s.outputs.n_set_zero || s.outputs.sbr_on || s.after.level == Level::B || s.after.level == Level::C
+            => s.outputs.sbr_on == matches!(s.after.level, Level::B | Level::C)
+                && s.outputs.n_set_zero == (s.outputs.sbr_on && s.after.phase != Phase::SbhInt);
+
+    /// The system variable shows the number of the effective stop.
+    stopsi_shows_the_level ["S840D-STOP-053"]:
+        when |s| s.after.level != Level::None
+            => matches!(
+                (s.outputs.stopsi, s.after.level),
+                (0, Level::A) | (1, Level::B) | (2, Level::C) | (3, Level::D) | (4, Level::E) | (10, Level::Test)
+            );
+
+    /// The operating stop is required, and the braking said to be over, exactly in their phases.
+    phases_are_shown ["S840D-STOP-080", "S840D-STOP-086"]:
+        when |s| s.after.level.ends_in_standstill()
+            => s.outputs.sbh_internal == (s.after.phase == Phase::SbhInt)
+                && s.outputs.ended == (s.after.phase == Phase::SbhInt)
+                && s.outputs.ended != (s.after.phase == Phase::Braking);
+
     /// Without a stop there is no action.
     no_stop_no_action ["S840D-P-38"]:
         when |s| s.after.level == Level::None
             => !(s.outputs.cancel_pulses || s.outputs.n_set_zero || s.outputs.path_brake || s.outputs.esr
                 || s.outputs.sbh_internal || s.outputs.sbr_on || s.outputs.sga_stop_ab || s.outputs.sga_stop_c
-                || s.outputs.sga_stop_d || s.outputs.sga_stop_e) && s.outputs.stopsi == -1;
+                || s.outputs.sga_stop_d || s.outputs.sga_stop_e) && s.outputs.stopsi == -1 && s.outputs.ended;
 
     /// The restart is prevented exactly while an internal stop is latched.
     restart_is_prevented ["S840D-P-42", "S840D-P-43", "S840D-STOP-083"]:

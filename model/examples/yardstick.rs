@@ -1,5 +1,6 @@
 //! Explores the yardstick and prints the figures: `cargo run --release -p stillpoint-model --example yardstick [threads]`.
 
+#[allow(dead_code)]
 #[path = "../tests/common/yardstick.rs"]
 mod yardstick;
 

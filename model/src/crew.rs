@@ -1,7 +1,7 @@
 //! The worker threads, and the limits they watch.
 
 use crate::report::{Error, Limits};
-use std::sync::atomic::{AtomicU8, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicU8, AtomicU64, AtomicUsize, Ordering};
 use std::time::Instant;
 
 /// Why work ended early.
@@ -16,11 +16,12 @@ pub(crate) struct Watch {
     start: Instant,
     limits: Limits,
     stopped: AtomicU8,
+    peak: AtomicU64,
 }
 
 impl Watch {
     pub(crate) fn new(limits: Limits) -> Self {
-        Watch { start: Instant::now(), limits, stopped: AtomicU8::new(0) }
+        Watch { start: Instant::now(), limits, stopped: AtomicU8::new(0), peak: AtomicU64::new(0) }
     }
 
     pub(crate) fn seconds(&self) -> f64 {
@@ -29,6 +30,7 @@ impl Watch {
 
     /// True if work must end; `bytes` are held now.
     pub(crate) fn over(&self, bytes: u64) -> bool {
+        self.peak.fetch_max(bytes, Ordering::Relaxed);
         if self.stopped.load(Ordering::Relaxed) != 0 {
             return true;
         }
@@ -45,7 +47,13 @@ impl Watch {
 
     /// True if `bytes` are more than may be held. Ends nothing.
     pub(crate) fn too_much(&self, bytes: u64) -> bool {
+        self.peak.fetch_max(bytes, Ordering::Relaxed);
         self.limits.memory.is_some_and(|most| bytes > most)
+    }
+
+    /// The most bytes that were told.
+    pub(crate) fn peak(&self) -> u64 {
+        self.peak.load(Ordering::Relaxed)
     }
 
     pub(crate) fn stopped(&self) -> Option<Stop> {

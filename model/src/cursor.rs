@@ -3,7 +3,8 @@
 use crate::choices::Odometer;
 use crate::pack::{Key, Packer};
 use crate::report::Error;
-use crate::system::{Fault, System};
+use crate::process::{Origin, Process};
+use crate::system::Fault;
 use std::ops::ControlFlow;
 
 /// The end of one cycle.
@@ -22,21 +23,19 @@ fn roomy(size: usize) -> Vec<i32> {
 }
 
 /// Everything one thread needs to make cycles.
-pub(crate) struct Cursor<'s, S: System> {
-    pub(crate) system: &'s S,
-    pub(crate) work: S::Work,
+pub(crate) struct Cursor<P> {
+    pub(crate) process: P,
     pub(crate) odometer: Odometer,
     before: Vec<i32>,
     after: Vec<i32>,
 }
 
-impl<'s, S: System> Cursor<'s, S> {
-    pub(crate) fn new(system: &'s S) -> Self {
-        let size = system.domains().len();
+impl<P: Process> Cursor<P> {
+    pub(crate) fn new(origin: &impl Origin<Process = P>) -> Self {
+        let size = origin.domains().len();
         Cursor {
-            system,
-            work: system.work(),
-            odometer: Odometer::new(system.combinations()),
+            process: origin.process(),
+            odometer: Odometer::new(origin.combinations()),
             before: roomy(size),
             after: roomy(size),
         }
@@ -49,19 +48,19 @@ impl<'s, S: System> Cursor<'s, S> {
         &mut self,
         packer: &Packer<K>,
         key: K,
-        mut each: impl FnMut(&mut S::Work, &mut Odometer, Leaf<K>) -> ControlFlow<()>,
+        mut each: impl FnMut(&mut P, &mut Odometer, Leaf<K>) -> ControlFlow<()>,
     ) {
         packer.unpack(key, &mut self.before);
         self.odometer.reset();
         loop {
             self.odometer.begin();
-            let next = self.system.next(&mut self.work, &self.before, &mut self.odometer, &mut self.after);
+            let next = self.process.next(&self.before, &mut self.odometer, &mut self.after);
             let leaf = match next {
                 Err(fault) => Leaf::Fault(fault),
-                Ok(()) if self.system.discarded(&self.work) => Leaf::Discarded,
+                Ok(()) if self.process.discarded() => Leaf::Discarded,
                 Ok(()) => packer.pack(&self.after).map_or(Leaf::Fault(Fault::OUT_OF_DOMAIN), Leaf::To),
             };
-            if each(&mut self.work, &mut self.odometer, leaf).is_break() || !self.odometer.advance() {
+            if each(&mut self.process, &mut self.odometer, leaf).is_break() || !self.odometer.advance() {
                 return;
             }
         }
@@ -72,11 +71,11 @@ impl<'s, S: System> Cursor<'s, S> {
         &mut self,
         packer: &Packer<K>,
         key: K,
-        mut test: impl FnMut(&mut S::Work, &mut Odometer, Leaf<K>) -> bool,
+        mut test: impl FnMut(&mut P, &mut Odometer, Leaf<K>) -> bool,
     ) -> Option<(Vec<(u32, u32)>, Leaf<K>)> {
         let mut found = None;
-        self.leaves(packer, key, |work, odometer, leaf| {
-            if test(work, odometer, leaf) {
+        self.leaves(packer, key, |process, odometer, leaf| {
+            if test(process, odometer, leaf) {
                 found = Some((odometer.values(), leaf));
                 return ControlFlow::Break(());
             }
@@ -94,7 +93,7 @@ impl<'s, S: System> Cursor<'s, S> {
         self.odometer.reset();
         loop {
             self.odometer.begin();
-            self.system.initial(&mut self.work, &mut self.odometer, &mut self.after);
+            self.process.initial(&mut self.odometer, &mut self.after);
             let key = packer.pack(&self.after).ok_or(Error::InitialOutOfDomain)?;
             if each(key, &self.odometer).is_break() || !self.odometer.advance() {
                 return Ok(());

@@ -3,46 +3,50 @@
 use crate::crew::{Crew, Watch};
 use crate::cursor::Leaf;
 use crate::hashed::Hashed;
-use crate::pack::{Key, Packer, space};
+use crate::liveness::{fair, recoverable, recovery};
+use crate::pack::{Key, space};
 use crate::property::{Eval, Form, Property, Sign, validate};
 use crate::report::{Error, FaultReport, Judgement, Options, Progress, Report, Storage, Trace, Verdict};
+use crate::response::{Response, bounded, until};
 use crate::search::{Found, Model, search};
 use crate::store::{Dense, Store};
+use crate::process::{Any, Origin, Own, Process};
 use crate::system::System;
 use crate::trace::{Request, Run, Test, runs};
-use std::sync::Arc;
+use std::collections::BTreeSet;
+use std::sync::{Arc, PoisonError};
 
 /// The bitmap is the default where it needs no more bytes than this.
 const DEFAULT_BITMAP: u64 = 1 << 30;
 
 /// Work that is written once for every kind of storage.
-pub(crate) trait Job<S> {
+pub(crate) trait Job<O> {
     type Output;
-    fn run<T: Store>(self, model: &Model<S, T::Key>, store: T, storage: Storage) -> Result<Self::Output, Error>;
+    fn run<T: Stage>(self, model: &Model<O, T::Key>, store: T, storage: Storage) -> Result<Self::Output, Error>;
 }
 
 /// Runs a job with the storage that suits the index space and the limits.
-pub(crate) fn on_store<S: System, J: Job<S>>(
-    system: &S,
+pub(crate) fn on_store<O: Origin, J: Job<O>>(
+    origin: O,
     options: &Options,
     crew: &Crew,
     watch: &Watch,
     job: J,
 ) -> Result<J::Output, Error> {
-    let space = space(system.domains())?;
+    let space = space(origin.domains())?;
     // A quarter of the memory is left for lists, duties and traces.
     let bitmap = options.limits.memory.map_or(DEFAULT_BITMAP, |most| most / 4 * 3);
     match u64::try_from(space) {
         Ok(small) if Dense::need(space) <= u128::from(bitmap) => {
-            let model = Model { system, packer: Packer::new(system.domains())?, crew, watch };
+            let model = Model::new(origin, crew, watch)?;
             job.run(&model, Dense::new(small, crew.size()), Storage::Bitmap)
         }
         Ok(_) => {
-            let model = Model { system, packer: Packer::new(system.domains())?, crew, watch };
+            let model = Model::new(origin, crew, watch)?;
             job.run(&model, Hashed::<u64>::new(), Storage::Hash64)
         }
         Err(_) => {
-            let model = Model { system, packer: Packer::new(system.domains())?, crew, watch };
+            let model = Model::new(origin, crew, watch)?;
             job.run(&model, Hashed::<u128>::new(), Storage::Hash128)
         }
     }
@@ -71,10 +75,12 @@ pub fn explore<S: System>(
     validate(properties)?;
     let watch = Watch::new(options.limits);
     let crew = crew(options)?;
-    on_store(system, options, &crew, &watch, Explore { properties, options, progress })
+    let job = Explore { any: Any::new(system), properties, options, progress };
+    on_store(Own(system), options, &crew, &watch, job)
 }
 
 struct Explore<'a> {
+    any: Any<'a>,
     properties: &'a [Property],
     options: &'a Options,
     progress: &'a mut dyn Progress,
@@ -84,42 +90,79 @@ struct Explore<'a> {
 pub(crate) type Tail<'a, K> = Box<dyn FnOnce(K) -> Option<(Vec<Vec<(u32, u32)>>, Option<usize>)> + 'a>;
 
 /// What shows a verdict.
-pub(crate) enum Evidence<'a, S: System, K> {
+pub(crate) enum Evidence<'a, K> {
     None,
     /// A run to find, and how it goes on.
-    Run(Request<'a, S, K>, Option<Tail<'a, K>>),
+    Run(Request<'a, K>, Option<Tail<'a, K>>),
     /// A run found already.
     Trace(Trace),
 }
 
 /// A verdict with what shows it.
-pub(crate) struct Decision<'a, S: System, K> {
+pub(crate) struct Decision<'a, K> {
     pub(crate) verdict: Verdict,
     pub(crate) bound: Option<u64>,
-    pub(crate) evidence: Evidence<'a, S, K>,
+    pub(crate) evidence: Evidence<'a, K>,
 }
 
-impl<S: System, K> From<Verdict> for Decision<'_, S, K> {
+impl<K> From<Verdict> for Decision<'_, K> {
     fn from(verdict: Verdict) -> Self {
         Decision { verdict, bound: None, evidence: Evidence::None }
     }
 }
 
-impl<S: System> Job<S> for Explore<'_> {
+impl<O: Origin> Job<O> for Explore<'_> {
     type Output = Report;
 
-    fn run<T: Store>(self, model: &Model<S, T::Key>, mut store: T, storage: Storage) -> Result<Report, Error> {
+    fn run<T: Stage>(self, model: &Model<O, T::Key>, mut store: T, storage: Storage) -> Result<Report, Error> {
         let found = search(model, &mut store, self.properties, self.options, self.progress)?;
-        let mut memory = found.bytes;
+        let model = Model::new(self.any, model.crew, model.watch)?;
+        T::finish(store, Finish { model, found, properties: self.properties, options: self.options, storage })
+    }
+}
+
+/// A store that can finish an exploration. (Not a provided method: what needs no type of a system is compiled here once,
+/// not again with every system.)
+pub(crate) trait Stage: Store + Sized {
+    fn finish(self, finish: Finish<Self::Key>) -> Result<Report, Error>;
+}
+
+impl Stage for Dense {
+    fn finish(self, finish: Finish<u64>) -> Result<Report, Error> {
+        finish.report(self)
+    }
+}
+
+impl Stage for Hashed<u64> {
+    fn finish(self, finish: Finish<u64>) -> Result<Report, Error> {
+        finish.report(self)
+    }
+}
+
+impl Stage for Hashed<u128> {
+    fn finish(self, finish: Finish<u128>) -> Result<Report, Error> {
+        finish.report(self)
+    }
+}
+
+/// What is left to do after the search: verdicts and traces.
+pub(crate) struct Finish<'a, K> {
+    model: Model<'a, Any<'a>, K>,
+    found: Found<K>,
+    properties: &'a [Property],
+    options: &'a Options,
+    storage: Storage,
+}
+
+impl<K: Key> Finish<'_, K> {
+    fn report<T: Store<Key = K>>(self, mut store: T) -> Result<Report, Error> {
+        let Finish { model, found, properties, options, storage } = self;
+        let model = &model;
+        let decisions = decide(model, &found, properties, options, store.bytes())?;
         let mut requests = Vec::new();
-        let mut decisions = Vec::new();
-        for (property, number) in self.properties.iter().zip(0..) {
-            decisions.push(decide(model, &found, property, number, self.options)?);
-        }
-        let _ = &mut memory;
         let mut judgements = Vec::new();
         let mut tails = Vec::new();
-        for (decision, property) in decisions.into_iter().zip(self.properties) {
+        for (decision, property) in decisions.into_iter().zip(properties) {
             let mut judgement = Judgement {
                 id: property.id.clone(),
                 verdict: decision.verdict,
@@ -144,10 +187,11 @@ impl<S: System> Job<S> for Explore<'_> {
             tails.push(tail);
         }
         let first_fault = requests.len();
-        let codes: Vec<u32> = found.faults.keys().copied().collect();
-        for (code, at) in &found.faults {
-            let test = fault_test(model.system, self.properties, *code);
-            requests.push(Request { at: Some(*at), test, state: None });
+        let late = model.late.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        let codes: Vec<u32> = late.into_iter().chain(found.faults.keys().copied()).collect::<BTreeSet<_>>().into_iter().collect();
+        for code in &codes {
+            let test = fault_test(properties, *code);
+            requests.push(Request { at: found.faults.get(code).copied(), test, state: None });
         }
         let found_runs = runs(model, &mut store, &requests)?;
         for (judgement, tail) in judgements.iter_mut().zip(tails) {
@@ -158,9 +202,12 @@ impl<S: System> Job<S> for Explore<'_> {
                 judgement.trace = Some(trace);
             }
         }
-        let fault = |(code, run): (u32, &Option<Run<T::Key>>)| FaultReport {
+        let fault = |(code, run): (u32, &Option<Run<K>>)| FaultReport {
             code,
-            length: found.faults.get(&code).map(|(depth, _)| u64::from(*depth) + 1),
+            length: match run {
+                Some(run) => Some(run.trace.steps.len() as u64),
+                None => found.faults.get(&code).map(|(depth, _)| u64::from(*depth) + 1),
+            },
             trace: run.as_ref().map(|run| run.trace.clone()),
         };
         let faults = codes.into_iter().zip(&found_runs[first_fault..]).map(fault).collect();
@@ -173,9 +220,9 @@ impl<S: System> Job<S> for Explore<'_> {
             absorbing_examples: found.examples.iter().map(|key| model.packer.state(*key)).collect(),
             coverage: found.coverage,
             absorbing: found.absorbing,
-            memory,
+            memory: found.bytes.max(model.watch.peak()),
             storage,
-            index_space: space(model.system.domains())?,
+            index_space: space(model.origin.domains())?,
             faults,
             properties: judgements,
         })
@@ -193,75 +240,92 @@ fn extend<K>(run: Run<K>, tail: Option<Tail<K>>) -> Option<Trace> {
 }
 
 /// A test for cycles that mean something to a property.
-pub(crate) fn sign_test<'a, S: System, K: Key>(
-    system: &'a S,
+pub(crate) fn sign_test<'a, K: Key>(
     form: &'a Form,
     accept: impl Fn(Sign, K) -> bool + Send + Sync + 'a,
-) -> Test<'a, S, K> {
-    Arc::new(move |work, choices, leaf| {
+) -> Test<'a, K> {
+    Arc::new(move |process: &mut dyn Process, choices, leaf| {
         let Leaf::To(after) = leaf else { return false };
-        let sign = Eval { system, work, choices, fault: |_| () }.sign(form);
+        let sign = Eval { process, choices, fault: |_| () }.sign(form);
         accept(sign, after)
     })
 }
 
 /// A test for cycles in which the step or the properties meet a fault.
-fn fault_test<'a, S: System, K: Key>(system: &'a S, properties: &'a [Property], code: u32) -> Test<'a, S, K> {
-    Arc::new(move |work, choices, leaf| match leaf {
+fn fault_test<'a, K: Key>(properties: &'a [Property], code: u32) -> Test<'a, K> {
+    Arc::new(move |process, choices, leaf| match leaf {
         Leaf::Fault(fault) => fault.code == code,
         Leaf::Discarded => false,
         Leaf::To(_) => {
-            let mut met = false;
-            for property in properties {
-                let fault = |fault: crate::Fault| met |= fault.code == code;
-                Eval { system, work: &mut *work, choices: &mut *choices, fault }.sign(&property.form);
-            }
-            met
+            let mut atoms = properties.iter().flat_map(|p| p.form.atoms());
+            atoms.any(|atom| process.atom(atom, choices).is_err_and(|fault| fault.code == code))
         }
     })
 }
 
 /// The evidence of a verdict that the search itself has seen.
-pub(crate) fn seen<'a, S: System, K: Key>(
-    system: &'a S,
+pub(crate) fn seen<'a, K: Key>(
     form: &'a Form,
     at: Option<(u32, K)>,
     accept: impl Fn(Sign) -> bool + Send + Sync + 'a,
-) -> Evidence<'a, S, K> {
+) -> Evidence<'a, K> {
     match at {
         None => Evidence::None,
-        Some(_) => Evidence::Run(Request { at, test: sign_test(system, form, move |s, _| accept(s)), state: None }, None),
+        Some(_) => Evidence::Run(Request { at, test: sign_test(form, move |s, _| accept(s)), state: None }, None),
     }
 }
 
-fn decide<'a, S: System, K: Key>(
-    model: &Model<'a, S, K>,
+/// Judges every property.
+fn decide<'a, K: Key>(
+    model: &'a Model<'a, Any<'a>, K>,
     found: &Found<K>,
-    property: &'a Property,
-    number: usize,
+    properties: &'a [Property],
     options: &Options,
-) -> Result<Decision<'a, S, K>, Error> {
-    let signs = found.signs[number];
-    let form = &property.form;
-    let witness = || match options.witnesses {
-        true => seen(model.system, form, signs.first, |s| s.first),
-        false => Evidence::None,
-    };
-    let decision = |verdict, evidence| Decision { verdict, bound: None, evidence };
-    Ok(match form {
-        Form::Always { .. } if signs.bad.is_some() => {
-            decision(Verdict::Violated, seen(model.system, form, signs.bad, |s| s.bad))
+    held: u64,
+) -> Result<Vec<Decision<'a, K>>, Error> {
+    let mut goals = Vec::new();
+    if found.complete {
+        for property in properties {
+            if let Form::CanAlwaysReach { goal, using } = property.form {
+                goals.push((goal, using));
+            }
         }
-        Form::Reachable { .. } if signs.first.is_some() => {
-            decision(Verdict::Reached, seen(model.system, form, signs.first, |s| s.first))
-        }
-        _ if !found.complete => Verdict::Inconclusive.into(),
-        Form::Reachable { .. } => Verdict::Unreachable.into(),
-        Form::Always { when: None, .. } => Verdict::Holds.into(),
-        Form::Always { .. } | Form::LeadsTo { .. } | Form::Unless { .. } if signs.first.is_none() => {
-            Verdict::Vacuous.into()
-        }
-        Form::Always { .. } => decision(Verdict::Holds, witness()),
-        _ => Verdict::Inconclusive.into(),
-    })
+    }
+    let mut lost = recoverable(model, &goals, held)?.into_iter();
+    let mut decisions = Vec::new();
+    for (number, Property { form, .. }) in properties.iter().enumerate() {
+        let signs = found.signs[number];
+        let pending = &found.pending[number];
+        let witness = match options.witnesses {
+            true => seen(form, signs.first, |s| s.first),
+            false => Evidence::None,
+        };
+        let decision = |verdict, evidence| Decision { verdict, bound: None, evidence };
+        decisions.push(match form {
+            Form::Always { .. } if signs.bad.is_some() => {
+                decision(Verdict::Violated, seen(form, signs.bad, |s| s.bad))
+            }
+            Form::Reachable { .. } if signs.first.is_some() => {
+                decision(Verdict::Reached, seen(form, signs.first, |s| s.first))
+            }
+            Form::Unless { holds, unless, .. } if found.complete || signs.bad.is_some() => match signs.first {
+                None => Verdict::Vacuous.into(),
+                Some(_) => until(model, form, (*holds, *unless), signs, pending, witness, options, held)?,
+            },
+            _ if !found.complete => Verdict::Inconclusive.into(),
+            Form::Reachable { .. } => Verdict::Unreachable.into(),
+            Form::Always { when: None, .. } => Verdict::Holds.into(),
+            Form::CanAlwaysReach { .. } => recovery(lost.next().flatten(), witness),
+            _ if signs.first.is_none() => Verdict::Vacuous.into(),
+            Form::LeadsTo { goal, within, fair: conditions, assuming, .. } => {
+                let response = Response { goal: *goal, assuming: *assuming };
+                match within {
+                    Some(within) => bounded(model, form, response, *within, pending, witness, held),
+                    None => fair(model, form, response, conditions, pending, witness, held),
+                }
+            }
+            Form::Always { .. } | Form::Unless { .. } => decision(Verdict::Holds, witness),
+        });
+    }
+    Ok(decisions)
 }

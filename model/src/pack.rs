@@ -10,7 +10,6 @@ pub(crate) trait Key: Copy + Ord + Debug + Send + Sync + 'static {
     const EMPTY: Self;
     /// None if the value does not fit.
     fn of(value: u128) -> Option<Self>;
-    fn wide(self) -> u128;
     fn add_digit(self, stride: Self, digit: u64) -> Self;
     fn split(self, size: u64) -> (Self, u64);
     /// A mixed 64-bit hash.
@@ -29,9 +28,6 @@ impl Key for u64 {
     const EMPTY: Self = u64::MAX;
     fn of(value: u128) -> Option<Self> {
         u64::try_from(value).ok()
-    }
-    fn wide(self) -> u128 {
-        u128::from(self)
     }
     #[inline]
     fn add_digit(self, stride: Self, digit: u64) -> Self {
@@ -52,9 +48,6 @@ impl Key for u128 {
     const EMPTY: Self = u128::MAX;
     fn of(value: u128) -> Option<Self> {
         Some(value)
-    }
-    fn wide(self) -> u128 {
-        self
     }
     #[inline]
     fn add_digit(self, stride: Self, digit: u64) -> Self {

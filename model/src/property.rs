@@ -1,7 +1,9 @@
 //! Properties, and what the search watches for on their behalf.
 
 use crate::report::Error;
-use crate::system::{Choices, Fault, System};
+use crate::choices::Odometer;
+use crate::process::Process;
+use crate::system::Fault;
 
 /// A property with its name.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -87,17 +89,16 @@ pub(crate) struct Sign {
 }
 
 /// Evaluates atoms; faults go to a handler and count as FALSE.
-pub(crate) struct Eval<'a, S: System, C, F> {
-    pub(crate) system: &'a S,
-    pub(crate) work: &'a mut S::Work,
-    pub(crate) choices: &'a mut C,
+pub(crate) struct Eval<'a, P: ?Sized, F> {
+    pub(crate) process: &'a mut P,
+    pub(crate) choices: &'a mut Odometer,
     pub(crate) fault: F,
 }
 
-impl<S: System, C: Choices, F: FnMut(Fault)> Eval<'_, S, C, F> {
+impl<P: Process + ?Sized, F: FnMut(Fault)> Eval<'_, P, F> {
     #[inline]
     pub(crate) fn atom(&mut self, atom: usize) -> bool {
-        match self.system.atom(self.work, atom, self.choices) {
+        match self.process.atom(atom, self.choices) {
             Ok(value) => value,
             Err(fault) => {
                 (self.fault)(fault);
@@ -151,9 +152,17 @@ impl<S: System, C: Choices, F: FnMut(Fault)> Eval<'_, S, C, F> {
 }
 
 impl Form {
-    /// Whether the search must collect the states that a duty leaves pending.
-    pub(crate) fn has_duty(&self) -> bool {
-        matches!(self, Form::LeadsTo { .. } | Form::Unless { .. })
+    /// The atoms it mentions.
+    pub(crate) fn atoms(&self) -> Vec<usize> {
+        match self {
+            Form::Always { when, then } => when.iter().chain([then]).copied().collect(),
+            Form::LeadsTo { when, goal, fair, assuming, .. } => {
+                [when, goal].into_iter().chain(fair).chain(assuming).copied().collect()
+            }
+            Form::Unless { when, holds, unless } => vec![*when, *holds, *unless],
+            Form::CanAlwaysReach { goal, using } => using.iter().chain([goal]).copied().collect(),
+            Form::Reachable { goal } => vec![*goal],
+        }
     }
 
     /// Whether nothing more can be learnt from cycles once `first` and `bad` are known.

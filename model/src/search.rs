@@ -1,5 +1,6 @@
 //! The one breadth-first search: counts, coverage, faults, and what every property needs to know.
 
+use crate::choices::Odometer;
 use crate::crew::{Crew, Watch};
 use crate::cursor::{Cursor, Leaf};
 use crate::hashed::{Batch, Sharded};
@@ -7,16 +8,39 @@ use crate::pack::{Key, Packer};
 use crate::property::{Eval, Property};
 use crate::report::{Error, Options, Progress};
 use crate::store::Store;
-use crate::system::{Fault, System};
-use std::collections::BTreeMap;
+use crate::process::{Origin, Process};
+use crate::system::Fault;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::ControlFlow;
+use std::sync::{Mutex, PoisonError};
 
 /// A system with its packing, its workers and its limits.
-pub(crate) struct Model<'a, S, K> {
-    pub(crate) system: &'a S,
+pub(crate) struct Model<'a, O, K> {
+    pub(crate) origin: O,
     pub(crate) packer: Packer<K>,
     pub(crate) crew: &'a Crew,
     pub(crate) watch: &'a Watch,
+    /// Codes of faults that atoms meet after the search.
+    pub(crate) late: Mutex<BTreeSet<u32>>,
+}
+
+impl<'a, O: Origin, K: Key> Model<'a, O, K> {
+    pub(crate) fn new(origin: O, crew: &'a Crew, watch: &'a Watch) -> Result<Self, Error> {
+        let packer = Packer::new(origin.domains())?;
+        Ok(Model { origin, packer, crew, watch, late: Mutex::default() })
+    }
+
+    /// Evaluates atoms after the search; faults are noted and count as FALSE.
+    pub(crate) fn eval<'b, P: ?Sized>(
+        &'b self,
+        process: &'b mut P,
+        choices: &'b mut Odometer,
+    ) -> Eval<'b, P, impl FnMut(Fault) + 'b> {
+        let fault = |fault: Fault| {
+            self.late.lock().unwrap_or_else(PoisonError::into_inner).insert(fault.code);
+        };
+        Eval { process, choices, fault }
+    }
 }
 
 /// The first places, in the order (depth, state), at which something about a property showed.
@@ -46,8 +70,8 @@ pub(crate) struct Found<K> {
 
 // The alignment keeps the counters of two threads out of one cache line.
 #[repr(align(128))]
-struct Worker<'s, S: System, K, L> {
-    cursor: Cursor<'s, S>,
+struct Worker<P, K, L> {
+    cursor: Cursor<P>,
     local: L,
     transitions: u128,
     /// Of all leaves, modulo 2^128; must be the declared combinations for each state explored.
@@ -70,17 +94,17 @@ pub(crate) fn lower<K: Ord + Copy>(slot: &mut Option<K>, key: K) {
 }
 
 /// Explores level by level. The answer does not depend on the number of threads as long as no limit is reached.
-pub(crate) fn search<S: System, T: Store>(
-    model: &Model<S, T::Key>,
+pub(crate) fn search<O: Origin, T: Store>(
+    model: &Model<O, T::Key>,
     store: &mut T,
     properties: &[Property],
     options: &Options,
     progress: &mut dyn Progress,
 ) -> Result<Found<T::Key>, Error> {
-    let system = model.system;
+    let origin = &model.origin;
     let mut workers: Vec<_> = (0..model.crew.size())
         .map(|_| Worker {
-            cursor: Cursor::new(system),
+            cursor: Cursor::new(origin),
             local: store.local(),
             transitions: 0,
             weights: 0,
@@ -89,7 +113,7 @@ pub(crate) fn search<S: System, T: Store>(
             bad: vec![None; properties.len()],
             pending: properties.iter().map(|_| Batch::new()).collect(),
             faults: BTreeMap::new(),
-            coverage: vec![0; system.rules()],
+            coverage: vec![0; origin.rules()],
             absorbing: 0,
             examples: Vec::new(),
         })
@@ -102,7 +126,7 @@ pub(crate) fn search<S: System, T: Store>(
         signs: vec![Signs { first: None, bad: None }; properties.len()],
         pending: properties.iter().map(|_| Sharded::new()).collect(),
         faults: BTreeMap::new(),
-        coverage: vec![0; system.rules()],
+        coverage: vec![0; origin.rules()],
         absorbing: 0,
         examples: Vec::new(),
         bytes: store.bytes(),
@@ -139,8 +163,8 @@ pub(crate) fn search<S: System, T: Store>(
     }
     let explored = workers.iter().fold(0u128, |sum, w| sum + u128::from(w.explored));
     let weights = workers.iter().fold(0u128, |sum, w| sum.wrapping_add(w.weights));
-    if weights != explored.wrapping_mul(system.combinations()) {
-        return Err(Error::Combinations { declared: system.combinations() });
+    if weights != explored.wrapping_mul(origin.combinations()) {
+        return Err(Error::Combinations { declared: origin.combinations() });
     }
     Ok(found)
 }
@@ -150,9 +174,9 @@ fn bytes<T: Store>(store: &T, pending: &[Sharded<T::Key>]) -> u64 {
 }
 
 /// Makes the initial states the frontier of an empty store.
-pub(crate) fn initial<S: System, T: Store>(model: &Model<S, T::Key>, store: &mut T) -> Result<u64, Error> {
+pub(crate) fn initial<O: Origin, T: Store>(model: &Model<O, T::Key>, store: &mut T) -> Result<u64, Error> {
     let mut local = store.local();
-    Cursor::new(model.system).initial(&model.packer, |key, _| {
+    Cursor::new(&model.origin).initial(&model.packer, |key, _| {
         store.visit(&mut local, key);
         ControlFlow::Continue(())
     })?;
@@ -160,8 +184,8 @@ pub(crate) fn initial<S: System, T: Store>(model: &Model<S, T::Key>, store: &mut
 }
 
 /// What is the same for all workers during a level.
-struct Level<'a, S, T: Store> {
-    model: &'a Model<'a, S, T::Key>,
+struct Level<'a, O, T: Store> {
+    model: &'a Model<'a, O, T::Key>,
     store: &'a T,
     properties: &'a [Property],
     open: &'a [usize],
@@ -169,8 +193,8 @@ struct Level<'a, S, T: Store> {
     options: &'a Options,
 }
 
-impl<S: System, T: Store> Level<'_, S, T> {
-    fn explore(&self, worker: &mut Worker<S, T::Key, T::Local>, piece: usize) {
+impl<O: Origin, T: Store> Level<'_, O, T> {
+    fn explore(&self, worker: &mut Worker<O::Process, T::Key, T::Local>, piece: usize) {
         if self.model.watch.over(bytes(self.store, self.pending)) {
             return;
         }
@@ -178,20 +202,19 @@ impl<S: System, T: Store> Level<'_, S, T> {
     }
 
     #[inline]
-    fn state(&self, worker: &mut Worker<S, T::Key, T::Local>, key: T::Key) {
-        let system = self.model.system;
+    fn state(&self, worker: &mut Worker<O::Process, T::Key, T::Local>, key: T::Key) {
         let Worker { cursor, local, first, bad, pending, faults, coverage, .. } = worker;
         let mut last = key;
         let (mut stays, mut makes) = (true, false);
         let (mut weights, mut discarded) = (0u128, 0u128);
-        cursor.leaves(&self.model.packer, key, |work, odometer, leaf| {
+        cursor.leaves(&self.model.packer, key, |process, odometer, leaf| {
             match leaf {
                 Leaf::To(after) => {
                     makes = true;
                     stays &= after == key;
                     for property in self.open.iter().copied() {
                         let mut eval =
-                            Eval { system, work, choices: odometer, fault: |fault: Fault| record(faults, fault.code, key) };
+                            Eval { process, choices: odometer, fault: |fault: Fault| record(faults, fault.code, key) };
                         let sign = eval.sign(&self.properties[property].form);
                         if sign.first {
                             lower(&mut first[property], key);
@@ -209,11 +232,7 @@ impl<S: System, T: Store> Level<'_, S, T> {
                     }
                     if !coverage.is_empty() {
                         let weight = u64::try_from(odometer.weight()).unwrap_or(u64::MAX);
-                        system.fired(work, &mut |rule| {
-                            if let Some(count) = coverage.get_mut(rule) {
-                                *count = count.saturating_add(weight);
-                            }
-                        });
+                        process.count(weight, coverage);
                     }
                 }
                 Leaf::Fault(fault) => {
@@ -250,7 +269,7 @@ fn least<K: Ord>(keys: &mut Vec<K>, most: usize) {
 }
 
 /// Takes over what a worker found in the level just explored (at depth `found.depth`).
-fn gather<S: System, K: Key, L>(found: &mut Found<K>, worker: &mut Worker<S, K, L>, examples: usize) {
+fn gather<P, K: Key, L>(found: &mut Found<K>, worker: &mut Worker<P, K, L>, examples: usize) {
     let depth = found.depth;
     for (property, signs) in found.signs.iter_mut().enumerate() {
         if let Some(key) = worker.first[property].take() {

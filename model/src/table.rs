@@ -1,11 +1,9 @@
 //! Specification tables as systems to explore: interpreted, or through their generated step functions.
 
-use std::marker::PhantomData;
-
 use stillpoint_spec::bind::Bound;
 use stillpoint_spec::eval;
 use stillpoint_spec::ir;
-use stillpoint_tables::{Cells, Table};
+use stillpoint_tables::Table;
 
 use crate::property::{Form, Property};
 use crate::system::{Choices, Domain, Fault, System};
@@ -138,24 +136,25 @@ impl System for Interpreted<'_> {
 }
 
 /// A table run by its generated step function.
-pub struct Generated<'a, T> {
+pub struct Generated<'a> {
     bound: &'a Bound,
+    table: &'static Table,
     shape: Shape,
-    table: PhantomData<T>,
 }
 
-impl<'a, T: Table> Generated<'a, T> {
-    /// A system over `bound`, which must be the specification that `T` was generated from.
-    pub fn new(bound: &'a Bound) -> Self {
-        Self { bound, shape: Shape::new(bound), table: PhantomData }
+impl<'a> Generated<'a> {
+    /// A system over `bound`, if generated code belongs to exactly this specification.
+    pub fn find(bound: &'a Bound) -> Option<Self> {
+        let table = Table::find(&bound.system.name, bound.system.fingerprint())?;
+        Some(Self { bound, table, shape: Shape::new(bound) })
     }
 }
 
-impl<T: Table> System for Generated<'_, T> {
-    type Work = T::Frame;
+impl System for Generated<'_> {
+    type Work = Box<[i32]>;
 
     fn work(&self) -> Self::Work {
-        T::Frame::unset()
+        vec![0; self.table.cells].into_boxed_slice()
     }
 
     fn domains(&self) -> &[Domain] {
@@ -178,15 +177,17 @@ impl<T: Table> System for Generated<'_, T> {
         choices: &mut C,
         after: &mut [i32],
     ) -> Result<(), Fault> {
-        work.start(before);
-        T::step(work, &self.bound.values, &mut |k| self.shape.read(choices, k)).map_err(|code| Fault { code })?;
-        after.copy_from_slice(work.now());
+        self.table.start(work, before);
+        (self.table.step)(work, &self.bound.values, &mut |k| self.shape.read(choices, k))
+            .map_err(|code| Fault { code })?;
+        after.copy_from_slice(&work[..after.len()]);
         Ok(())
     }
 
     #[inline]
     fn atom<C: Choices>(&self, work: &mut Self::Work, atom: usize, choices: &mut C) -> Result<bool, Fault> {
-        Ok(T::atom(atom, work, &self.bound.values, &mut |k| self.shape.read(choices, k)))
+        (self.table.atom)(atom, work, &self.bound.values, &mut |k| self.shape.read(choices, k))
+            .map_err(|code| Fault { code })
     }
 
     fn rules(&self) -> usize {
@@ -195,11 +196,12 @@ impl<T: Table> System for Generated<'_, T> {
 
     #[inline]
     fn fired(&self, work: &Self::Work, each: &mut impl FnMut(usize)) {
-        self.shape.fired(work.fired(), each);
+        self.shape.fired(&work[self.table.cells - self.table.fired..], each);
     }
 
     fn observe<C: Choices>(&self, work: &mut Self::Work, expression: usize, choices: &mut C) -> Result<i64, Fault> {
-        Ok(T::observe(expression, work, &self.bound.values, &mut |k| self.shape.read(choices, k)))
+        (self.table.observe)(expression, work, &self.bound.values, &mut |k| self.shape.read(choices, k))
+            .map_err(|code| Fault { code })
     }
 }
 

@@ -7,22 +7,22 @@ use crate::pack::Key;
 use crate::report::{Error, Trace};
 use crate::search::{Model, initial, lower};
 use crate::store::{PIECE, Store};
-use crate::system::System;
+use crate::process::{Origin, Process};
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
 /// Says whether a cycle is the one looked for.
-pub(crate) type Test<'a, S, K> =
-    Arc<dyn Fn(&mut <S as System>::Work, &mut Odometer, Leaf<K>) -> bool + Send + Sync + 'a>;
+pub(crate) type Test<'a, K> =
+    Arc<dyn Fn(&mut dyn Process, &mut Odometer, Leaf<K>) -> bool + Send + Sync + 'a>;
 
 /// Says whether an initial state is the place looked for.
 pub(crate) type StateTest<'a, K> = Arc<dyn Fn(K) -> bool + Send + Sync + 'a>;
 
 /// A run to find: to the first cycle, in the order (depth, state, choices), that passes the test.
-pub(crate) struct Request<'a, S: System, K> {
+pub(crate) struct Request<'a, K> {
     /// The depth and the state before the cycle, where the search has told them.
     pub(crate) at: Option<(u32, K)>,
-    pub(crate) test: Test<'a, S, K>,
+    pub(crate) test: Test<'a, K>,
     /// An initial state that passes needs no cycle.
     pub(crate) state: Option<StateTest<'a, K>>,
 }
@@ -43,10 +43,10 @@ struct Goal<K> {
 }
 
 /// The runs of the requests. None for what is not reached, or where memory does not suffice.
-pub(crate) fn runs<S: System, T: Store>(
-    model: &Model<S, T::Key>,
+pub(crate) fn runs<O: Origin, T: Store>(
+    model: &Model<O, T::Key>,
     store: &mut T,
-    requests: &[Request<S, T::Key>],
+    requests: &[Request<T::Key>],
 ) -> Result<Vec<Option<Run<T::Key>>>, Error> {
     if requests.is_empty() {
         return Ok(Vec::new());
@@ -55,7 +55,7 @@ pub(crate) fn runs<S: System, T: Store>(
     let (levels, goals) = forward(model, store, requests)?;
     store.clear();
     let chains = backward(model, levels, &goals);
-    let mut cursor = Cursor::new(model.system);
+    let mut cursor = Cursor::new(&model.origin);
     let mut found = Vec::with_capacity(requests.len());
     for ((request, goal), chain) in requests.iter().zip(&goals).zip(chains) {
         found.push(match goal {
@@ -68,12 +68,12 @@ pub(crate) fn runs<S: System, T: Store>(
 
 /// The levels in ascending order of states, up to the deepest goal; and the goals.
 #[allow(clippy::type_complexity)]
-fn forward<S: System, T: Store>(
-    model: &Model<S, T::Key>,
+fn forward<O: Origin, T: Store>(
+    model: &Model<O, T::Key>,
     store: &mut T,
-    requests: &[Request<S, T::Key>],
+    requests: &[Request<T::Key>],
 ) -> Result<(Vec<Vec<T::Key>>, Vec<Option<Goal<T::Key>>>), Error> {
-    let known = |r: &Request<S, T::Key>| {
+    let known = |r: &Request<T::Key>| {
         r.at.map(|(depth, key)| Goal { depth: depth as usize, key, no_cycle: false })
     };
     let mut goals: Vec<_> = requests.iter().map(known).collect();
@@ -81,7 +81,7 @@ fn forward<S: System, T: Store>(
     let mut levels: Vec<Vec<T::Key>> = Vec::new();
     let mut held = 0;
     let mut workers: Vec<_> = (0..model.crew.size())
-        .map(|_| (Cursor::new(model.system), store.local(), vec![None; requests.len()]))
+        .map(|_| (Cursor::new(&model.origin), store.local(), vec![None; requests.len()]))
         .collect();
     initial(model, store)?;
     loop {
@@ -111,9 +111,9 @@ fn forward<S: System, T: Store>(
         let (now, open) = (&*store, &open);
         model.crew.share(&mut workers, now.pieces(), |(cursor, local, hits), piece| {
             now.each(piece, |key| {
-                cursor.leaves(&model.packer, key, |work, odometer, leaf| {
+                cursor.leaves(&model.packer, key, |process, odometer, leaf| {
                     for request in open.iter().copied() {
-                        if (requests[request].test)(work, odometer, leaf) {
+                        if (requests[request].test)(process, odometer, leaf) {
                             lower(&mut hits[request], key);
                         }
                     }
@@ -138,13 +138,13 @@ fn forward<S: System, T: Store>(
 }
 
 /// For each goal the states of its run from the last one back to the initial one: always the least predecessor.
-fn backward<S: System, K: Key>(
-    model: &Model<S, K>,
+fn backward<O: Origin, K: Key>(
+    model: &Model<O, K>,
     mut levels: Vec<Vec<K>>,
     goals: &[Option<Goal<K>>],
 ) -> Vec<Vec<K>> {
     let mut chains: Vec<Vec<K>> = goals.iter().map(|g| g.map(|g| g.key).into_iter().collect()).collect();
-    let mut cursors: Vec<_> = (0..model.crew.size()).map(|_| (Cursor::new(model.system), Vec::new())).collect();
+    let mut cursors: Vec<_> = (0..model.crew.size()).map(|_| (Cursor::new(&model.origin), Vec::new())).collect();
     while levels.len() > 1 {
         levels.truncate(levels.len() - 1);
         let Some(level) = levels.last() else { break };
@@ -190,10 +190,10 @@ fn backward<S: System, K: Key>(
 }
 
 /// The choices along a chain of states, and those of the last cycle.
-fn spell<S: System, K: Key>(
-    model: &Model<S, K>,
-    cursor: &mut Cursor<S>,
-    request: &Request<S, K>,
+fn spell<O: Origin, K: Key>(
+    model: &Model<O, K>,
+    cursor: &mut Cursor<O::Process>,
+    request: &Request<K>,
     goal: Goal<K>,
     chain: &[K],
 ) -> Result<Option<Run<K>>, Error> {
@@ -216,7 +216,7 @@ fn spell<S: System, K: Key>(
         return Ok(Some(Run { trace, end: Some(goal.key) }));
     }
     let test = &request.test;
-    let last = cursor.first(&model.packer, goal.key, |work, odometer, leaf| test(work, odometer, leaf));
+    let last = cursor.first(&model.packer, goal.key, |process, odometer, leaf| test(process, odometer, leaf));
     Ok(last.map(|(choices, leaf)| {
         trace.steps.push(choices);
         let end = if let Leaf::To(key) = leaf { Some(key) } else { None };

@@ -7,6 +7,15 @@ use stillpoint_monitors::kernel::{Cycles, Position, Speed};
 
 use crate::source::{Source, Verdict};
 
+/// The wide values an enumeration tries; narrow values it tries all.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Domain {
+    /// The delays tried as parameters, in cycles.
+    pub delays: &'static [u32],
+    /// The highest speed tried; the lowest is 0.
+    pub highest_speed: u32,
+}
+
 /// The result of an enumeration.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Count {
@@ -36,18 +45,19 @@ struct Digit {
 pub struct Odometer {
     digits: Vec<Digit>,
     next: usize,
-    window: u32,
+    domain: Domain,
     covers: Vec<u64>,
 }
 
 impl Odometer {
-    fn choose(&mut self, count: u32) -> u32 {
+    /// A choice from 0 to `highest`.
+    fn choose(&mut self, highest: u32) -> u32 {
         let position = self.next;
         self.next += 1;
         if let Some(digit) = self.digits.get(position) {
             digit.value
         } else {
-            self.digits.push(Digit { value: 0, highest: count });
+            self.digits.push(Digit { value: 0, highest });
             0
         }
     }
@@ -72,8 +82,15 @@ impl Source for Odometer {
         low + self.choose(high.saturating_sub(low))
     }
 
+    fn any_delay(&mut self, longest: Cycles) -> Cycles {
+        let delays = self.domain.delays;
+        let index = self.choose((delays.len() as u32).saturating_sub(1));
+        let delay = delays.get(index as usize).copied().unwrap_or(0);
+        Cycles::new(delay.min(longest.count()))
+    }
+
     fn any_cycles(&mut self, longest: Cycles) -> Cycles {
-        Cycles::new(self.choose(self.window.min(longest.count())))
+        Cycles::new(self.choose(longest.count()))
     }
 
     fn any_position(&mut self) -> Position {
@@ -82,7 +99,7 @@ impl Source for Odometer {
     }
 
     fn any_speed(&mut self) -> Speed {
-        Speed(self.choose(self.window))
+        Speed(self.choose(self.domain.highest_speed))
     }
 
     fn cover(&mut self, index: usize, met: bool) {
@@ -94,9 +111,18 @@ impl Source for Odometer {
 
 /// Runs the property for every choice, or until it breaks.
 ///
-/// `window` is the highest wide value tried, `covers` the number of covers of the harness.
-pub fn enumerate(window: u32, covers: usize, mut property: impl FnMut(&mut Odometer) -> Verdict) -> Count {
-    let mut source = Odometer { digits: Vec::new(), next: 0, window, covers: vec![0; covers] };
+/// `covers` is the number of covers of the harness.
+pub fn enumerate(
+    domain: Domain,
+    covers: usize,
+    mut property: impl FnMut(&mut Odometer) -> Verdict,
+) -> Count {
+    let mut source = Odometer {
+        digits: Vec::new(),
+        next: 0,
+        domain,
+        covers: vec![0; covers],
+    };
     let mut cases = 0;
     let mut discarded = 0;
     let mut broken = None;
@@ -106,7 +132,15 @@ pub fn enumerate(window: u32, covers: usize, mut property: impl FnMut(&mut Odome
             Verdict::Discarded => discarded += 1,
             Verdict::Broken(law) => {
                 cases += 1;
-                broken = Some((law, source.digits.iter().take(source.next).map(|digit| digit.value).collect()));
+                broken = Some((
+                    law,
+                    source
+                        .digits
+                        .iter()
+                        .take(source.next)
+                        .map(|digit| digit.value)
+                        .collect(),
+                ));
                 break;
             }
         }
@@ -114,17 +148,27 @@ pub fn enumerate(window: u32, covers: usize, mut property: impl FnMut(&mut Odome
             break;
         }
     }
-    Count { cases, discarded, covers: source.covers, broken }
+    Count {
+        cases,
+        discarded,
+        covers: source.covers,
+        broken,
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    const SMALL: Domain = Domain {
+        delays: &[0],
+        highest_speed: 0,
+    };
+
     #[test]
     fn every_combination_comes_exactly_once() {
         let mut seen = Vec::new();
-        let count = enumerate(2, 1, |source| {
+        let count = enumerate(SMALL, 1, |source| {
             let first = source.any_in(3, 5);
             // The second choice exists only on one branch: on demand.
             let second = if first == 4 { source.any_in(0, 1) } else { 9 };
@@ -133,15 +177,22 @@ mod tests {
             Verdict::Held
         });
         assert_eq!(seen, [(3, 9), (4, 0), (4, 1), (5, 9)]);
-        assert_eq!((count.cases, count.discarded, count.covers.as_slice()), (4, 0, [1].as_slice()));
+        assert_eq!(
+            (count.cases, count.discarded, count.covers.as_slice()),
+            (4, 0, [1].as_slice())
+        );
         assert!(count.proves());
     }
 
     #[test]
     fn the_first_broken_law_is_kept_with_its_digits() {
-        let count = enumerate(2, 0, |source| {
+        let count = enumerate(SMALL, 0, |source| {
             let (a, b) = (source.any_bool(), source.any_in(0, 2));
-            if a && b == 1 { Verdict::Broken("law") } else { Verdict::Held }
+            if a && b == 1 {
+                Verdict::Broken("law")
+            } else {
+                Verdict::Held
+            }
         });
         assert_eq!(count.broken, Some(("law", vec![1, 1])));
         assert!(!count.proves());
@@ -149,7 +200,7 @@ mod tests {
 
     #[test]
     fn a_cover_never_met_proves_nothing() {
-        let count = enumerate(0, 1, |source| {
+        let count = enumerate(SMALL, 1, |source| {
             source.cover(0, false);
             Verdict::Held
         });

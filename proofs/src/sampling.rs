@@ -17,7 +17,11 @@ pub struct Tape<'a> {
 impl<'a> Tape<'a> {
     /// A source over the words; `covers` counts the covers met.
     pub fn new(words: &'a [u32], covers: &'a mut [u64]) -> Self {
-        Self { words, next: 0, covers }
+        Self {
+            words,
+            next: 0,
+            covers,
+        }
     }
 
     fn word(&mut self) -> u32 {
@@ -33,7 +37,7 @@ impl<'a> Tape<'a> {
         match word & 3 {
             0 | 1 => value % highest.min(3).saturating_add(1),
             2 => highest - value % highest.min(3).saturating_add(1),
-            _ => (u64::from(word) * (u64::from(highest) + 1) >> 32) as u32,
+            _ => ((u64::from(word) * (u64::from(highest) + 1)) >> 32) as u32,
         }
     }
 }
@@ -44,12 +48,17 @@ impl Source for Tape<'_> {
         low + self.word() % span
     }
 
+    fn any_delay(&mut self, longest: Cycles) -> Cycles {
+        Cycles::new(self.wide(longest.count()))
+    }
+
     fn any_cycles(&mut self, longest: Cycles) -> Cycles {
         Cycles::new(self.wide(longest.count()))
     }
 
     fn any_position(&mut self) -> Position {
-        Position(self.wide(u32::MAX).wrapping_sub(1 << 31).cast_signed_bits())
+        // The same bits read as a signed number.
+        Position(self.wide(u32::MAX) as i32)
     }
 
     fn any_speed(&mut self) -> Speed {
@@ -60,16 +69,5 @@ impl Source for Tape<'_> {
         if let Some(count) = self.covers.get_mut(index) {
             *count += u64::from(met);
         }
-    }
-}
-
-/// The bits of a word read as a signed number.
-trait CastSignedBits {
-    fn cast_signed_bits(self) -> i32;
-}
-
-impl CastSignedBits for u32 {
-    fn cast_signed_bits(self) -> i32 {
-        i32::from_ne_bytes(self.to_ne_bytes())
     }
 }

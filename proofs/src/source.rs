@@ -16,18 +16,21 @@ pub enum Verdict {
 /// Nondeterministic values, one choice after the other.
 ///
 /// Engines differ in what "every value" means: the narrow ranges of [`Source::any_in`] are complete in every engine, the
-/// wide values are cut to a window by the enumeration and complete under Kani.
+/// wide values are cut to a small domain by the enumeration and complete under Kani.
 pub trait Source {
     /// Any value from `low` to `high`, both included. `low` must not be above `high`.
     fn any_in(&mut self, low: u32, high: u32) -> u32;
 
-    /// Any duration of at most `longest`; the enumeration takes 0 to its window.
+    /// Any delay of at most `longest`, a parameter; the enumeration takes the delays of its domain.
+    fn any_delay(&mut self, longest: Cycles) -> Cycles;
+
+    /// Any duration of at most `longest`, the rest of a delay; the enumeration takes every one (its delays are short).
     fn any_cycles(&mut self, longest: Cycles) -> Cycles;
 
     /// Any position; the enumeration takes two.
     fn any_position(&mut self) -> Position;
 
-    /// Any speed; the enumeration takes 0 to its window.
+    /// Any speed; the enumeration takes 0 to the highest of its domain.
     fn any_speed(&mut self) -> Speed;
 
     /// Notes whether the situation `index` of the harness's list of covers was met.

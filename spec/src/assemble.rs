@@ -194,6 +194,7 @@ impl<'a> Builder<'a> {
                 id: id.clone(),
                 text: reading.def.text.clone(),
                 options: reading.def.options.iter().map(|o| o.get_ref().clone()).collect(),
+                note: reading.def.note.clone(),
             });
             for (k, option) in reading.def.options.iter().enumerate() {
                 let name = option.get_ref().clone();
@@ -212,6 +213,7 @@ impl<'a> Builder<'a> {
                         lo: Node::Const(0),
                         hi: Node::Const(1),
                         text: reading.def.text.clone(),
+                        ids: Vec::new(),
                     },
                     default: Node::Const(i64::from(k == 0)),
                     reading: Some(id.clone()),
@@ -458,6 +460,7 @@ impl<'a> Builder<'a> {
             lo: lo.clone(),
             hi: hi.clone(),
             text: port.text.clone(),
+            ids: port.id.clone(),
         };
         Ok(match array {
             None => (vec![var(full.to_owned())], None),
@@ -754,6 +757,7 @@ impl<'a> Builder<'a> {
                         lo: lo as i64,
                         hi: hi as i64,
                         ids: Vec::new(),
+                        text: String::new(),
                     });
                     self.lazy_owner.push(None);
                     let written = def.wire.get_index(*k).map(|(key, _)| key.get_ref().clone());
@@ -801,6 +805,7 @@ impl<'a> Builder<'a> {
                 lo,
                 hi,
                 ids: def.0.id.clone(),
+                text: def.0.text.clone(),
             });
             self.lazy_owner.push(Some(owner));
             let meaning = Meaning::Value(ty, Node::Lazy(index));
@@ -845,34 +850,15 @@ impl<'a> Builder<'a> {
         needs
     }
 
+    /// The units whose outputs or new state an expression reads.
     fn providers(&self, node: &Node, out: &mut Vec<usize>) {
-        let state = |k: u32| self.state_owner.get(k as usize).copied();
-        match node {
-            Node::Cell(Space::Now, k) => out.extend(state(*k)),
-            Node::Element { space, base, index, .. } => {
-                if *space == Space::Now {
-                    out.extend(state(*base));
-                }
-                self.providers(index, out);
+        node.visit(&mut |n| match n {
+            Node::Cell(Space::Now, k) | Node::Element { space: Space::Now, base: k, .. } => {
+                out.extend(self.state_owner.get(*k as usize).copied());
             }
             Node::Lazy(k) => out.extend(self.lazy_owner.get(*k as usize).copied().flatten()),
-            Node::Not(a) | Node::Neg(a) | Node::Abs(a) => self.providers(a, out),
-            Node::Binary(_, a, b) => {
-                self.providers(a, out);
-                self.providers(b, out);
-            }
-            Node::Sel(g, a, b) => {
-                self.providers(g, out);
-                self.providers(a, out);
-                self.providers(b, out);
-            }
-            Node::Mux(k, v) => {
-                self.providers(k, out);
-                v.iter().for_each(|n| self.providers(n, out));
-            }
-            Node::Min(v) | Node::Max(v) => v.iter().for_each(|n| self.providers(n, out)),
             _ => {}
-        }
+        });
     }
 
     /// Data-flow order: providers first, else the order of the file.
@@ -1027,88 +1013,34 @@ impl<'a> Builder<'a> {
 
     /// Warnings: inputs and named expressions that nothing reads.
     fn unused(&mut self) {
-        let mut read = Usage::default();
-        for rule in self.sys.rules() {
-            read.node(&rule.when);
-            rule.then.iter().for_each(|s| read.stmt(s));
-        }
-        self.sys.lazies.iter().for_each(|l| read.node(&l.value));
-        self.sys.atoms.iter().chain(&self.sys.observed).for_each(|n| read.node(n));
+        let mut inputs = vec![false; self.sys.inputs.len()];
+        let mut lazies = vec![false; self.sys.lazies.len()];
+        self.sys.nodes(&mut |n| match n {
+            Node::Cell(Space::Input, k) => inputs[*k as usize] = true,
+            Node::Element { space: Space::Input, base, len, .. } => {
+                inputs[*base as usize..(*base + *len) as usize].fill(true);
+            }
+            Node::Lazy(k) => lazies[*k as usize] = true,
+            _ => {}
+        });
         for p in &self.sys.properties {
             if let Form::Independent { of, .. } = &p.form {
-                read.inputs.extend(of.iter().map(|k| *k as u32));
+                of.iter().for_each(|k| inputs[*k] = true);
             }
         }
-        for (k, input) in self.sys.inputs.iter().enumerate() {
-            if !read.inputs.contains(&(k as u32)) {
+        for (input, read) in self.sys.inputs.iter().zip(inputs) {
+            if !read {
                 self.sys.warnings.push(format!("input `{}` is never read", input.name));
             }
         }
-        for (k, lazy) in self.sys.lazies.iter().enumerate() {
-            // An output is for the reader of reports too.
-            if lazy.kind != LazyKind::Output && !read.lazies.contains(&(k as u32)) {
-                let what = if lazy.kind == LazyKind::Let { "let" } else { "input" };
+        for (lazy, read) in self.sys.lazies.iter().zip(lazies) {
+            let what = match lazy.kind {
+                LazyKind::Let => "let",
+                LazyKind::Wire => "input",
+                LazyKind::Output => continue, // an output is for the reader of reports too
+            };
+            if !read {
                 self.sys.warnings.push(format!("{what} `{}` is never read", lazy.name));
-            }
-        }
-    }
-}
-
-#[derive(Default)]
-struct Usage {
-    inputs: std::collections::HashSet<u32>,
-    lazies: std::collections::HashSet<u32>,
-}
-
-impl Usage {
-    fn node(&mut self, node: &Node) {
-        match node {
-            Node::Const(_) => {}
-            Node::Cell(Space::Input, k) => {
-                self.inputs.insert(*k);
-            }
-            Node::Cell(..) => {}
-            Node::Lazy(k) => {
-                self.lazies.insert(*k);
-            }
-            Node::Element { space, base, len, index, .. } => {
-                if *space == Space::Input {
-                    self.inputs.extend(*base..*base + *len);
-                }
-                self.node(index);
-            }
-            Node::Not(a) | Node::Neg(a) | Node::Abs(a) => self.node(a),
-            Node::Binary(_, a, b) => {
-                self.node(a);
-                self.node(b);
-            }
-            Node::Sel(g, a, b) => {
-                self.node(g);
-                self.node(a);
-                self.node(b);
-            }
-            Node::Mux(k, v) => {
-                self.node(k);
-                v.iter().for_each(|n| self.node(n));
-            }
-            Node::Min(v) | Node::Max(v) => v.iter().for_each(|n| self.node(n)),
-        }
-    }
-
-    fn stmt(&mut self, s: &Stmt) {
-        match s {
-            Stmt::Assign { index, value, .. } => {
-                if let Some((k, ..)) = index {
-                    self.node(k);
-                }
-                self.node(value);
-            }
-            Stmt::If(branches, rest) => {
-                for (g, body) in branches {
-                    self.node(g);
-                    body.iter().for_each(|s| self.stmt(s));
-                }
-                rest.iter().for_each(|s| self.stmt(s));
             }
         }
     }

@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 
 use crate::diag::nearest;
-use crate::interval::Ranges;
 use crate::ir::{Node, Space, System, Var};
 
 /// Inclusive range of a cell.
@@ -187,15 +186,6 @@ impl Bound {
         chosen
             .filter_map(|(p, _)| p.reading.clone().map(|id| (id, p.var.name.clone())))
             .collect()
-    }
-
-    pub(crate) fn ranges(&self) -> Ranges<'_> {
-        Ranges {
-            params: &self.system.params,
-            states: &self.system.states,
-            inputs: &self.system.inputs,
-            lazies: &self.system.lazies,
-        }
     }
 }
 

@@ -24,19 +24,30 @@ pub enum Scope {
 /// What a requirement speaks about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Deserialize)]
 #[serde(rename_all = "lowercase")]
-#[allow(missing_docs)] // the words explain themselves
 pub enum Kind {
+    /// How the system is composed.
     Architecture,
+    /// What is done when a machine is set up.
     Commissioning,
+    /// What must not be, or must hold of a configuration.
     Constraint,
+    /// What is shown to the user.
     Diagnostic,
+    /// Reaction to a fault or violation.
     Fault,
+    /// What a safety function does.
     Function,
+    /// A signal, telegram or call.
     Interface,
+    /// Meaning, range or default of a parameter.
     Parameter,
+    /// What holds in a state.
     State,
+    /// A test the system or the user carries out.
     Test,
+    /// A duration or an order in time.
     Timing,
+    /// A change of state and its condition.
     Transition,
 }
 
@@ -203,7 +214,12 @@ impl Loader {
             return;
         };
         for (key, manual) in data.manual {
-            if self.catalogue.manuals.insert(key.get_ref().clone(), manual).is_some() {
+            if self
+                .catalogue
+                .manuals
+                .insert(key.get_ref().clone(), manual)
+                .is_some()
+            {
                 let message = format!("the manual '{}' is declared twice", key.get_ref());
                 self.find(&file, key.span(), message, "declare each manual once");
             }
@@ -218,7 +234,12 @@ impl Loader {
             let id = entry.id.get_ref().clone();
             if let Some(first) = self.seen.insert(id.clone(), file.name.clone()) {
                 let message = format!("the id {id} is used twice, first in {first}");
-                self.find(&file, entry.id.span(), message, "give each requirement an id of its own");
+                self.find(
+                    &file,
+                    entry.id.span(),
+                    message,
+                    "give each requirement an id of its own",
+                );
             }
             let merged_into = entry.merged_into.as_ref().map(|m| m.get_ref().clone());
             self.carriers.extend(entry.merged_into.map(|what| Cited {
@@ -254,8 +275,16 @@ impl Loader {
         }
         for cited in std::mem::take(&mut self.carriers) {
             if !self.seen.contains_key(cited.what.get_ref()) {
-                let message = format!("merged into the unknown requirement '{}'", cited.what.get_ref());
-                self.find(&cited.file, cited.what.span(), message, "name the requirement that carries it");
+                let message = format!(
+                    "merged into the unknown requirement '{}'",
+                    cited.what.get_ref()
+                );
+                self.find(
+                    &cited.file,
+                    cited.what.span(),
+                    message,
+                    "name the requirement that carries it",
+                );
             }
         }
         if self.findings.is_empty() {
@@ -263,7 +292,8 @@ impl Loader {
         }
         // The files were read in order; what was checked at the end goes to its file's place.
         let start = |d: &Diagnostic| d.span.as_ref().map_or(0, |s| s.start);
-        self.findings.sort_by(|a, b| (&a.file, start(a)).cmp(&(&b.file, start(b))));
+        self.findings
+            .sort_by(|a, b| (&a.file, start(a)).cmp(&(&b.file, start(b))));
         Err(Diagnostics(self.findings))
     }
 }

@@ -66,6 +66,52 @@ pub enum Node {
     Abs(Box<Node>),
 }
 
+impl Node {
+    /// The direct parts of an expression.
+    pub fn children(&self) -> Vec<&Node> {
+        match self {
+            Node::Const(_) | Node::Cell(..) | Node::Lazy(_) => Vec::new(),
+            Node::Element { index, .. } => vec![index],
+            Node::Not(a) | Node::Neg(a) | Node::Abs(a) => vec![a],
+            Node::Binary(_, a, b) => vec![a, b],
+            Node::Sel(g, a, b) => vec![g, a, b],
+            Node::Mux(k, v) => std::iter::once(k.as_ref()).chain(v).collect(),
+            Node::Min(v) | Node::Max(v) => v.iter().collect(),
+        }
+    }
+
+    /// The same expression with each direct part replaced.
+    pub fn map(&self, f: &mut impl FnMut(&Node) -> Node) -> Node {
+        let mut boxed = |n: &Node| Box::new(f(n));
+        match self {
+            Node::Const(_) | Node::Cell(..) | Node::Lazy(_) => self.clone(),
+            Node::Element { space, base, lo, len, index } => Node::Element {
+                space: *space,
+                base: *base,
+                lo: *lo,
+                len: *len,
+                index: boxed(index),
+            },
+            Node::Not(a) => Node::Not(boxed(a)),
+            Node::Neg(a) => Node::Neg(boxed(a)),
+            Node::Abs(a) => Node::Abs(boxed(a)),
+            Node::Binary(op, a, b) => Node::Binary(*op, boxed(a), boxed(b)),
+            Node::Sel(g, a, b) => Node::Sel(boxed(g), boxed(a), boxed(b)),
+            Node::Mux(k, v) => Node::Mux(boxed(k), v.iter().map(f).collect()),
+            Node::Min(v) => Node::Min(v.iter().map(f).collect()),
+            Node::Max(v) => Node::Max(v.iter().map(f).collect()),
+        }
+    }
+
+    /// Visits this expression and all its parts.
+    pub fn visit<'a>(&'a self, f: &mut impl FnMut(&'a Node)) {
+        f(self);
+        for child in self.children() {
+            child.visit(f);
+        }
+    }
+}
+
 /// A cell: parameter, state variable or input.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Var {
@@ -79,6 +125,8 @@ pub struct Var {
     pub hi: Node,
     /// Description from the file.
     pub text: String,
+    /// Requirement ids.
+    pub ids: Vec<String>,
 }
 
 /// A parameter of the system.
@@ -129,6 +177,8 @@ pub struct Lazy {
     pub hi: i64,
     /// Requirement ids.
     pub ids: Vec<String>,
+    /// Description from the file.
+    pub text: String,
 }
 
 /// A statement of an effect.
@@ -149,6 +199,27 @@ pub enum Stmt {
     },
     /// Branches in order, then the rest.
     If(Vec<(Node, Vec<Stmt>)>, Vec<Stmt>),
+}
+
+impl Stmt {
+    /// Visits each expression of the statement and of those inside it (not the parts of the expressions).
+    pub fn expressions<'a>(&'a self, f: &mut impl FnMut(&'a Node)) {
+        match self {
+            Stmt::Assign { index, value, .. } => {
+                if let Some((k, ..)) = index {
+                    f(k);
+                }
+                f(value);
+            }
+            Stmt::If(branches, rest) => {
+                for (guard, body) in branches {
+                    f(guard);
+                    body.iter().for_each(|s| s.expressions(f));
+                }
+                rest.iter().for_each(|s| s.expressions(f));
+            }
+        }
+    }
 }
 
 /// A place where a value can leave its range.
@@ -280,6 +351,8 @@ pub struct Reading {
     pub text: String,
     /// Names of the options.
     pub options: Vec<String>,
+    /// Remarks.
+    pub note: String,
 }
 
 /// A resolved system.
@@ -332,6 +405,16 @@ impl System {
     /// All rules in the order of their numbers.
     pub fn rules(&self) -> impl Iterator<Item = &Rule> {
         self.instances.iter().flat_map(|i| i.rules.iter())
+    }
+
+    /// Visits each node of each expression: guards, effects, named expressions, atoms, observations.
+    pub fn nodes<'a>(&'a self, f: &mut impl FnMut(&'a Node)) {
+        for rule in self.rules() {
+            rule.when.visit(f);
+            rule.then.iter().for_each(|s| s.expressions(&mut |n| n.visit(f)));
+        }
+        self.lazies.iter().for_each(|l| l.value.visit(f));
+        self.atoms.iter().chain(&self.observed).for_each(|n| n.visit(f));
     }
 
     /// A value of a cell as a reader wants to see it: the enum's name, TRUE/FALSE, or the number.

@@ -5,14 +5,17 @@
 //! The way of a specification: [`Spec::load`] reads the TOML files, [`Spec::system`] resolves one system to an
 //! [`ir::System`], [`bind::Bound`] gives it parameter values, and [`bind::Bound::step`] runs it.
 
+pub mod analysis;
 mod assemble;
 pub mod bind;
+pub mod catalogue;
 pub mod codegen;
 pub mod diag;
 pub mod eval;
 mod interval;
 pub mod ir;
 pub mod lang;
+pub mod machine;
 mod property;
 mod schema;
 mod scope;

@@ -606,17 +606,15 @@ fn fold_neg(node: Node) -> Node {
 
 /// Whether the value belongs to the cycle (inputs, lets, outputs, state after) and not to its start.
 fn reads_cycle(node: &Node) -> bool {
-    match node {
-        Node::Const(_) => false,
-        Node::Cell(space, _) => matches!(space, Space::Input | Space::Now),
-        Node::Lazy(_) => true,
-        Node::Element { space, index, .. } => {
-            matches!(space, Space::Input | Space::Now) || reads_cycle(index)
-        }
-        Node::Not(a) | Node::Neg(a) | Node::Abs(a) => reads_cycle(a),
-        Node::Binary(_, a, b) => reads_cycle(a) || reads_cycle(b),
-        Node::Sel(g, a, b) => reads_cycle(g) || reads_cycle(a) || reads_cycle(b),
-        Node::Mux(k, v) => reads_cycle(k) || v.iter().any(reads_cycle),
-        Node::Min(v) | Node::Max(v) => v.iter().any(reads_cycle),
-    }
+    let mut found = false;
+    node.visit(&mut |n| {
+        found |= match n {
+            Node::Cell(space, _) | Node::Element { space, .. } => {
+                matches!(space, Space::Input | Space::Now)
+            }
+            Node::Lazy(_) => true,
+            _ => false,
+        };
+    });
+    found
 }

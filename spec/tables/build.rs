@@ -1,6 +1,5 @@
 //! Generates Rust from every specification file that ships with the project.
 
-use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use stillpoint_spec::{Spec, codegen};
@@ -23,27 +22,14 @@ fn main() {
             let machines = own.iter().map(|m| spec.open_machine(m));
             for system in systems.iter().map(|s| spec.system(s, None)).chain(machines) {
                 let system = system.unwrap_or_else(|e| panic!("{e}"));
-                let type_name = format!("Table{}", names.len());
-                code.push_str(&codegen::rust(&system, &type_name));
-                names.push(type_name);
+                let (type_name, table_name) = (format!("System{}", names.len()), format!("TABLE_{}", names.len()));
+                code.push_str(&codegen::rust(&system, &type_name, &table_name));
+                names.push(table_name);
             }
         }
     }
-    writeln!(
-        code,
-        "/// Calls `visitor` with the table of this name and fingerprint; gives the visitor back if there is none.\n\
-         ///\n/// # Errors\n/// The visitor, if there is no such table.\n\
-         pub fn with<V: Visitor>(name: &str, fingerprint: u64, visitor: V) -> Result<V::Out, V> {{"
-    )
-    .expect("writing to a String cannot fail");
-    for name in &names {
-        writeln!(
-            code,
-            "if {name}::NAME == name && {name}::FINGERPRINT == fingerprint {{ return Ok(visitor.visit::<{name}>()); }}"
-        )
-        .expect("writing to a String cannot fail");
-    }
-    code.push_str("Err(visitor)\n}\n");
+    let list = names.join(", ");
+    code.push_str(&format!("/// Every generated table.\npub static TABLES: [Table; {}] = [{list}];\n", names.len()));
     let out = PathBuf::from(std::env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
     std::fs::write(out.join("tables.rs"), code).expect("OUT_DIR can be written");
 }

@@ -146,23 +146,36 @@ impl Findings {
     pub(super) fn parse<'t>(&mut self, text: &'t str) -> Option<DeTable<'t>> {
         let (table, errors) = DeTable::parse_recoverable(text);
         let mut sound = true;
+        let mut repeated_until = 0;
         for error in errors {
-            let span = error.span();
-            let key = span.clone().and_then(|s| text.get(s)).unwrap_or("");
-            if error.message() == "duplicate key" {
-                self.add(
-                    span,
-                    format!("'{key}' stands twice in this file"),
-                    "the second one",
-                    "give each axis, door and parameter once, each under a name of its own",
-                );
-            } else {
+            let span = error.span().unwrap_or(0..0);
+            if error.message() != "duplicate key" {
                 sound = false;
                 self.add(
                     span,
                     format!("not valid TOML: {}", error.message()),
                     "here",
                     "the form is `key = value`, with tables `[axis.X]`; texts stand in double quotes",
+                );
+            } else if span.start >= repeated_until {
+                let line = text
+                    .get(..span.start)
+                    .and_then(|t| t.rfind('\n'))
+                    .map_or(0, |n| n + 1);
+                let rest = text.get(line..).unwrap_or("");
+                let what = if rest.trim_start().starts_with('[') {
+                    // The keys below a repeated header are no errors of their own.
+                    let next = rest.find("\n[").map_or(text.len(), |n| line + n);
+                    repeated_until = next.max(span.end);
+                    rest.lines().next().unwrap_or("").trim()
+                } else {
+                    text.get(span.clone()).unwrap_or("")
+                };
+                self.add(
+                    span,
+                    format!("'{what}' stands twice"),
+                    "the second one",
+                    "give each axis, door and parameter once, each under a name of its own",
                 );
             }
         }

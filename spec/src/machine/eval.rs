@@ -71,7 +71,12 @@ impl Evaluator<'_> {
         usize::try_from(k)
             .ok()
             .and_then(|k| cells.get(k).copied())
-            .ok_or_else(|| format!("'{name}[{k}]' does not exist: the indices are 0 to {}", cells.len() - 1))
+            .ok_or_else(|| {
+                format!(
+                    "'{name}[{k}]' does not exist: the indices are 0 to {}",
+                    cells.len() - 1
+                )
+            })
     }
 
     fn binary(&self, op: BinaryOp, a: &Expr, b: &Expr) -> Result<i64, String> {
@@ -113,7 +118,9 @@ impl Evaluator<'_> {
             ("MAX", [first, rest @ ..]) => Ok(rest.iter().fold(*first, |m, x| m.max(*x))),
             ("ABS", [x]) => x.checked_abs().ok_or_else(overflow),
             ("LIMIT", [lo, x, hi]) => Ok(*x.min(hi).max(lo)),
-            ("CYCLES", [t]) if *t >= 0 && self.cycle > 0 => Ok(t / self.cycle + i64::from(t % self.cycle != 0)),
+            ("CYCLES", [t]) if *t >= 0 && self.cycle > 0 => {
+                Ok(t / self.cycle + i64::from(t % self.cycle != 0))
+            }
             ("CYCLES", [_]) => Err("CYCLES needs a time that is not negative".to_owned()),
             _ => Err(format!(
                 "no function '{name}' with {} arguments: MIN, MAX, ABS, LIMIT, SEL and CYCLES can be used",

@@ -171,18 +171,22 @@ pub(super) struct Explore {
     pub each: Scope,
     pub when: Formula,
     pub text: String,
-    pub params: Vec<(String, Binding)>,
+    /// Where the system is coarser than the axis beside its times; may be empty.
+    pub note: String,
+    /// For a group: how many axes the system has.
+    pub members: usize,
+    pub params: Vec<Binding>,
 }
 
-/// How a parameter of a system follows from the values of an axis.
+/// How parameters of a system follow from the values of an axis.
 #[derive(Debug)]
 pub(super) enum Binding {
-    /// As it is.
-    Value(Formula),
+    /// The parameter is the value of the expression.
+    Value(String, Formula),
     /// A time: whole monitoring cycles, rounded up; divided by the common step where the system is scaled.
-    Time(Formula),
-    /// A list of values, by their order only: equal values get equal ranks, from 0.
-    Rank(String),
-    /// The number of axes of the group.
-    Axes,
+    Time(String, Formula),
+    /// Each of the parameters is the position of one value of a list among its different values, from 0.
+    Rank(String, Vec<String>),
+    /// Each of the parameters is the value of the expression for one member of the group.
+    Member(Formula, Vec<String>),
 }

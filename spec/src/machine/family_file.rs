@@ -93,8 +93,13 @@ struct ExploreData {
     #[serde(default)]
     param: IndexMap<String, Spanned<String>>,
     #[serde(default)]
-    rank: IndexMap<String, Spanned<String>>,
-    axes: Option<String>,
+    rank: IndexMap<Spanned<String>, Vec<String>>,
+    #[serde(default)]
+    member: IndexMap<Spanned<String>, Vec<String>>,
+    #[serde(default)]
+    members: usize,
+    #[serde(default)]
+    note: String,
 }
 
 /// The names of the families under `root`, sorted: folders with a `family.toml`.
@@ -145,14 +150,21 @@ impl Check {
             Ok(data) => data,
             Err(error) => {
                 let help = "compare with the other entries of this file";
-                self.findings.add(error.span(), error.message(), "here", help);
+                self.findings
+                    .add(error.span(), error.message(), "here", help);
                 return None;
             }
         };
-        if folder.file_name().is_some_and(|n| *n != *data.name.get_ref().as_str()) {
+        if folder
+            .file_name()
+            .is_some_and(|n| *n != *data.name.get_ref().as_str())
+        {
             self.findings.add(
                 data.name.span(),
-                format!("the family '{}' stands in another folder", data.name.get_ref()),
+                format!(
+                    "the family '{}' stands in another folder",
+                    data.name.get_ref()
+                ),
                 "",
                 "give the folder the name of the family",
             );
@@ -163,15 +175,23 @@ impl Check {
         let owned = |params: &IndexMap<String, Param>| params.keys().cloned().collect::<Vec<_>>();
         let mut known = Known {
             control: owned(&control),
-            axis: ["kind", "LINEAR", "ROTARY", "enabled_any", "monitoring_cycle"]
-                .map(str::to_owned)
-                .to_vec(),
+            axis: [
+                "kind",
+                "LINEAR",
+                "ROTARY",
+                "enabled_any",
+                "monitoring_cycle",
+            ]
+            .map(str::to_owned)
+            .to_vec(),
             door: Vec::new(),
         };
         let monitoring_cycle = self.formula(data.monitoring_cycle, &known.control);
         known.axis.extend(owned(&control));
         known.axis.extend(owned(&axis));
-        known.axis.extend(data.function.iter().map(|f| f.variable.clone()));
+        known
+            .axis
+            .extend(data.function.iter().map(|f| f.variable.clone()));
         let mut lets = Vec::new();
         for (name, text) in data.lets {
             let formula = self.formula(text, &known.axis);
@@ -241,21 +261,26 @@ impl Check {
         let codes = param.choices.iter().map(|(_, code)| *code);
         let (min, max) = match (param.quantity, &data.range) {
             (Quantity::Bool, None) => (0, 1),
-            (Quantity::Choice, None) => (
-                codes.clone().min().unwrap_or(0),
-                codes.max().unwrap_or(0),
-            ),
+            (Quantity::Choice, None) => {
+                (codes.clone().min().unwrap_or(0), codes.max().unwrap_or(0))
+            }
             (_, Some((min, max))) => (self.value(param, min, kind), self.value(param, max, kind)),
             (_, None) => {
                 let help = "write range = [least, greatest]";
-                self.findings.add(data.default.span(), "the range is missing", "", help);
+                self.findings
+                    .add(data.default.span(), "the range is missing", "", help);
                 (0, 0)
             }
         };
         let default = self.value(param, &data.default, kind);
         if !(min..=max).contains(&default) {
             let help = "the least value, the default and the greatest value must rise";
-            self.findings.add(data.default.span(), "the default is outside the range", "", help);
+            self.findings.add(
+                data.default.span(),
+                "the default is outside the range",
+                "",
+                help,
+            );
         }
         Limits { min, max, default }
     }
@@ -264,7 +289,8 @@ impl Check {
         match number(&Raw::from(value.get_ref()), param, kind) {
             Ok(value) => value,
             Err(refusal) => {
-                self.findings.add(value.span(), refusal.message, refusal.label, refusal.help);
+                self.findings
+                    .add(value.span(), refusal.message, refusal.label, refusal.help);
                 0
             }
         }
@@ -275,7 +301,8 @@ impl Check {
         let expr = match parse_expr(text.get_ref()) {
             Ok(expr) => expr,
             Err(error) => {
-                self.findings.add(text.span(), error.message, "in this expression", error.help);
+                self.findings
+                    .add(text.span(), error.message, "in this expression", error.help);
                 return None;
             }
         };
@@ -291,7 +318,8 @@ impl Check {
                 None => "parameters, functions and lets of this file can be read".to_owned(),
             };
             let message = format!("unknown name '{name}'");
-            self.findings.add(text.span(), message, "in this expression", help);
+            self.findings
+                .add(text.span(), message, "in this expression", help);
             return None;
         }
         Some(Formula { text, expr })
@@ -300,14 +328,24 @@ impl Check {
     fn rule(&mut self, data: RuleData, known: &Known) -> Option<Rule> {
         let known = match data.of {
             Scope::Control => &known.control,
-            Scope::Axis | Scope::Group => &known.axis,
+            Scope::Axis => &known.axis,
             Scope::Door => &known.door,
+            Scope::Group => {
+                let help = "write of = \"control\", \"axis\" or \"door\"";
+                self.findings
+                    .add(data.when.span(), "no rules are judged for groups", "", help);
+                return None;
+            }
         };
         Some(Rule {
             of: data.of,
             id: data.id,
             alarm: data.alarm,
-            each: if data.each.is_empty() { vec![0] } else { data.each },
+            each: if data.each.is_empty() {
+                vec![0]
+            } else {
+                data.each
+            },
             when: self.formula(data.when, known)?,
             at: data.at,
             text: data.text,
@@ -316,27 +354,41 @@ impl Check {
     }
 
     fn explore(&mut self, data: ExploreData, known: &Known) -> Option<Explore> {
+        if matches!(data.each, Scope::Control | Scope::Door) {
+            let help = "write each = \"axis\" or \"group\"";
+            self.findings.add(
+                data.when.span(),
+                "systems are explored for axes and groups",
+                "",
+                help,
+            );
+        }
         let mut params = Vec::new();
         for (name, text) in data.param {
-            params.push((name, Binding::Value(self.formula(text, &known.axis)?)));
+            params.push(Binding::Value(name, self.formula(text, &known.axis)?));
         }
         for (name, text) in data.time {
-            params.push((name, Binding::Time(self.formula(text, &known.axis)?)));
+            params.push(Binding::Time(name, self.formula(text, &known.axis)?));
         }
-        for (name, list) in data.rank {
+        for (list, names) in data.rank {
             if !known.axis.contains(list.get_ref()) {
                 let message = format!("unknown name '{}'", list.get_ref());
-                self.findings.add(list.span(), message, "", "name a list of values");
+                self.findings
+                    .add(list.span(), message, "", "name a list of values");
             }
-            params.push((name, Binding::Rank(list.into_inner())));
+            params.push(Binding::Rank(list.into_inner(), names));
         }
-        params.extend(data.axes.map(|name| (name, Binding::Axes)));
+        for (text, names) in data.member {
+            params.push(Binding::Member(self.formula(text, &known.axis)?, names));
+        }
         Some(Explore {
             file: data.file,
             system: data.system,
             each: data.each,
             when: self.formula(data.when, &known.axis)?,
             text: data.text,
+            note: data.note,
+            members: data.members,
             params,
         })
     }

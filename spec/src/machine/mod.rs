@@ -17,6 +17,8 @@ mod document;
 mod eval;
 mod family;
 mod family_file;
+#[cfg(test)]
+mod family_tests;
 mod plausible;
 mod read;
 mod runs;
@@ -191,7 +193,7 @@ fn read_source(path: &Path, source: &std::sync::Arc<str>, families: &Path) -> Re
     let (Some(judged), Some(control), true) = (judged, draft.control, findings.none()) else {
         return Err(findings.into_diagnostics());
     };
-    let runs = runs::plan(&family, &draft.axes, &judged)?;
+    let plan = runs::plan(&family, &draft.axes, &judged)?;
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     Ok(Machine {
         name: draft.name.unwrap_or_else(|| stem.into_owned()),
@@ -199,9 +201,9 @@ fn read_source(path: &Path, source: &std::sync::Arc<str>, families: &Path) -> Re
         family: name,
         family_title: family.title.clone(),
         monitoring_cycle: judged.cycle,
-        not_explored: runs::not_explored(&family, &draft.axes, &draft.doors),
-        groups: runs.groups,
-        runs: runs.runs,
+        not_explored: runs::not_explored(&family, &draft.axes, &draft.doors, &plan.groups),
+        groups: plan.groups,
+        runs: plan.runs,
         control,
         axes: draft.axes,
         doors: draft.doors,
@@ -225,7 +227,10 @@ fn family_name(table: &DeTable<'_>, root: &Path, findings: &mut Findings) -> Opt
                 None,
                 "the key 'family' is missing",
                 "",
-                format!("start the file with the family of the control; known: {}", list()),
+                format!(
+                    "start the file with the family of the control; known: {}",
+                    list()
+                ),
             );
         }
         return None;
@@ -242,6 +247,11 @@ fn family_name(table: &DeTable<'_>, root: &Path, findings: &mut Findings) -> Opt
         None if known.is_empty() => format!("no folder in {} holds a family.toml", root.display()),
         None => format!("known families: {}", list()),
     };
-    findings.add(value.span(), format!("unknown family \"{name}\""), "no such family", help);
+    findings.add(
+        value.span(),
+        format!("unknown family \"{name}\""),
+        "no such family",
+        help,
+    );
     None
 }

@@ -80,7 +80,11 @@ pub(super) fn judge(
 }
 
 fn insert(values: &mut Values, settings: &Settings) {
-    values.extend(settings.iter().map(|(name, s)| (name.clone(), s.cells.clone())));
+    values.extend(
+        settings
+            .iter()
+            .map(|(name, s)| (name.clone(), s.cells.clone())),
+    );
 }
 
 /// The names an expression about `axis` may read.
@@ -171,7 +175,9 @@ impl<'a> Subject<'a> {
         let place = match name {
             "functions" => self.functions.clone(),
             _ => self.setting(name).and_then(|s| {
-                usize::try_from(index).ok().and_then(|index| s.places.get(index).cloned())
+                usize::try_from(index)
+                    .ok()
+                    .and_then(|index| s.places.get(index).cloned())
             }),
         };
         place.or_else(|| self.place.clone())
@@ -243,11 +249,14 @@ impl Judge<'_> {
             names = format!("{names}, alarm {alarm}");
         }
         let insert_k = |text: &str| text.replace("{k}", &k.to_string());
-        self.findings.add(
-            subject.find(&rule.at, k),
-            format!("{}: {} [{names}]", subject.name, insert_k(&rule.text)),
-            shown.join(", "),
-            insert_k(&rule.fix),
-        );
+        let text = insert_k(&rule.text);
+        let message = match shown.as_slice() {
+            [] => format!("{}: {text} [{names}]", subject.name),
+            list => format!("{}: {text}: {} [{names}]", subject.name, list.join(", ")),
+        };
+        let place = subject.find(&rule.at, k);
+        let label = "this does not fit";
+        self.findings
+            .add(place, message, label, insert_k(&rule.fix));
     }
 }

@@ -62,7 +62,7 @@ pub(super) fn read(family: &Family, table: &DeTable<'_>, findings: &mut Findings
     let (settings, sound) = reader.settings(
         &family.control,
         control.unwrap_or(&empty),
-        "[control]",
+        "the control",
         AxisKind::Linear,
         &[],
     );
@@ -177,8 +177,7 @@ impl Reader<'_> {
         axis.kind = kind?;
         let structural = ["title", "kind", "functions", "interpolates_with"];
         let place = format!("axis {name}");
-        let (values, sound) =
-            self.settings(&family.axis, table, &place, axis.kind, &structural);
+        let (values, sound) = self.settings(&family.axis, table, &place, axis.kind, &structural);
         axis.values = values;
         sound.then_some(axis)
     }
@@ -198,7 +197,12 @@ impl Reader<'_> {
     }
 
     fn functions(&mut self, value: &Spanned<DeValue<'_>>) -> Vec<String> {
-        let known: Vec<&str> = self.family.functions.iter().map(|f| f.name.as_str()).collect();
+        let known: Vec<&str> = self
+            .family
+            .functions
+            .iter()
+            .map(|f| f.name.as_str())
+            .collect();
         let mut list: Vec<String> = Vec::new();
         for name in self.findings.texts("functions", value) {
             let span = name.span();
@@ -353,7 +357,8 @@ impl Reader<'_> {
             Ok(cell) => Some(cell),
             Err(refusal) => {
                 let message = format!("{place}: {}", refusal.message);
-                self.findings.add(value.span(), message, refusal.label, refusal.help);
+                self.findings
+                    .add(value.span(), message, refusal.label, refusal.help);
                 None
             }
         }
@@ -366,7 +371,10 @@ impl Reader<'_> {
             Some(DeValue::Table(axes)) => axes.keys().map(|k| k.get_ref().as_ref()).collect(),
             _ => Vec::new(),
         };
-        let lists = draft.axes.iter().map(|a| (Some(&a.name), &a.interpolates_with));
+        let lists = draft
+            .axes
+            .iter()
+            .map(|a| (Some(&a.name), &a.interpolates_with));
         let lists = lists.chain(draft.doors.iter().map(|d| (None, &d.axes)));
         for (own, list) in lists {
             for other in list {
@@ -383,10 +391,7 @@ impl Reader<'_> {
                         other.span(),
                         format!("there is no axis '{name}'"),
                         "no such axis",
-                        match nearest(name, names.iter().copied()) {
-                            Some(near) => format!("did you mean '{near}'?"),
-                            None => format!("axes of this machine: {}", names.join(", ")),
-                        },
+                        format!("axes of this machine: {}", names.join(", ")),
                     );
                 }
             }

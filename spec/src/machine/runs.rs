@@ -1,7 +1,6 @@
 //! From the values of the axes to the explorations that cover the machine.
 
 use std::collections::BTreeMap;
-use std::path::PathBuf;
 
 use super::eval::Values;
 use super::family::{Binding, Explore, Family, Scope};
@@ -24,28 +23,22 @@ pub(super) struct Plan {
 /// Faults of the family's data.
 pub(super) fn plan(family: &Family, axes: &[Axis], judged: &Judged) -> Result<Plan> {
     let groups = groups(family, axes, judged)?;
+    let singles: Vec<Vec<usize>> = (0..axes.len()).map(|k| vec![k]).collect();
     let mut runs: Vec<Run> = Vec::new();
     for explore in &family.explore {
         let scaled = is_scaled(family, explore)?;
-        let singles: Vec<Vec<usize>> = (0..axes.len()).map(|k| vec![k]).collect();
-        let candidates = if explore.each == Scope::Group { &groups } else { &singles };
-        for members in candidates {
-            let mut taking = Vec::new();
-            for k in members {
-                let Some(values) = judged.axes.get(*k) else { continue };
-                if evaluate(family, &explore.when, values, judged.cycle)? != 0 {
-                    taking.push((*k, values));
-                }
-            }
-            let least = if explore.each == Scope::Group { 2 } else { 1 };
-            if taking.len() < least {
+        let (candidates, size) = match explore.each {
+            Scope::Group => (&groups, explore.members),
+            _ => (&singles, 1),
+        };
+        for candidate in candidates {
+            let members = members(family, explore, axes, judged, candidate)?;
+            if members.len() != size {
                 continue;
             }
-            let name = |k: &usize| axes.get(*k).map(|a| a.name.clone());
-            let names: Vec<String> = taking.iter().filter_map(|(k, _)| name(k)).collect();
-            // Each member's values once: a group whose members differ is explored with the values of each.
-            for (_, values) in taking {
-                let run = bind(family, explore, scaled, judged.cycle, names.clone(), values)?;
+            // A group whose members differ is explored with the values of each.
+            for of in 0..members.len() {
+                let run = bind(family, explore, scaled, judged.cycle, &members, of)?;
                 merge(&mut runs, run, explore.each);
             }
         }
@@ -55,15 +48,46 @@ pub(super) fn plan(family: &Family, axes: &[Axis], judged: &Judged) -> Result<Pl
         run.title = format!("{}, {axes} {}", run.title, run.axes.join(", "));
     }
     let name = |k: &usize| axes.get(*k).map(|a| a.name.clone());
+    let groups = groups.iter().map(|g| g.iter().filter_map(name).collect());
     Ok(Plan {
-        groups: groups.iter().map(|g| g.iter().filter_map(name).collect()).collect(),
+        groups: groups.collect(),
         runs,
     })
 }
 
-/// Enabled functions and doors that no run contains, in words.
-pub(super) fn not_explored(family: &Family, axes: &[Axis], doors: &[Door]) -> Vec<String> {
+/// An axis and its values.
+type Member<'a> = (&'a str, &'a Values);
+
+/// The axes of `candidate` that `explore` is meant for.
+fn members<'a>(
+    family: &Family,
+    explore: &Explore,
+    axes: &'a [Axis],
+    judged: &'a Judged,
+    candidate: &[usize],
+) -> Result<Vec<Member<'a>>> {
+    let mut members = Vec::new();
+    for k in candidate {
+        if let (Some(axis), Some(values)) = (axes.get(*k), judged.axes.get(*k)) {
+            if evaluate(family, &explore.when, values, judged.cycle)? != 0 {
+                members.push((axis.name.as_str(), values));
+            }
+        }
+    }
+    Ok(members)
+}
+
+/// What the file describes and no run contains, in words: functions, doors, axes without functions, groups.
+pub(super) fn not_explored(
+    family: &Family,
+    axes: &[Axis],
+    doors: &[Door],
+    groups: &[Vec<String>],
+) -> Vec<String> {
     let mut list = Vec::new();
+    for axis in axes.iter().filter(|a| a.functions.is_empty()) {
+        list.push(format!("axis {}: no safety function is enabled", axis.name));
+    }
     for function in family.functions.iter().filter(|f| !f.explored) {
         let with: Vec<&str> = axes
             .iter()
@@ -71,10 +95,32 @@ pub(super) fn not_explored(family: &Family, axes: &[Axis], doors: &[Door]) -> Ve
             .map(|a| a.name.as_str())
             .collect();
         if !with.is_empty() {
-            list.push(format!("{} of {}: parameters checked, not explored", function.name, with.join(", ")));
+            let with = with.join(", ");
+            list.push(format!(
+                "{} of {with}: its values are checked, not explored",
+                function.name
+            ));
         }
     }
-    list.extend(doors.iter().map(|d| format!("door {}: parameters checked, not explored", d.name)));
+    let sizes: Vec<usize> = family
+        .explore
+        .iter()
+        .map(|e| e.members)
+        .filter(|n| *n > 0)
+        .collect();
+    for group in groups.iter().filter(|g| !sizes.contains(&g.len())) {
+        list.push(format!(
+            "group {}: its axes are explored one by one; there is no system for {} together",
+            group.join(", "),
+            group.len()
+        ));
+    }
+    for door in doors {
+        list.push(format!(
+            "door {}: its values are checked, not explored",
+            door.name
+        ));
+    }
     list
 }
 
@@ -87,10 +133,16 @@ fn groups(family: &Family, axes: &[Axis], judged: &Judged) -> Result<Vec<Vec<usi
             None => false,
         };
         for (j, other) in axes.iter().enumerate() {
-            let named = axis.interpolates_with.iter().any(|n| *n.get_ref() == other.name);
+            let named = axis
+                .interpolates_with
+                .iter()
+                .any(|n| *n.get_ref() == other.name);
             if everyone || named {
                 let (from, to) = (label[i].max(label[j]), label[i].min(label[j]));
-                label.iter_mut().filter(|l| **l == from).for_each(|l| *l = to);
+                label
+                    .iter_mut()
+                    .filter(|l| **l == from)
+                    .for_each(|l| *l = to);
             }
         }
     }
@@ -114,12 +166,23 @@ fn is_scaled(family: &Family, explore: &Explore) -> Result<bool> {
     let path = family.folder.join(&explore.file);
     let text = std::fs::read_to_string(&path)
         .map_err(|e| fault(format!("cannot read {}: {e}", path.display())))?;
-    let file: toml::Table = toml::from_str(&text)
-        .map_err(|e| fault(format!("{} is not valid TOML: {}", path.display(), e.message())))?;
+    let file: toml::Table = toml::from_str(&text).map_err(|e| {
+        fault(format!(
+            "{} is not valid TOML: {}",
+            path.display(),
+            e.message()
+        ))
+    })?;
     let system = file
         .get("system")
         .and_then(|s| s.get(&explore.system))
-        .ok_or_else(|| fault(format!("{} has no system '{}'", path.display(), explore.system)))?;
+        .ok_or_else(|| {
+            fault(format!(
+                "{} has no system '{}'",
+                path.display(),
+                explore.system
+            ))
+        })?;
     Ok(system.get("timers").and_then(toml::Value::as_str) == Some("scaled"))
 }
 
@@ -130,47 +193,65 @@ struct Time {
     cycles: i64,
 }
 
-/// The run of `explore` with the values of one axis.
+/// The run of `explore` for `members`, with the values of the one at `of`.
 fn bind(
     family: &Family,
     explore: &Explore,
     scaled: bool,
     cycle: i64,
-    axes: Vec<String>,
-    values: &Values,
+    members: &[Member<'_>],
+    of: usize,
 ) -> Result<Run> {
     let mut run = Run {
         title: explore.text.clone(),
+        axes: members.iter().map(|(name, _)| (*name).to_owned()).collect(),
         file: family.folder.join(&explore.file),
         system: explore.system.clone(),
         params: BTreeMap::new(),
         abstractions: Vec::new(),
-        axes,
     };
+    let Some((_, values)) = members.get(of) else {
+        return Ok(run);
+    };
+    if !explore.note.is_empty() {
+        run.abstractions.push(explore.note.clone());
+    }
     let mut times = Vec::new();
-    for (name, binding) in &explore.params {
-        let cells = match binding {
-            Binding::Value(formula) => vec![evaluate(family, formula, values, cycle)?],
-            Binding::Axes => vec![i64::try_from(run.axes.len()).unwrap_or(i64::MAX)],
-            Binding::Rank(list) => {
-                let (ranks, text) = ranks(name, values.get(list).map_or(&[], Vec::as_slice));
-                run.abstractions.push(text);
-                ranks
+    for binding in &explore.params {
+        match binding {
+            Binding::Value(name, formula) => {
+                let value = evaluate(family, formula, values, cycle)?;
+                run.params.insert(name.clone(), vec![value]);
             }
-            Binding::Time(formula) => {
+            Binding::Time(name, formula) => {
                 let time = evaluate(family, formula, values, cycle)?;
-                let exact = time % cycle == 0;
-                let cycles = time / cycle + i64::from(!exact);
-                times.push(Time { name: name.clone(), exact, cycles });
-                continue;
+                times.push(Time {
+                    name: name.clone(),
+                    exact: time % cycle == 0,
+                    cycles: up(time, cycle),
+                });
             }
-        };
-        run.params.insert(name.clone(), cells);
+            Binding::Rank(list, names) => {
+                let ranks = ranks(values.get(list).map_or(&[], Vec::as_slice));
+                let cells = ranks.into_iter().map(|rank| vec![rank]);
+                run.params.extend(names.iter().cloned().zip(cells));
+                let text = format!("{list} by the order of its values only");
+                run.abstractions.push(text);
+            }
+            Binding::Member(formula, names) => {
+                for (name, (_, values)) in names.iter().zip(members) {
+                    let value = evaluate(family, formula, values, cycle)?;
+                    run.params.insert(name.clone(), vec![value]);
+                }
+            }
+        }
     }
     let longest = times.iter().map(|t| t.cycles).max().unwrap_or(0);
     let step = if scaled { up(longest, STEPS).max(1) } else { 1 };
     run.abstractions.extend(times_text(&times, step, cycle));
-    let steps = times.into_iter().map(|t| (t.name, vec![up(t.cycles, step)]));
+    let steps = times
+        .into_iter()
+        .map(|t| (t.name, vec![up(t.cycles, step)]));
     run.params.extend(steps);
     Ok(run)
 }
@@ -197,14 +278,14 @@ fn times_text(times: &[Time], step: i64, cycle: i64) -> Option<String> {
 }
 
 /// The position of each value among the different values, from 0.
-fn ranks(name: &str, values: &[i64]) -> (Vec<i64>, String) {
+fn ranks(values: &[i64]) -> Vec<i64> {
     let mut sorted = values.to_vec();
     sorted.sort_unstable();
     sorted.dedup();
-    let rank = |v: &i64| sorted.iter().take_while(|s| *s < v).count();
-    let ranks: Vec<i64> = values.iter().map(|v| i64::try_from(rank(v)).unwrap_or(i64::MAX)).collect();
-    let shown: Vec<String> = ranks.iter().map(i64::to_string).collect();
-    (ranks, format!("{name} by the order of the values only: {}", shown.join(", ")))
+    values
+        .iter()
+        .map(|v| sorted.iter().take_while(|s| *s < v).fold(0, |n, _| n + 1))
+        .collect()
 }
 
 /// Adds a run, or its axes to the one that explores the same.

@@ -61,11 +61,7 @@ impl Dimension {
                 ("mm/s", 60_000),
                 ("inch/min", 25_400),
             ],
-            Self::Rotation => &[
-                ("rev/min", 360_000),
-                ("deg/min", 1_000),
-                ("deg/s", 60_000),
-            ],
+            Self::Rotation => &[("rev/min", 360_000), ("deg/min", 1_000), ("deg/s", 60_000)],
             Self::Time => &[
                 ("ms", 1_000),
                 ("s", 1_000_000),
@@ -252,10 +248,7 @@ mod tests {
         assert_eq!(length("0.0001 mm"), Err(UnitError::TooFine));
         assert_eq!(length("0.0005 inch"), Err(UnitError::TooFine));
         assert_eq!(parse("31.25 us", Dimension::Time), Err(UnitError::TooFine));
-        assert_eq!(
-            parse("12.5 %", Dimension::Percent),
-            Err(UnitError::TooFine)
-        );
+        assert_eq!(parse("12.5 %", Dimension::Percent), Err(UnitError::TooFine));
         assert_eq!(length("9223372036854775808 um"), Err(UnitError::TooLarge));
         assert_eq!(
             length("99999999999999999999999999999999999999 mm"),
@@ -285,8 +278,22 @@ mod tests {
             Dimension::Count,
         ];
         let values = [
-            0, 1, -1, 7, 359, 360, 999, 1_000, 1_001, 36_000, 100_000, 999_999, 1_000_001,
-            28_800_000_000, i64::MAX, i64::MIN,
+            0,
+            1,
+            -1,
+            7,
+            359,
+            360,
+            999,
+            1_000,
+            1_001,
+            36_000,
+            100_000,
+            999_999,
+            1_000_001,
+            28_800_000_000,
+            i64::MAX,
+            i64::MIN,
         ];
         for dimension in all {
             for value in values {

@@ -31,8 +31,10 @@ impl From<&DeValue<'_>> for Raw {
     fn from(value: &DeValue<'_>) -> Self {
         match value {
             DeValue::String(text) => Self::Text(text.to_string()),
-            DeValue::Integer(n) => i64::from_str_radix(n.as_str(), n.radix())
-                .map_or_else(|_| Self::Integer(n.to_string()), |n| Self::Integer(n.to_string())),
+            DeValue::Integer(n) => i64::from_str_radix(n.as_str(), n.radix()).map_or_else(
+                |_| Self::Integer(n.to_string()),
+                |n| Self::Integer(n.to_string()),
+            ),
             DeValue::Boolean(b) => Self::Bool(*b),
             other => Self::Other(kind_of(other)),
         }
@@ -132,7 +134,10 @@ fn refuse(raw: &Raw, param: &Param, kind: AxisKind, error: &UnitError) -> Refusa
             "not a whole number".to_owned(),
         ),
         UnitError::NoNumber => (
-            format!("{noun} is needed, a number with {units}; got {}", raw.written()),
+            format!(
+                "{noun} is needed, a number with {units}; got {}",
+                raw.written()
+            ),
             "not a number with a unit".to_owned(),
         ),
         UnitError::NoUnit => (
@@ -151,11 +156,17 @@ fn refuse(raw: &Raw, param: &Param, kind: AxisKind, error: &UnitError) -> Refusa
             ),
             "not a whole number of steps".to_owned(),
         ),
-        UnitError::TooLarge => (format!("{} is too large", raw.written()), "too large".to_owned()),
+        UnitError::TooLarge => (
+            format!("{} is too large", raw.written()),
+            "too large".to_owned(),
+        ),
     };
     let example = match dimension {
         Dimension::Count => format!("write {}", param.limits(kind).default),
-        _ => format!("write for example \"{}\"", param.show(param.limits(kind).default, kind)),
+        _ => format!(
+            "write for example \"{}\"",
+            param.show(param.limits(kind).default, kind)
+        ),
     };
     Refusal {
         message,
@@ -165,7 +176,11 @@ fn refuse(raw: &Raw, param: &Param, kind: AxisKind, error: &UnitError) -> Refusa
 }
 
 fn choice(raw: &Raw, param: &Param) -> Result<i64, Refusal> {
-    let names: Vec<&str> = param.choices.iter().map(|(name, _)| name.as_str()).collect();
+    let names: Vec<&str> = param
+        .choices
+        .iter()
+        .map(|(name, _)| name.as_str())
+        .collect();
     let Raw::Text(text) = raw else {
         return Err(Refusal {
             message: format!("one of the names is needed; got {}", raw.written()),

@@ -3,129 +3,85 @@
 //! Parameters stay parameters: one generated step serves every machine. The fingerprint of a table says whether it
 //! belongs to the specification at hand; if the file was changed, the interpreter takes its place.
 
-#![cfg_attr(not(test), no_std)]
+#![no_std]
 
 /// Marks a cell that has no value yet in this cycle.
 pub const UNSET: i32 = i32::MIN;
 
-/// The cells of one cycle: `S` state variables, `I` inputs, `L` named expressions, `M` machines.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Frame<const S: usize, const I: usize, const L: usize, const M: usize> {
-    /// State at the start of the cycle.
-    pub before: [i32; S],
-    /// State as the rules have changed it.
-    pub now: [i32; S],
-    /// Inputs, [`UNSET`] until read.
-    pub inputs: [i32; I],
-    /// Named expressions, [`UNSET`] until evaluated.
-    pub lazies: [i32; L],
-    /// For each machine the number of the rule that fired, from 1; 0 for none.
-    pub fired: [i32; M],
-}
+/// Error of a function called with a frame or parameters of another table.
+pub const WRONG_FRAME: u32 = u32::MAX;
 
-/// A frame seen as slices.
-pub trait Cells: Send {
-    /// A frame with nothing set.
-    fn unset() -> Self;
-    /// Starts a cycle in state `before`; a state of another length is cut or filled with 0.
-    fn start(&mut self, before: &[i32]);
-    /// State after the rules.
-    fn now(&self) -> &[i32];
-    /// State at the start.
-    fn before(&self) -> &[i32];
-    /// Inputs.
-    fn inputs(&self) -> &[i32];
-    /// Inputs, to set some before the step.
-    fn inputs_mut(&mut self) -> &mut [i32];
-    /// Fired rules.
-    fn fired(&self) -> &[i32];
-}
+/// Reads an input of the environment by its number.
+pub type Reader<'a> = dyn FnMut(usize) -> i32 + 'a;
 
-impl<const S: usize, const I: usize, const L: usize, const M: usize> Cells for Frame<S, I, L, M> {
-    fn unset() -> Self {
-        Self {
-            before: [UNSET; S],
-            now: [UNSET; S],
-            inputs: [UNSET; I],
-            lazies: [UNSET; L],
-            fired: [0; M],
-        }
-    }
-
-    #[inline]
-    fn start(&mut self, before: &[i32]) {
-        for (k, cell) in self.before.iter_mut().enumerate() {
-            *cell = before.get(k).copied().unwrap_or(0);
-        }
-        self.now = self.before;
-        self.inputs = [UNSET; I];
-        self.lazies = [UNSET; L];
-        self.fired = [0; M];
-    }
-
-    fn now(&self) -> &[i32] {
-        &self.now
-    }
-
-    fn before(&self) -> &[i32] {
-        &self.before
-    }
-
-    fn inputs(&self) -> &[i32] {
-        &self.inputs
-    }
-
-    fn inputs_mut(&mut self) -> &mut [i32] {
-        &mut self.inputs
-    }
-
-    fn fired(&self) -> &[i32] {
-        &self.fired
-    }
-}
-
-/// A generated table. `p` are the parameter values in the order of the specification, `r(k)` reads input `k`.
-pub trait Table: Sync + Send + 'static {
+/// A generated table.
+///
+/// A frame holds the cells of one cycle, in this order: state as the rules change it, state at the start of the cycle,
+/// inputs and named expressions ([`UNSET`] until needed), and for each machine the number of the rule that fired.
+pub struct Table {
     /// `specification/system`.
-    const NAME: &'static str;
+    pub name: &'static str,
     /// Fingerprint of the specification it was generated from.
-    const FINGERPRINT: u64;
-    /// Its cells.
-    type Frame: Cells;
-
-    /// One step from the state with which the frame was started.
-    ///
-    /// # Errors
-    /// The number of the assignment whose value left its range.
-    fn step<R: FnMut(usize) -> i32>(f: &mut Self::Frame, p: &[i32], r: &mut R) -> Result<(), u32>;
-    /// Truth of atom `k` in the cycle just made.
-    fn atom<R: FnMut(usize) -> i32>(k: usize, f: &mut Self::Frame, p: &[i32], r: &mut R) -> bool;
-    /// Value of observed expression `k`.
-    fn observe<R: FnMut(usize) -> i32>(k: usize, f: &mut Self::Frame, p: &[i32], r: &mut R) -> i64;
-    /// Value of named expression `k`.
-    fn lazy<R: FnMut(usize) -> i32>(k: usize, f: &mut Self::Frame, p: &[i32], r: &mut R) -> i64;
+    pub fingerprint: u64,
+    /// Cells of a frame.
+    pub cells: usize,
+    /// State variables.
+    pub states: usize,
+    /// Inputs.
+    pub inputs: usize,
+    /// Named expressions.
+    pub lazies: usize,
+    /// Machines.
+    pub fired: usize,
+    /// One step of a started frame. The error is the number of the assignment whose value left its range.
+    pub step: fn(&mut [i32], &[i32], &mut Reader<'_>) -> Result<(), u32>,
+    /// Truth of an atom in the cycle just made.
+    pub atom: fn(usize, &mut [i32], &[i32], &mut Reader<'_>) -> Result<bool, u32>,
+    /// Value of an observed expression in the cycle just made.
+    pub observe: fn(usize, &mut [i32], &[i32], &mut Reader<'_>) -> Result<i64, u32>,
 }
 
-/// Something to do with a table whose type is only known by name.
-pub trait Visitor {
-    /// What it gives.
-    type Out;
-    /// Does it.
-    fn visit<T: Table>(self) -> Self::Out;
+impl Table {
+    /// Starts a cycle in state `before`; a frame of another table is left alone.
+    #[inline]
+    pub fn start(&self, frame: &mut [i32], before: &[i32]) {
+        let s = self.states;
+        if frame.len() != self.cells || before.len() != s {
+            return;
+        }
+        frame[..s].copy_from_slice(before);
+        frame[s..2 * s].copy_from_slice(before);
+        let fired = self.cells - self.fired;
+        frame[2 * s..fired].fill(UNSET);
+        frame[fired..].fill(0);
+    }
+
+    /// The table of this name, if it was generated from the specification with this fingerprint.
+    pub fn find(name: &str, fingerprint: u64) -> Option<&'static Table> {
+        TABLES.iter().find(|t| t.name == name && t.fingerprint == fingerprint)
+    }
 }
 
-pub use generated::with;
+pub use generated::TABLES;
 
 mod generated {
-    #![allow(clippy::all, unused_parens, unused_variables, unused_mut, unused_braces)]
-    use super::{Frame, Table, UNSET, Visitor};
+    #![allow(clippy::all, unused_parens, unused_variables, unused_mut, unused_braces, dead_code)]
+    use super::{Table, UNSET, WRONG_FRAME};
 
-    #[inline]
-    fn input<const I: usize, R: FnMut(usize) -> i32>(cells: &mut [i32; I], k: usize, r: &mut R) -> i64 {
-        if cells[k] == UNSET {
-            cells[k] = r(k);
+    #[inline(always)]
+    fn input<const N: usize, R: FnMut(usize) -> i32 + ?Sized>(f: &mut [i32; N], base: usize, k: usize, r: &mut R) -> i64 {
+        if f[base + k] == UNSET {
+            f[base + k] = r(k);
         }
-        i64::from(cells[k])
+        i64::from(f[base + k])
+    }
+
+    #[inline(always)]
+    fn fixed<'a, const N: usize, const P: usize>(f: &'a mut [i32], p: &'a [i32]) -> Result<(&'a mut [i32; N], &'a [i32; P]), u32> {
+        match (f.try_into(), p.try_into()) {
+            (Ok(f), Ok(p)) => Ok((f, p)),
+            _ => Err(WRONG_FRAME),
+        }
     }
 
     include!(concat!(env!("OUT_DIR"), "/tables.rs"));

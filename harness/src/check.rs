@@ -1,0 +1,214 @@
+//! `check`: explores every task of a subject and judges its properties.
+
+use std::collections::BTreeMap;
+use std::time::{Duration, Instant};
+
+use stillpoint_model::{Error, Limits, Options, Progress, Trace, Verdict};
+
+use crate::engine::{self, Outcome, label};
+use crate::subject::{Subject, Task};
+
+/// How to check.
+#[derive(Debug, Clone, Default)]
+pub struct Settings {
+    /// Worker threads; 0 for all processors.
+    pub threads: usize,
+    /// Bytes for the explorer.
+    pub memory: Option<u64>,
+    /// Wall time for everything.
+    pub time: Option<Duration>,
+    /// Use the interpreter even where there is generated code.
+    pub interpret: bool,
+}
+
+/// What exploring one task gave.
+#[derive(Debug)]
+pub struct Checked {
+    /// The engine's outcome.
+    pub outcome: Outcome,
+    /// Rules that never fired: (name, why).
+    pub unfired: Vec<(String, Unfired)>,
+}
+
+/// Why a rule never fired.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Unfired {
+    /// No state and input can make it fire under these parameters.
+    Parameters,
+    /// The specification gives the reason.
+    Explained(String),
+    /// Nothing explains it: a finding.
+    Unexplained,
+    /// The exploration did not end.
+    Unknown,
+}
+
+/// A verdict on one property id over all tasks.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Summary {
+    /// Property id.
+    pub id: String,
+    /// The worst verdict that says something.
+    pub verdict: Verdict,
+    /// Cycles of the shortest counterexample or witness.
+    pub length: Option<u64>,
+}
+
+/// Checks all tasks, one after the other.
+///
+/// # Errors
+/// A system that cannot be explored at all, with the task's title.
+pub fn check(
+    subject: &Subject,
+    settings: &Settings,
+    progress: &mut dyn FnMut(&Task) -> Box<dyn Progress>,
+) -> Result<Vec<Checked>, (String, Error)> {
+    let start = Instant::now();
+    let mut out = Vec::new();
+    for task in &subject.tasks {
+        let options = Options {
+            limits: Limits {
+                memory: settings.memory,
+                time: settings.time.map(|t| t.saturating_sub(start.elapsed())),
+                threads: settings.threads,
+            },
+            ..Options::default()
+        };
+        let outcome = engine::run(&task.bound, &options, settings.interpret, progress(task).as_mut())
+            .map_err(|e| (task.title.clone(), e))?;
+        let unfired = unfired(task, &outcome);
+        out.push(Checked { outcome, unfired });
+    }
+    Ok(out)
+}
+
+fn unfired(task: &Task, outcome: &Outcome) -> Vec<(String, Unfired)> {
+    let system = &task.bound.system;
+    let mut out = Vec::new();
+    for (k, rule) in system.rules().enumerate() {
+        if outcome.report.coverage.get(k).is_some_and(|n| *n > 0) {
+            continue;
+        }
+        let general = match (rule.name.find('['), rule.name.find(']')) {
+            (Some(a), Some(b)) => format!("{}{}", &rule.name[..a], &rule.name[b + 1..]),
+            _ => rule.name.clone(),
+        };
+        let reason = system.unreached.iter().find(|(n, _)| *n == rule.name || *n == general);
+        let why = if task.analysis.dead.contains(&k) {
+            Unfired::Parameters
+        } else if let Some((_, reason)) = reason {
+            Unfired::Explained(reason.clone())
+        } else if outcome.report.complete {
+            Unfired::Unexplained
+        } else {
+            Unfired::Unknown
+        };
+        out.push((rule.name.clone(), why));
+    }
+    out
+}
+
+/// Rank of a verdict when several runs are put together: what says most about a fault comes first.
+fn rank(verdict: Verdict) -> u8 {
+    match verdict {
+        Verdict::Violated => 5,
+        Verdict::Inconclusive => 4,
+        Verdict::Holds | Verdict::Reached => 3,
+        Verdict::Unreachable => 2,
+        Verdict::Vacuous => 1,
+    }
+}
+
+/// One verdict for each property id, in the order in which they first occur.
+pub fn summarise(subject: &Subject, checked: &[Checked]) -> Vec<Summary> {
+    let mut order: Vec<String> = Vec::new();
+    let mut best: BTreeMap<String, Summary> = BTreeMap::new();
+    for (task, done) in subject.tasks.iter().zip(checked) {
+        for (property, judged) in task.bound.system.properties.iter().zip(&done.outcome.report.properties) {
+            let new = Summary {
+                id: property.id.clone(),
+                verdict: judged.verdict,
+                length: judged.length,
+            };
+            match best.get_mut(&new.id) {
+                None => {
+                    order.push(new.id.clone());
+                    best.insert(new.id.clone(), new);
+                }
+                Some(old) => {
+                    let shorter = rank(old.verdict) == rank(new.verdict)
+                        && new.length.unwrap_or(u64::MAX) < old.length.unwrap_or(u64::MAX);
+                    if rank(new.verdict) > rank(old.verdict) || shorter {
+                        *old = new;
+                    }
+                }
+            }
+        }
+        for fault in &done.outcome.report.faults {
+            let id = "range".to_owned();
+            if !best.contains_key(&id) {
+                order.push(id.clone());
+                best.insert(id.clone(), Summary { id, verdict: Verdict::Violated, length: fault.length });
+            }
+        }
+    }
+    order.into_iter().filter_map(|id| best.remove(&id)).collect()
+}
+
+/// Exit status for the verdicts: 1 violated (or a witness that must exist does not), 3 inconclusive, 0 otherwise.
+pub fn exit_status(summaries: &[Summary], checked: &[Checked]) -> u8 {
+    let any = |v: Verdict| summaries.iter().any(|s| s.verdict == v);
+    if any(Verdict::Violated) || any(Verdict::Unreachable) {
+        1
+    } else if any(Verdict::Inconclusive) || checked.iter().any(|c| !c.outcome.report.complete) {
+        3
+    } else {
+        0
+    }
+}
+
+/// A counterexample: which task, which property, and the run.
+pub struct Violation<'a> {
+    /// The task.
+    pub task: &'a Task,
+    /// Property id with the index of its copy.
+    pub id: String,
+    /// In plain words.
+    pub text: String,
+    /// The run.
+    pub trace: Option<&'a Trace>,
+    /// For a property of two runs, the second one.
+    pub second: Option<&'a Trace>,
+}
+
+/// All violations, in order.
+pub fn violations<'a>(subject: &'a Subject, checked: &'a [Checked]) -> Vec<Violation<'a>> {
+    let mut out = Vec::new();
+    for (task, done) in subject.tasks.iter().zip(checked) {
+        let judged = task.bound.system.properties.iter().zip(&done.outcome.report.properties);
+        for (k, (property, judged)) in judged.enumerate() {
+            if judged.verdict == Verdict::Violated {
+                out.push(Violation {
+                    task,
+                    id: label(property),
+                    text: property.text.clone(),
+                    trace: judged.trace.as_ref(),
+                    second: done.outcome.pairs.get(&k).and_then(|p| p.second.as_ref()),
+                });
+            }
+        }
+        for fault in &done.outcome.report.faults {
+            let site = task.bound.system.sites.get(fault.code as usize);
+            out.push(Violation {
+                task,
+                id: "range".to_owned(),
+                text: site.map_or("a value left its range".to_owned(), |s| {
+                    format!("an assignment leaves the range of its variable: {}", s.name)
+                }),
+                trace: fault.trace.as_ref(),
+                second: None,
+            });
+        }
+    }
+    out
+}

@@ -1,0 +1,99 @@
+//! `stillpoint check`.
+
+use std::collections::BTreeSet;
+use std::path::PathBuf;
+use std::time::Duration;
+
+use clap::Args;
+use stillpoint::check::{Settings, check, exit_status, summarise};
+use stillpoint::readings::compare;
+use stillpoint::report;
+use stillpoint::subject::{self, Subject};
+
+use super::Failure;
+use super::progress::Line;
+use super::values;
+
+#[derive(Args)]
+pub struct Arguments {
+    /// Machine or specification file
+    file: PathBuf,
+    /// Print the report as JSON
+    #[arg(long)]
+    json: bool,
+    /// Worker threads [default: all processors]
+    #[arg(long, default_value_t = 0, hide_default_value = true)]
+    threads: usize,
+    /// Most memory for the explorer, e.g. 2GiB
+    #[arg(long, value_parser = values::size)]
+    memory: Option<u64>,
+    /// Most wall time, e.g. 90s
+    #[arg(long, value_parser = values::duration)]
+    time: Option<Duration>,
+    /// `all` compares every option of every reading; ID=OPTION chooses one
+    #[arg(long, value_name = "all|ID=OPTION")]
+    readings: Vec<String>,
+    /// Use the interpreter even where there is generated code
+    #[arg(long)]
+    interpret: bool,
+}
+
+pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
+    let choice = values::readings(&arguments.readings).map_err(Failure::Other)?;
+    let subject = subject::load(&arguments.file, &choice.chosen)?;
+    known_readings(&subject, &choice.chosen)?;
+    let settings = Settings {
+        threads: arguments.threads,
+        memory: arguments.memory,
+        time: arguments.time,
+        interpret: arguments.interpret,
+    };
+    let fail = |(title, e): (String, stillpoint_model::Error)| Failure::Other(format!("{title}: {e}"));
+    let checked =
+        check(&subject, &settings, &mut |task| Box::new(Line::new(&task.title))).map_err(fail)?;
+    let summaries = summarise(&subject, &checked);
+    let mut status = exit_status(&summaries, &checked);
+    let compared = if choice.all {
+        let compared = compare(&subject, &checked, &settings, &choice.chosen, &mut |title| {
+            Box::new(Line::new(title))
+        })
+        .map_err(|e| match e {
+            stillpoint::readings::Failed::Input(d) => Failure::Input(d),
+            stillpoint::readings::Failed::Explore(title, e) => fail((title, e)),
+        })?;
+        if status == 0 && compared.iter().any(|c| !c.complete) {
+            status = 3;
+        }
+        Some(compared)
+    } else {
+        None
+    };
+    if arguments.json {
+        let mut json = report::to_json(&subject, &checked, &summaries);
+        if let (Some(compared), Some(object)) = (&compared, json.as_object_mut()) {
+            object.insert("readings".to_owned(), stillpoint::readings::to_json(compared));
+        }
+        println!("{json:#}");
+    } else {
+        print!("{}", report::text(&subject, &checked, &summaries));
+        if let Some(compared) = &compared {
+            print!("{}", stillpoint::readings::text(compared));
+        }
+    }
+    Ok(status)
+}
+
+fn known_readings(subject: &Subject, chosen: &subject::Readings) -> Result<(), Failure> {
+    let known: BTreeSet<String> = subject
+        .tasks
+        .iter()
+        .flat_map(|t| t.bound.system.readings.iter().map(|r| r.id.clone()))
+        .collect();
+    match values::unknown(chosen, &known) {
+        None => Ok(()),
+        Some(id) => {
+            let list: Vec<&str> = known.iter().map(String::as_str).collect();
+            Err(Failure::Other(format!("there is no reading `{id}`; this file has {}", list.join(", "))))
+        }
+    }
+}

@@ -1,0 +1,103 @@
+//! Arguments, exit status, and what goes to which stream.
+
+mod check;
+mod progress;
+mod values;
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+use stillpoint::subject;
+use stillpoint_spec::diag::Diagnostics;
+
+/// Exit status for bad input: nothing was run.
+const BAD_INPUT: u8 = 2;
+
+#[derive(Parser)]
+#[command(
+    name = "stillpoint",
+    version,
+    about = "Stillpoint proves that a machine stops: it checks the safety functions of drives exhaustively.",
+    after_help = "Exit status: 0 all holds; 1 a property is violated or a divergence was found; 2 bad input, nothing was run; 3 a limit was reached first.\n\nExample: stillpoint check spec/machines/milling-840d.toml"
+)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Explore every reachable state and judge every property
+    #[command(after_help = "Examples:\n  stillpoint check spec/machines/milling-840d.toml\n  stillpoint check spec/bench/two-axis.toml --json\n  stillpoint check spec/machines/milling-840d.toml --readings A-25=RESET_AT_ONCE")]
+    Check(check::Arguments),
+    /// Check whether a machine file is plausible, without exploring anything
+    #[command(after_help = "Example: stillpoint validate spec/machines/milling-840d.toml")]
+    Validate {
+        /// Machine or specification file
+        file: PathBuf,
+    },
+}
+
+pub fn main() -> ExitCode {
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(e) => {
+            let _ = e.print();
+            return ExitCode::from(if e.use_stderr() { BAD_INPUT } else { 0 });
+        }
+    };
+    let status = match arguments.command {
+        Command::Check(arguments) => check::run(&arguments),
+        Command::Validate { file } => validate(&file),
+    };
+    ExitCode::from(status.unwrap_or_else(|failure| failure.show()))
+}
+
+/// Why a command did not run.
+pub enum Failure {
+    /// The input is wrong.
+    Input(Diagnostics),
+    /// Anything else that stops a command before it starts: one sentence.
+    Other(String),
+}
+
+impl From<Diagnostics> for Failure {
+    fn from(diagnostics: Diagnostics) -> Self {
+        Self::Input(diagnostics)
+    }
+}
+
+impl Failure {
+    fn show(self) -> u8 {
+        match self {
+            Self::Input(Diagnostics(list)) => {
+                let n = list.len();
+                for diagnostic in list {
+                    eprintln!("{:?}", miette::Report::new(diagnostic));
+                }
+                if n > 1 {
+                    eprintln!("{n} errors; nothing was run");
+                }
+            }
+            Self::Other(message) => eprintln!("error: {message}"),
+        }
+        BAD_INPUT
+    }
+}
+
+fn validate(file: &std::path::Path) -> Result<u8, Failure> {
+    let subject = subject::load(file, &subject::Readings::new())?;
+    println!("{}: plausible", subject.name);
+    if let Some(machine) = &subject.machine {
+        let axes: Vec<&str> = machine.axes.iter().map(|a| a.name.as_str()).collect();
+        println!("  axes {}", axes.join(", "));
+    }
+    for task in &subject.tasks {
+        println!("  to explore: {} ({})", task.title, task.bound.system.name);
+        for item in &task.abstractions {
+            println!("    abstraction: {item}");
+        }
+    }
+    Ok(0)
+}

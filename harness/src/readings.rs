@@ -1,0 +1,164 @@
+//! Which properties depend on how an ambiguity of the manual is read.
+
+use std::fmt::Write;
+
+use serde_json::{Value, json};
+use stillpoint_model::{Error, Limits, Options, Progress, Verdict};
+use stillpoint_spec::bind::Bound;
+use stillpoint_spec::diag::Diagnostics;
+use stillpoint_spec::ir::{Node, Space};
+
+use crate::check::{Checked, Settings};
+use crate::engine::{self, label};
+use crate::report::verdict_name;
+use crate::subject::{self, Readings, Subject};
+
+/// The effect of one option of a reading.
+#[derive(Debug, Clone)]
+pub struct Compared {
+    /// Reading.
+    pub reading: String,
+    /// What is ambiguous.
+    pub text: String,
+    /// The option compared with the chosen one.
+    pub option: String,
+    /// The option the main report was made with.
+    pub against: String,
+    /// Properties whose verdict or tightest bound differs: (id, main result, result under the option).
+    pub changes: Vec<(String, String, String)>,
+    /// Tasks explored.
+    pub tasks: usize,
+    /// Whether every exploration ended.
+    pub complete: bool,
+}
+
+/// Why the comparison could not be made.
+#[derive(Debug)]
+pub enum Failed {
+    /// The input is wrong.
+    Input(Diagnostics),
+    /// A system cannot be explored: title and reason.
+    Explore(String, Error),
+}
+
+/// Explores every task again under each other option of each reading that its system uses.
+///
+/// # Errors
+/// As for checking.
+pub fn compare(
+    main: &Subject,
+    checked: &[Checked],
+    settings: &Settings,
+    chosen: &Readings,
+    progress: &mut dyn FnMut(&str) -> Box<dyn Progress>,
+) -> Result<Vec<Compared>, Failed> {
+    let mut out: Vec<Compared> = Vec::new();
+    let mut ids: Vec<(String, String, Vec<String>)> = Vec::new();
+    for task in &main.tasks {
+        for reading in &task.bound.system.readings {
+            if !ids.iter().any(|(id, ..)| *id == reading.id) {
+                ids.push((reading.id.clone(), reading.text.clone(), reading.options.clone()));
+            }
+        }
+    }
+    for (id, text, options) in ids {
+        let against = chosen.get(&id).or(options.first()).cloned().unwrap_or_default();
+        for option in options.iter().filter(|o| **o != against) {
+            let mut readings = chosen.clone();
+            readings.insert(id.clone(), option.clone());
+            let other = subject::load(&main.path, &readings).map_err(Failed::Input)?;
+            let mut compared = Compared {
+                reading: id.clone(),
+                text: text.clone(),
+                option: option.clone(),
+                against: against.clone(),
+                changes: Vec::new(),
+                tasks: 0,
+                complete: true,
+            };
+            for ((task, done), was) in other.tasks.iter().zip(checked).zip(&main.tasks) {
+                if !uses(&was.bound, &id) {
+                    continue;
+                }
+                let options = Options {
+                    limits: Limits {
+                        memory: settings.memory,
+                        time: settings.time,
+                        threads: settings.threads,
+                    },
+                    ..Options::default()
+                };
+                let title = format!("{id}={option}: {}", task.title);
+                let outcome =
+                    engine::run(&task.bound, &options, settings.interpret, progress(&title).as_mut())
+                        .map_err(|e| Failed::Explore(title, e))?;
+                compared.tasks += 1;
+                compared.complete &= outcome.report.complete;
+                let results = done.outcome.report.properties.iter().zip(&outcome.report.properties);
+                for (property, (a, b)) in task.bound.system.properties.iter().zip(results) {
+                    let (a, b) = (shown(a.verdict, a.bound), shown(b.verdict, b.bound));
+                    if a != b {
+                        compared.changes.push((label(property), a, b));
+                    }
+                }
+            }
+            out.push(compared);
+        }
+    }
+    Ok(out)
+}
+
+fn shown(verdict: Verdict, bound: Option<u64>) -> String {
+    match (verdict, bound) {
+        (Verdict::Holds, Some(n)) => format!("holds within {n}"),
+        _ => verdict_name(verdict).to_owned(),
+    }
+}
+
+/// Whether any rule, output or property of the system reads an option of the reading.
+fn uses(bound: &Bound, id: &str) -> bool {
+    let system = &bound.system;
+    let mut found = false;
+    system.nodes(&mut |n| {
+        if let Node::Cell(Space::Param, k) = n {
+            found |= system.params[*k as usize].reading.as_deref() == Some(id);
+        }
+    });
+    found
+}
+
+/// The comparison for readers.
+pub fn text(compared: &[Compared]) -> String {
+    let mut out = String::from("Readings of the manual\n");
+    for c in compared {
+        let _ = writeln!(out, "  {} {} instead of {} ({})", c.reading, c.option, c.against, c.text);
+        if c.tasks == 0 {
+            out.push_str("    no system of this file uses it\n");
+        } else if c.changes.is_empty() {
+            let _ = writeln!(out, "    no verdict depends on it ({} explorations)", c.tasks);
+        }
+        for (id, a, b) in &c.changes {
+            let _ = writeln!(out, "    {id}: {a} -> {b}");
+        }
+        if !c.complete {
+            out.push_str("    not explored to the end: a limit was reached\n");
+        }
+    }
+    out
+}
+
+/// The comparison as JSON.
+pub fn to_json(compared: &[Compared]) -> Value {
+    compared
+        .iter()
+        .map(|c| {
+            let changes: Vec<Value> =
+                c.changes.iter().map(|(id, a, b)| json!({ "id": id, "main": a, "other": b })).collect();
+            json!({
+                "id": c.reading, "option": c.option, "against": c.against,
+                "explorations": c.tasks, "complete": c.complete, "changes": changes,
+            })
+        })
+        .collect::<Vec<_>>()
+        .into()
+}

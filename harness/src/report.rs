@@ -1,0 +1,317 @@
+//! The report of `check`, for readers and as JSON.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+use serde_json::{Value, json};
+use stillpoint_model::{Storage, Trace, Verdict};
+use stillpoint_spec::bind::Bound;
+
+use crate::check::{Checked, Summary, Unfired, exit_status, violations};
+use crate::engine::{Evaluator, label, replay};
+use crate::subject::{Subject, Task};
+use crate::timing::Diagram;
+
+/// Property texts are wrapped at this width.
+const WIDTH: usize = 100;
+
+/// A verdict as it stands in JSON.
+pub fn verdict_name(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Holds => "holds",
+        Verdict::Violated => "violated",
+        Verdict::Vacuous => "vacuous",
+        Verdict::Reached => "reached",
+        Verdict::Unreachable => "unreachable",
+        Verdict::Inconclusive => "inconclusive",
+    }
+}
+
+/// A number with thin groups of three: `4 024 036`.
+pub fn grouped(n: u128) -> String {
+    let digits = n.to_string();
+    let mut out = String::new();
+    for (k, d) in digits.chars().enumerate() {
+        if k > 0 && (digits.len() - k) % 3 == 0 {
+            out.push(' ');
+        }
+        out.push(d);
+    }
+    out
+}
+
+/// The timing diagram of a run, with a mark at its last cycle.
+pub fn diagram(bound: &Bound, trace: &Trace, mark: &str) -> Diagram {
+    let cycles = replay(bound, trace);
+    let mut diagram = Diagram::of_run(bound, &cycles);
+    diagram.marks.push((cycles.len(), mark.to_owned()));
+    // A loop starts with the step of that number, which makes the column after it.
+    diagram.loop_start = trace.loop_start.map(|k| k + 1);
+    diagram
+}
+
+/// The whole report as text.
+pub fn text(subject: &Subject, checked: &[Checked], summaries: &[Summary]) -> String {
+    let mut out = String::new();
+    headline(&mut out, subject, checked, summaries);
+    if let Some(machine) = &subject.machine {
+        for group in &machine.groups {
+            let _ = writeln!(out, "Coupled, explored together: {}.", group.join(", "));
+        }
+        let alone: Vec<&str> = machine
+            .axes
+            .iter()
+            .map(|a| a.name.as_str())
+            .filter(|a| !machine.groups.iter().any(|g| g.iter().any(|m| m == a)))
+            .collect();
+        if !alone.is_empty() {
+            let _ = writeln!(out, "On its own, explored separately: {}.", alone.join(", "));
+        }
+        for item in &machine.not_explored {
+            let _ = writeln!(out, "Not explored: {item}");
+        }
+        out.push('\n');
+    }
+    for violation in violations(subject, checked) {
+        let _ = writeln!(out, "VIOLATED  {}  {}", violation.id, violation.text);
+        let _ = writeln!(out, "  in: {}", violation.task.title);
+        match violation.trace {
+            Some(trace) => {
+                let _ = writeln!(out, "  shortest run, {} cycles:", trace.steps.len());
+                out.push_str(&diagram(&violation.task.bound, trace, "violated here").text());
+                if let Some(second) = violation.second {
+                    out.push_str("  against the run that differs only in the inputs named:\n");
+                    out.push_str(&diagram(&violation.task.bound, second, "violated here").text());
+                }
+            }
+            None => out.push_str("  (no run could be rebuilt within the limits)\n"),
+        }
+        out.push('\n');
+    }
+    for (task, done) in subject.tasks.iter().zip(checked) {
+        run(&mut out, task, done);
+    }
+    out
+}
+
+fn headline(out: &mut String, subject: &Subject, checked: &[Checked], summaries: &[Summary]) {
+    let count = |v: Verdict| summaries.iter().filter(|s| s.verdict == v).count();
+    let complete = checked.iter().all(|c| c.outcome.report.complete);
+    let verdict = match exit_status(summaries, checked) {
+        0 => "ALL PROPERTIES HOLD",
+        1 => "VIOLATED",
+        _ => "INCONCLUSIVE: a limit was reached first",
+    };
+    let states: u128 = checked.iter().map(|c| u128::from(c.outcome.report.states)).sum();
+    let transitions: u128 = checked.iter().map(|c| c.outcome.report.transitions).sum();
+    let seconds: f64 = checked.iter().map(|c| c.outcome.report.seconds).sum();
+    let _ = writeln!(out, "{}: {verdict}", subject.name);
+    if !subject.title.is_empty() {
+        let _ = writeln!(out, "{}", subject.title);
+    }
+    let list: Vec<String> = [
+        Verdict::Violated,
+        Verdict::Unreachable,
+        Verdict::Inconclusive,
+        Verdict::Holds,
+        Verdict::Reached,
+        Verdict::Vacuous,
+    ]
+    .into_iter()
+    .filter(|v| count(*v) > 0)
+    .map(|v| format!("{} {}", count(v), verdict_name(v)))
+    .collect();
+    let _ = writeln!(
+        out,
+        "{} properties ({}), {} states, {} transitions, {}, {seconds:.1} s",
+        summaries.len(),
+        list.join(", "),
+        grouped(states),
+        grouped(transitions),
+        if complete { "complete" } else { "NOT complete" },
+    );
+    let findings = checked.iter().flat_map(|c| &c.unfired).filter(|(_, u)| *u == Unfired::Unexplained).count();
+    if findings > 0 {
+        let _ = writeln!(out, "FINDING: {findings} rules never fire and nothing says why; see below.");
+    }
+    out.push('\n');
+}
+
+fn run(out: &mut String, task: &Task, done: &Checked) {
+    let report = &done.outcome.report;
+    let _ = writeln!(out, "{}", task.title);
+    let _ = writeln!(out, "  system {}", task.bound.system.name);
+    let params: Vec<String> = params(&task.bound).iter().map(|(n, v)| format!("{n} = {v}")).collect();
+    if !params.is_empty() {
+        wrapped(out, "  with ", &params.join(", "));
+    }
+    for item in &task.abstractions {
+        wrapped(out, "  abstraction: ", item);
+    }
+    let storage = match report.storage {
+        Storage::Bitmap => "exact bitmap",
+        Storage::Hash64 | Storage::Hash128 => "exact hash set",
+    };
+    let evaluator = match done.outcome.evaluator {
+        Evaluator::Generated => "generated step",
+        Evaluator::Interpreter => "interpreter",
+    };
+    let _ = writeln!(
+        out,
+        "  {} states of {} ({storage}, {evaluator}), {} transitions, depth {}, {} absorbing, {:.2} s",
+        grouped(u128::from(report.states)),
+        grouped(report.index_space),
+        grouped(report.transitions),
+        report.depth,
+        grouped(u128::from(report.absorbing)),
+        report.seconds,
+    );
+    for (property, judged) in task.bound.system.properties.iter().zip(&report.properties) {
+        let length = judged.length.map_or(String::new(), |n| match judged.verdict {
+            Verdict::Violated => format!(" after {n} cycles"),
+            _ => format!(", seen in cycle {n}"),
+        });
+        let bound = judged.bound.map_or(String::new(), |n| format!(", tightest bound {n} cycles"));
+        let head = format!("  {:<12} {:<16}", verdict_name(judged.verdict), label(property));
+        wrapped(out, &head, &format!("{}{length}{bound}", property.text));
+    }
+    for (rule, why) in &done.unfired {
+        let why = match why {
+            Unfired::Parameters => "excluded by these parameters".to_owned(),
+            Unfired::Explained(reason) => reason.clone(),
+            Unfired::Unexplained => "FINDING, nothing says why".to_owned(),
+            Unfired::Unknown => "not fired before the limit was reached".to_owned(),
+        };
+        wrapped(out, "  rule not fired: ", &format!("{rule} ({why})"));
+    }
+    for warning in &task.bound.system.warnings {
+        wrapped(out, "  warning: ", warning);
+    }
+    for skipped in &task.analysis.skipped {
+        wrapped(out, "  not analysed: ", &format!("guards of {skipped} read too many values"));
+    }
+    out.push('\n');
+}
+
+fn wrapped(out: &mut String, head: &str, text: &str) {
+    let indent = head.chars().count().min(32);
+    let mut line = head.to_owned();
+    let mut used = line.chars().count();
+    for word in text.split_whitespace() {
+        let n = word.chars().count();
+        if used + n + 1 > WIDTH && used > indent {
+            let _ = writeln!(out, "{}", line.trim_end());
+            line = " ".repeat(indent);
+            used = indent;
+        }
+        if !line.ends_with(' ') {
+            line.push(' ');
+            used += 1;
+        }
+        line.push_str(word);
+        used += n;
+    }
+    let _ = writeln!(out, "{}", line.trim_end());
+}
+
+/// Parameters with their values as a reader wants to see them, without the readings' options.
+pub fn params(bound: &Bound) -> Vec<(String, String)> {
+    let all = bound.system.params.iter().zip(&bound.values);
+    all.filter(|(p, _)| p.reading.is_none())
+        .map(|(p, v)| (p.var.name.clone(), bound.system.show(p.var.ty, i64::from(*v))))
+        .collect()
+}
+
+fn steps(trace: &Trace, bound: &Bound) -> Value {
+    let names = |step: &Vec<(u32, u32)>| -> Value {
+        step.iter()
+            .filter_map(|(k, v)| {
+                let input = bound.system.inputs.get(*k as usize)?;
+                let (lo, _) = bound.inputs[*k as usize];
+                Some((input.name.clone(), json!(bound.system.show(input.ty, i64::from(lo) + i64::from(*v)))))
+            })
+            .collect::<serde_json::Map<_, _>>()
+            .into()
+    };
+    json!({ "steps": trace.steps.iter().map(names).collect::<Vec<_>>(), "loop_start": trace.loop_start })
+}
+
+/// The whole report as JSON: the design's keys at the top, details under `runs`.
+pub fn to_json(subject: &Subject, checked: &[Checked], summaries: &[Summary]) -> Value {
+    let runs: Vec<Value> = subject
+        .tasks
+        .iter()
+        .zip(checked)
+        .map(|(task, done)| {
+            let report = &done.outcome.report;
+            let system = &task.bound.system;
+            let properties: Vec<Value> = system
+                .properties
+                .iter()
+                .zip(&report.properties)
+                .map(|(p, j)| {
+                    let counterexample = (j.verdict == Verdict::Violated)
+                        .then(|| j.trace.as_ref().map(|t| steps(t, &task.bound)));
+                    json!({
+                        "id": p.id, "index": p.index, "text": p.text, "requirements": p.req,
+                        "verdict": verdict_name(j.verdict), "length": j.length, "bound": j.bound,
+                        "counterexample": counterexample.flatten(),
+                    })
+                })
+                .collect();
+            let rules: Vec<Value> = system
+                .rules()
+                .zip(&report.coverage)
+                .map(|(r, n)| json!({ "rule": r.name, "requirements": r.ids, "fired": n }))
+                .collect();
+            let unfired: Vec<Value> = done
+                .unfired
+                .iter()
+                .map(|(rule, why)| {
+                    let why = match why {
+                        Unfired::Parameters => "excluded by the parameters",
+                        Unfired::Explained(reason) => reason,
+                        Unfired::Unexplained => "unexplained",
+                        Unfired::Unknown => "not explored to the end",
+                    };
+                    json!({ "rule": rule, "reason": why })
+                })
+                .collect();
+            json!({
+                "title": task.title, "system": system.name, "axes": task.axes,
+                "abstractions": task.abstractions,
+                "parameters": params(&task.bound).into_iter().collect::<BTreeMap<_, _>>(),
+                "readings": task.bound.readings().into_iter().collect::<BTreeMap<_, _>>(),
+                "states": report.states, "transitions": number(report.transitions),
+                "depth": report.depth, "seconds": report.seconds, "complete": report.complete,
+                "absorbing": report.absorbing, "memory": report.memory,
+                "bytes_per_state": report.bytes_per_state(),
+                "index_space": number(report.index_space),
+                "evaluator": match done.outcome.evaluator {
+                    Evaluator::Generated => "generated", Evaluator::Interpreter => "interpreter",
+                },
+                "properties": properties, "rules": rules, "unfired": unfired,
+                "warnings": system.warnings,
+            })
+        })
+        .collect();
+    let reports = || checked.iter().map(|c| &c.outcome.report);
+    json!({
+        "name": subject.name,
+        "file": subject.path.display().to_string(),
+        "states": reports().map(|r| r.states).sum::<u64>(),
+        "transitions": number(reports().map(|r| r.transitions).sum()),
+        "depth": reports().map(|r| r.depth).max().unwrap_or(0),
+        "seconds": reports().map(|r| r.seconds).sum::<f64>(),
+        "complete": reports().all(|r| r.complete),
+        "properties": summaries.iter().map(|s| json!({
+            "id": s.id, "verdict": verdict_name(s.verdict), "length": s.length,
+        })).collect::<Vec<_>>(),
+        "runs": runs,
+    })
+}
+
+/// A count; beyond 64 bits a float, since JSON readers would lose digits anyway.
+fn number(n: u128) -> Value {
+    u64::try_from(n).map_or(json!(n as f64), |n| json!(n))
+}

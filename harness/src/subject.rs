@@ -1,0 +1,168 @@
+//! What a command works on: the systems of a specification file, or the runs of a machine file.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use stillpoint_spec::analysis::Analysis;
+use stillpoint_spec::bind::{BindError, Bound};
+use stillpoint_spec::diag::{Diagnostic, Diagnostics, Result};
+use stillpoint_spec::machine::{self, Machine};
+use stillpoint_spec::{Spec, read_text};
+
+/// Chosen options of readings, by id; what is missing has the recommended one.
+pub type Readings = BTreeMap<String, String>;
+
+/// One exploration.
+#[derive(Debug, Clone)]
+pub struct Task {
+    /// What it shows.
+    pub title: String,
+    /// The axes it stands for; empty for a specification file.
+    pub axes: Vec<String>,
+    /// Where it is coarser than the machine.
+    pub abstractions: Vec<String>,
+    /// The system with its parameter values.
+    pub bound: Bound,
+    /// What static analysis found.
+    pub analysis: Analysis,
+}
+
+/// A file and everything to be explored for it.
+#[derive(Debug, Clone)]
+pub struct Subject {
+    /// The file.
+    pub path: PathBuf,
+    /// Name of the machine or specification.
+    pub name: String,
+    /// One line about it.
+    pub title: String,
+    /// The machine, for a machine file.
+    pub machine: Option<Machine>,
+    /// The explorations.
+    pub tasks: Vec<Task>,
+}
+
+/// Reads a specification or machine file, resolves and analyses everything to be explored.
+///
+/// # Errors
+/// Whatever is wrong with the file; nothing has been run then.
+pub fn load(path: &Path, readings: &Readings) -> Result<Subject> {
+    let text = read_text(path)?;
+    if is_machine_file(&text) {
+        of_machine(path, readings)
+    } else {
+        of_spec(path, text, readings)
+    }
+}
+
+/// A machine file has the key `family` at its top, a specification file the key `spec`.
+fn is_machine_file(text: &str) -> bool {
+    text.lines()
+        .take_while(|l| !l.trim_start().starts_with('['))
+        .any(|l| l.trim_start().strip_prefix("family").is_some_and(|r| r.trim_start().starts_with('=')))
+}
+
+fn of_spec(path: &Path, text: Arc<str>, readings: &Readings) -> Result<Subject> {
+    let spec = Spec::from_text(path, text.clone())?;
+    let names: Vec<String> = spec.systems().map(str::to_owned).collect();
+    let mut tasks = Vec::new();
+    let mut errors = Vec::new();
+    for name in &names {
+        let system = match spec.system(name, None) {
+            Ok(system) => system,
+            Err(Diagnostics(list)) => {
+                errors.extend(list);
+                continue;
+            }
+        };
+        let bound = bind(path, &text, system, &BTreeMap::new(), readings)?;
+        match spec.analyse(&bound) {
+            Ok(analysis) => tasks.push(Task {
+                title: bound.system.text.clone(),
+                axes: Vec::new(),
+                abstractions: Vec::new(),
+                bound,
+                analysis,
+            }),
+            Err(Diagnostics(list)) => errors.extend(list),
+        }
+    }
+    if !errors.is_empty() {
+        return Err(Diagnostics(errors));
+    }
+    if tasks.is_empty() {
+        let file = path.display().to_string();
+        return Err(Diagnostic::new(&file, &text, None, "declares no system to check")
+            .help("add [system.NAME] with instances, or check a file that uses this one")
+            .into());
+    }
+    Ok(Subject {
+        path: path.to_owned(),
+        name: spec.name.clone(),
+        title: spec.title.clone(),
+        machine: None,
+        tasks,
+    })
+}
+
+fn of_machine(path: &Path, readings: &Readings) -> Result<Subject> {
+    let machine = machine::load(path, &families(path))?;
+    let mut tasks = Vec::new();
+    let mut specs: BTreeMap<PathBuf, Spec> = BTreeMap::new();
+    for run in &machine.runs {
+        if !specs.contains_key(&run.file) {
+            specs.insert(run.file.clone(), Spec::load(&run.file)?);
+        }
+        let spec = &specs[&run.file];
+        let cycle = u64::try_from(machine.monitoring_cycle).ok();
+        let system = spec.system(&run.system, cycle)?;
+        let source: Arc<str> = Arc::from("");
+        let bound = bind(&run.file, &source, system, &run.params, readings)?;
+        let analysis = spec.analyse(&bound)?;
+        tasks.push(Task {
+            title: run.title.clone(),
+            axes: run.axes.clone(),
+            abstractions: run.abstractions.clone(),
+            bound,
+            analysis,
+        });
+    }
+    Ok(Subject {
+        path: path.to_owned(),
+        name: machine.name.clone(),
+        title: machine.title.clone(),
+        machine: Some(machine),
+        tasks,
+    })
+}
+
+fn bind(
+    path: &Path,
+    source: &Arc<str>,
+    system: stillpoint_spec::ir::System,
+    params: &BTreeMap<String, Vec<i64>>,
+    readings: &Readings,
+) -> Result<Bound> {
+    Bound::new(system, params, readings).map_err(|e: BindError| {
+        let help = "give the parameter a value of its range, or correct the mapping in the family's file";
+        Diagnostic::new(&path.display().to_string(), source, None, e.to_string()).help(help).into()
+    })
+}
+
+/// The folder with the families: beside the machine file's folder, in an ancestor's `spec`, or in `./spec`.
+pub fn families(path: &Path) -> PathBuf {
+    let absolute = path.canonicalize().unwrap_or_else(|_| path.to_owned());
+    let has_families = |dir: &Path| {
+        std::fs::read_dir(dir)
+            .is_ok_and(|entries| entries.flatten().any(|e| e.path().join("family.toml").is_file()))
+    };
+    for dir in absolute.ancestors().skip(1) {
+        for candidate in [dir.to_owned(), dir.join("spec")] {
+            if has_families(&candidate) {
+                return candidate;
+            }
+        }
+    }
+    PathBuf::from("spec")
+}

@@ -1,0 +1,260 @@
+//! The explicit graph of a part of the reachable cycles, with its strongly connected components.
+
+use crate::choices::Odometer;
+use crate::cursor::{Cursor, Leaf};
+use crate::pack::Key;
+use crate::search::Model;
+use crate::store::PIECE;
+use crate::process::{Any, Process};
+use std::ops::ControlFlow;
+
+/// Says whether a cycle to the given state is an edge, and its label.
+pub(crate) type Rule<'a, K> = dyn Fn(&mut dyn Process, &mut Odometer, K) -> Option<u32> + Sync + 'a;
+
+/// An edge; there is one for each pair (target, label) that some choice vector makes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Edge {
+    pub(crate) to: u32,
+    pub(crate) label: u32,
+}
+
+/// A graph closed under a rule. Nodes are numbered in breadth-first order, the seeds first.
+#[derive(Debug)]
+pub(crate) struct Graph<K> {
+    keys: Vec<K>,
+    /// Open addressing from keys to node numbers plus one.
+    table: Vec<u32>,
+    first: Vec<usize>,
+    edges: Vec<Edge>,
+    pub(crate) seeds: u32,
+}
+
+/// Edges found from the nodes of one piece.
+struct Piece<K> {
+    number: usize,
+    degrees: Vec<usize>,
+    ends: Vec<(K, u32)>,
+}
+
+impl<K: Key> Graph<K> {
+    /// The graph reached from the seeds; none if a limit is reached first. `held` bytes are in use elsewhere.
+    pub(crate) fn build(model: &Model<Any, K>, seeds: &[K], rule: &Rule<K>, held: u64) -> Option<Self> {
+        let mut graph =
+            Graph { keys: Vec::new(), table: vec![0; 64], first: vec![0], edges: Vec::new(), seeds: 0 };
+        for key in seeds {
+            graph.node(*key)?;
+        }
+        graph.seeds = u32::try_from(graph.keys.len()).ok()?;
+        let mut workers: Vec<_> =
+            (0..model.crew.size()).map(|_| (Cursor::new(&model.origin), Vec::<Piece<K>>::new())).collect();
+        let mut done = 0;
+        while done < graph.keys.len() {
+            if model.watch.over(0) || model.watch.too_much(held + graph.bytes()) {
+                return None;
+            }
+            let block = &graph.keys[done..graph.keys.len().min(done + 128 * PIECE)];
+            model.crew.share(&mut workers, block.len().div_ceil(PIECE), |(cursor, pieces), number| {
+                let mut piece = Piece { number, degrees: Vec::new(), ends: Vec::new() };
+                for key in &block[number * PIECE..block.len().min((number + 1) * PIECE)] {
+                    let begin = piece.ends.len();
+                    cursor.leaves(&model.packer, *key, |process, odometer, leaf| {
+                        if let Leaf::To(after) = leaf {
+                            let label = rule(&mut **process, odometer, after);
+                            piece.ends.extend(label.map(|label| (after, label)));
+                        }
+                        ControlFlow::Continue(())
+                    });
+                    piece.ends[begin..].sort_unstable();
+                    let mut kept = begin;
+                    for end in begin..piece.ends.len() {
+                        if kept == begin || piece.ends[kept - 1] != piece.ends[end] {
+                            piece.ends[kept] = piece.ends[end];
+                            kept += 1;
+                        }
+                    }
+                    piece.ends.truncate(kept);
+                    piece.degrees.push(kept - begin);
+                }
+                pieces.push(piece);
+            });
+            done += block.len();
+            let mut pieces: Vec<Piece<K>> = workers.iter_mut().flat_map(|(_, pieces)| pieces.drain(..)).collect();
+            pieces.sort_unstable_by_key(|piece| piece.number);
+            for piece in pieces {
+                for (key, label) in piece.ends {
+                    let to = graph.node(key)?;
+                    graph.edges.push(Edge { to, label });
+                }
+                for degree in piece.degrees {
+                    graph.first.push(graph.first.last().copied().unwrap_or(0) + degree);
+                }
+            }
+        }
+        // Also the graph that is done counts.
+        (!model.watch.too_much(held + graph.bytes())).then_some(graph)
+    }
+
+    pub(crate) fn bytes(&self) -> u64 {
+        let keys = self.keys.capacity() * size_of::<K>() + self.table.capacity() * 4;
+        let edges = self.edges.capacity() * size_of::<Edge>() + self.first.capacity() * size_of::<usize>();
+        (keys + edges) as u64
+    }
+
+    fn slot(&self, key: K) -> usize {
+        let size = self.table.len();
+        let mut slot = ((u128::from(key.hash()) * size as u128) >> 64) as usize;
+        while self.table[slot] != 0 && self.keys[self.table[slot] as usize - 1] != key {
+            slot = (slot + 1) % size;
+        }
+        slot
+    }
+
+    /// The number of a state, a new one if it has none; none if there are too many.
+    fn node(&mut self, key: K) -> Option<u32> {
+        let slot = self.slot(key);
+        if self.table[slot] != 0 {
+            return Some(self.table[slot] - 1);
+        }
+        let next = u32::try_from(self.keys.len() + 1).ok()?;
+        self.keys.push(key);
+        self.table[slot] = next;
+        if self.keys.len() * 3 >= self.table.len() * 2 {
+            self.table = vec![0; self.table.len() * 2];
+            for (node, number) in self.keys.iter().zip(1..) {
+                let mut slot = ((u128::from(node.hash()) * self.table.len() as u128) >> 64) as usize;
+                while self.table[slot] != 0 {
+                    slot = (slot + 1) % self.table.len();
+                }
+                self.table[slot] = number;
+            }
+        }
+        Some(next - 1)
+    }
+
+    /// The number of a state of the graph.
+    pub(crate) fn number(&self, key: K) -> Option<u32> {
+        self.table[self.slot(key)].checked_sub(1)
+    }
+
+    pub(crate) fn key(&self, node: u32) -> K {
+        self.keys[node as usize]
+    }
+
+    pub(crate) fn nodes(&self) -> u32 {
+        self.keys.len() as u32
+    }
+
+    pub(crate) fn edges(&self, node: u32) -> &[Edge] {
+        &self.edges[self.first[node as usize]..self.first[node as usize + 1]]
+    }
+
+    /// The strongly connected components of the edges that `keep` accepts (Tarjan, without recursion).
+    pub(crate) fn components(&self, keep: impl Fn(Edge) -> bool) -> Components {
+        const NONE: u32 = u32::MAX;
+        let size = self.keys.len();
+        let mut found = Components { of: vec![NONE; size], order: Vec::with_capacity(size), cyclic: Vec::new() };
+        let mut index = vec![NONE; size];
+        let mut low = vec![0u32; size];
+        let mut open: Vec<u32> = Vec::new();
+        let mut calls: Vec<(u32, usize)> = Vec::new();
+        let mut clock = 0;
+        for root in 0..self.nodes() {
+            let mut enter = (index[root as usize] == NONE).then_some(root);
+            loop {
+                if let Some(node) = enter.take() {
+                    index[node as usize] = clock;
+                    low[node as usize] = clock;
+                    clock += 1;
+                    open.push(node);
+                    calls.push((node, 0));
+                }
+                let Some((node, position)) = calls.last_mut() else { break };
+                let at = *node as usize;
+                let Some(edge) = self.edges(*node).get(*position) else {
+                    if low[at] == index[at] {
+                        found.close(*node, &mut open);
+                    }
+                    calls.pop();
+                    continue;
+                };
+                let to = edge.to as usize;
+                if keep(*edge) && index[to] == NONE {
+                    // The same edge is looked at again after its target.
+                    enter = Some(edge.to);
+                    continue;
+                }
+                if keep(*edge) && found.of[to] == NONE {
+                    low[at] = low[at].min(low[to]);
+                }
+                *position += 1;
+            }
+        }
+        for node in 0..self.nodes() {
+            let component = found.of[node as usize];
+            if self.edges(node).iter().any(|e| keep(*e) && found.of[e.to as usize] == component) {
+                found.cyclic[component as usize] = true;
+            }
+        }
+        found
+    }
+}
+
+/// Strongly connected components. Each component comes after all components that its edges lead to.
+#[derive(Debug)]
+pub(crate) struct Components {
+    /// The component of each node.
+    pub(crate) of: Vec<u32>,
+    /// The nodes, component by component.
+    pub(crate) order: Vec<u32>,
+    /// Whether a component has an edge inside.
+    pub(crate) cyclic: Vec<bool>,
+}
+
+impl Components {
+    fn close(&mut self, root: u32, open: &mut Vec<u32>) {
+        let component = self.cyclic.len() as u32;
+        self.cyclic.push(false);
+        while let Some(node) = open.pop() {
+            self.of[node as usize] = component;
+            self.order.push(node);
+            if node == root {
+                return;
+            }
+        }
+    }
+
+    /// For each component whether one of its nodes passes, or a node that kept edges lead to.
+    pub(crate) fn reaching<K: Key>(
+        &self,
+        graph: &Graph<K>,
+        keep: impl Fn(Edge) -> bool,
+        pass: impl Fn(u32) -> bool,
+    ) -> Vec<bool> {
+        let mut reaching = vec![false; self.cyclic.len()];
+        for node in self.order.iter().copied() {
+            let component = self.of[node as usize] as usize;
+            let further = |e: &Edge| keep(*e) && reaching[self.of[e.to as usize] as usize];
+            if pass(node) || graph.edges(node).iter().any(further) {
+                reaching[component] = true;
+            }
+        }
+        reaching
+    }
+
+    /// For each node the most edges a path from it can have; none if it is unbounded.
+    pub(crate) fn heights<K: Key>(&self, graph: &Graph<K>) -> Vec<Option<u32>> {
+        let mut heights = vec![None; self.of.len()];
+        for node in self.order.iter().copied() {
+            if self.cyclic[self.of[node as usize] as usize] {
+                continue;
+            }
+            let mut height = Some(0u32);
+            for edge in graph.edges(node) {
+                let one = heights[edge.to as usize].map(|h: u32| h + 1);
+                height = height.zip(one).map(|(a, b)| a.max(b));
+            }
+            heights[node as usize] = height;
+        }
+        heights
+    }
+}

@@ -1,0 +1,228 @@
+//! Properties of infinite runs and of branching: response under fairness, and recoverability.
+
+use crate::choices::Odometer;
+use crate::cursor::{Cursor, Leaf};
+use crate::explore::{Decision, Evidence, Tail, sign_test};
+use crate::graph::{Components, Edge, Graph};
+use crate::hashed::Sharded;
+use crate::pack::Key;
+use crate::property::Form;
+use crate::report::{Error, Verdict};
+use crate::response::Response;
+use crate::search::Model;
+use crate::process::{Any, Process};
+use crate::trace::Request;
+use std::collections::{HashMap, VecDeque};
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+/// The pending cycles of a response, and the components in which a fair run can stay forever.
+struct Pending<K> {
+    graph: Graph<K>,
+    components: Components,
+    /// For each component: its inner edges satisfy every fairness condition.
+    fair: Vec<bool>,
+    /// For each component: a fair one can be reached.
+    bad: Vec<bool>,
+    all: u32,
+}
+
+/// Judges a response without a bound: it is violated by a run that stays forever in cycles without `goal`, with
+/// `assuming` in each of them and every fairness condition in infinitely many. Such a run ends up in one strongly
+/// connected component of these cycles, and a component allows one if its inner edges satisfy every condition.
+pub(crate) fn fair<'a, K: Key>(
+    model: &'a Model<'a, Any<'a>, K>,
+    form: &'a Form,
+    response: Response,
+    fair: &'a [usize],
+    pending: &Sharded<K>,
+    witness: Evidence<'a, K>,
+    held: u64,
+) -> Decision<'a, K> {
+    let Response { goal, assuming } = response;
+    let label = move |process: &mut dyn Process, choices: &mut Odometer, _: K| {
+        let mut eval = model.eval(process, choices);
+        if eval.atom(goal) || !eval.given(assuming) {
+            return None;
+        }
+        Some(fair.iter().enumerate().fold(0, |mask, (bit, atom)| mask | u32::from(eval.atom(*atom)) << bit))
+    };
+    let Some(graph) = Graph::build(model, &pending.sorted(), &label, held) else {
+        return Verdict::Inconclusive.into();
+    };
+    let all = (1u32 << fair.len()) - 1;
+    let found = Pending::new(graph, all);
+    if (0..found.graph.seeds).all(|seed| !found.is_bad(seed)) {
+        return Decision { verdict: Verdict::Holds, bound: None, evidence: witness };
+    }
+    let shared = Arc::new(found);
+    let other = Arc::clone(&shared);
+    let test = sign_test(form, move |sign, after| {
+        sign.pending && other.graph.number(after).is_some_and(|node| other.is_bad(node))
+    });
+    let tail: Tail<K> = Box::new(move |end| {
+        let mut cursor = Cursor::new(&model.origin);
+        let (edges, start) = shared.lasso(shared.graph.number(end)?)?;
+        let mut steps = Vec::new();
+        for (from, edge) in edges {
+            let target = shared.graph.key(edge.to);
+            let (choices, _) = cursor.first(&model.packer, shared.graph.key(from), |process, choices, leaf| {
+                leaf == Leaf::To(target) && label(&mut **process, choices, target) == Some(edge.label)
+            })?;
+            steps.push(choices);
+        }
+        Some((steps, Some(start)))
+    });
+    let request = Request { at: None, test, state: None };
+    Decision { verdict: Verdict::Violated, bound: None, evidence: Evidence::Run(request, Some(tail)) }
+}
+
+impl<K: Key> Pending<K> {
+    fn new(graph: Graph<K>, all: u32) -> Self {
+        let components = graph.components(|_| true);
+        let mut labels = vec![0; components.cyclic.len()];
+        for node in 0..graph.nodes() {
+            let component = components.of[node as usize];
+            for edge in graph.edges(node).iter().filter(|e| components.of[e.to as usize] == component) {
+                labels[component as usize] |= edge.label;
+            }
+        }
+        let fair: Vec<bool> = components.cyclic.iter().zip(labels).map(|(c, label)| *c && label == all).collect();
+        let bad = components.reaching(&graph, |_| true, |node| fair[components.of[node as usize] as usize]);
+        Pending { graph, components, fair, bad, all }
+    }
+
+    fn component(&self, node: u32) -> usize {
+        self.components.of[node as usize] as usize
+    }
+
+    fn is_bad(&self, node: u32) -> bool {
+        self.bad[self.component(node)]
+    }
+
+    /// From a bad node to the nearest fair component and around in it, meeting every fairness condition.
+    fn lasso(&self, start: u32) -> Option<(Vec<(u32, Edge)>, usize)> {
+        let fair = |node: u32| self.fair[self.component(node)];
+        let mut path = match fair(start) {
+            true => Vec::new(),
+            false => self.walk(start, |_| true, |edge| fair(edge.to))?,
+        };
+        let prefix = path.len();
+        let entry = path.last().map_or(start, |(_, edge)| edge.to);
+        let inside = |edge: Edge| self.component(edge.to) == self.component(entry);
+        let (mut at, mut met) = (entry, 0);
+        while met != self.all {
+            path.extend(self.walk(at, inside, |edge| edge.label & !met != 0)?);
+            met = path[prefix..].iter().fold(0, |met, (_, edge)| met | edge.label);
+            at = path.last()?.1.to;
+        }
+        if at != entry || path.len() == prefix {
+            path.extend(self.walk(at, inside, |edge| edge.to == entry)?);
+        }
+        Some((path, prefix))
+    }
+
+    /// A shortest path of allowed edges, one at least, whose last edge passes.
+    fn walk(
+        &self,
+        from: u32,
+        allowed: impl Fn(Edge) -> bool,
+        pass: impl Fn(Edge) -> bool,
+    ) -> Option<Vec<(u32, Edge)>> {
+        let mut came: HashMap<u32, Option<(u32, Edge)>> = HashMap::from([(from, None)]);
+        let mut queue = VecDeque::from([from]);
+        while let Some(node) = queue.pop_front() {
+            for edge in self.graph.edges(node).iter().copied().filter(|e| allowed(*e)) {
+                if pass(edge) {
+                    let mut path = vec![(node, edge)];
+                    let mut back = node;
+                    while let Some(Some(step)) = came.get(&back) {
+                        path.push(*step);
+                        back = step.0;
+                    }
+                    path.reverse();
+                    return Some(path);
+                }
+                came.entry(edge.to).or_insert_with(|| {
+                    queue.push_back(edge.to);
+                    Some((node, edge))
+                });
+            }
+        }
+        None
+    }
+}
+
+/// Properties judged on one graph: a label has two bits for each.
+const TOGETHER: usize = 16;
+
+/// The goals and conditions (`goal`, `using`) of recoverability properties, judged over all reachable cycles; for each
+/// the states from which no path leads to the goal, as a test, or none if every state has one.
+pub(crate) type Lost<'a, K> = Option<Arc<dyn Fn(K) -> bool + Send + Sync + 'a>>;
+
+/// Judges recoverability. None for what a limit left open.
+#[allow(clippy::type_complexity)]
+pub(crate) fn recoverable<'a, K: Key>(
+    model: &'a Model<'a, Any<'a>, K>,
+    goals: &[(usize, Option<usize>)],
+    held: u64,
+) -> Result<Vec<Option<Lost<'a, K>>>, Error> {
+    let mut initial = Vec::new();
+    if !goals.is_empty() {
+        Cursor::new(&model.origin).initial(&model.packer, |key, _| {
+            initial.push(key);
+            ControlFlow::Continue(())
+        })?;
+    }
+    initial.sort_unstable();
+    initial.dedup();
+    let mut verdicts = Vec::new();
+    for goals in goals.chunks(TOGETHER) {
+        let label = |process: &mut dyn Process, choices: &mut Odometer, _: K| {
+            let mut eval = model.eval(process, choices);
+            Some(goals.iter().enumerate().fold(0, |mask, (number, (goal, using))| {
+                let used = eval.given(*using);
+                let reached = used && eval.atom(*goal);
+                mask | (u32::from(used) | u32::from(reached) << 1) << (2 * number)
+            }))
+        };
+        let Some(graph) = Graph::build(model, &initial, &label, held).map(Arc::new) else {
+            verdicts.extend(goals.iter().map(|_| None));
+            continue;
+        };
+        for number in 0..goals.len() {
+            let used = |edge: Edge| edge.label >> (2 * number) & 1 != 0;
+            let reached = |edge: &Edge| edge.label >> (2 * number) & 2 != 0;
+            let components = graph.components(used);
+            let saved = components.reaching(&graph, used, |node| graph.edges(node).iter().any(reached));
+            if saved.iter().all(|saved| *saved) {
+                verdicts.push(Some(None));
+                continue;
+            }
+            let graph = Arc::clone(&graph);
+            let lost = move |key| graph.number(key).is_some_and(|n| !saved[components.of[n as usize] as usize]);
+            verdicts.push(Some(Some(Arc::new(lost) as Arc<dyn Fn(K) -> bool + Send + Sync>)));
+        }
+    }
+    Ok(verdicts)
+}
+
+/// The decision that follows.
+pub(crate) fn recovery<'a, K: Key>(
+    lost: Option<Lost<'a, K>>,
+    witness: Evidence<'a, K>,
+) -> Decision<'a, K> {
+    match lost {
+        None => Verdict::Inconclusive.into(),
+        Some(None) => Decision { verdict: Verdict::Holds, bound: None, evidence: witness },
+        Some(Some(lost)) => {
+            let state = Arc::clone(&lost);
+            let request = Request {
+                at: None,
+                test: Arc::new(move |_, _, leaf| matches!(leaf, Leaf::To(after) if lost(after))),
+                state: Some(state),
+            };
+            Decision { verdict: Verdict::Violated, bound: None, evidence: Evidence::Run(request, None) }
+        }
+    }
+}

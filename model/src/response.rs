@@ -1,0 +1,144 @@
+//! Duties with an end that the next few cycles decide: bounded responses and weak until.
+
+use crate::crew::{Crew, Watch};
+use crate::cursor::{Cursor, Leaf};
+use crate::explore::{Decision, Evidence, Job, Stage, Tail, on_store, seen, sign_test};
+use crate::graph::Graph;
+use crate::hashed::Sharded;
+use crate::pack::Key;
+use crate::property::{Form, Property};
+use crate::duty::Duty;
+use crate::report::{Error, Limits, Options, Storage, Trace, Verdict};
+use crate::search::{Model, Signs, search};
+use crate::process::{Any, Process};
+use crate::trace::{Request, runs};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// What a response is about.
+#[derive(Clone, Copy)]
+pub(crate) struct Response {
+    pub(crate) goal: usize,
+    pub(crate) assuming: Option<usize>,
+}
+
+/// Judges `goal` in one of the cycles k ..= k + within. The states after cycles with `when` and without `goal` are the
+/// seeds of a graph of the cycles without `goal`: the longest path from a seed tells the least bound that holds.
+pub(crate) fn bounded<'a, K: Key>(
+    model: &'a Model<'a, Any<'a>, K>,
+    form: &'a Form,
+    response: Response,
+    within: u32,
+    pending: &Sharded<K>,
+    witness: Evidence<'a, K>,
+    held: u64,
+) -> Decision<'a, K> {
+    let Response { goal, assuming } = response;
+    let edge = move |process: &mut dyn Process, choices: &mut crate::choices::Odometer, _: K| {
+        let mut eval = model.eval(process, choices);
+        (!eval.atom(goal) && eval.given(assuming)).then_some(0)
+    };
+    let Some(graph) = Graph::build(model, &pending.sorted(), &edge, held) else {
+        return Verdict::Inconclusive.into();
+    };
+    let heights = graph.components(|_| true).heights(&graph);
+    // With a path of h edges from a seed, h + 1 cycles pass without the goal after the first one.
+    let bound = (0..graph.seeds)
+        .map(|seed| heights[seed as usize].map(|h| u64::from(h) + 1))
+        .fold(Some(0), |most, one| most.zip(one).map(|(a, b)| a.max(b)));
+    if bound.is_some_and(|bound| bound <= u64::from(within)) {
+        return Decision { verdict: Verdict::Holds, bound, evidence: witness };
+    }
+    let shared = Arc::new((graph, heights));
+    let other = Arc::clone(&shared);
+    let test = sign_test(form, move |sign, after| {
+        let (graph, heights) = &*other;
+        let long = |node: u32| heights[node as usize].is_none_or(|h| h >= within);
+        sign.pending && graph.number(after).is_some_and(long)
+    });
+    let tail: Tail<K> = Box::new(move |end| {
+        let (graph, heights) = &*shared;
+        let mut cursor = Cursor::new(&model.origin);
+        let mut node = graph.number(end)?;
+        let mut steps = Vec::new();
+        for rest in (0..within).rev() {
+            let long = |to: u32| heights[to as usize].is_none_or(|h| h >= rest);
+            let to = graph.edges(node).iter().find(|e| long(e.to))?.to;
+            let wanted = Leaf::To(graph.key(to));
+            let (choices, _) = cursor.first(&model.packer, graph.key(node), |process, choices, leaf| {
+                leaf == wanted && edge(&mut **process, choices, graph.key(to)).is_some()
+            })?;
+            steps.push(choices);
+            node = to;
+        }
+        Some((steps, None))
+    });
+    let request = Request { at: None, test, state: None };
+    Decision { verdict: Verdict::Violated, bound, evidence: Evidence::Run(request, Some(tail)) }
+}
+
+/// Judges a weak until: a violation is seen in the cycle of `when` itself, or in a cycle under a pending duty.
+#[allow(clippy::too_many_arguments)]
+pub(crate) fn until<'a, K: Key>(
+    model: &'a Model<'a, Any<'a>, K>,
+    form: &'a Form,
+    (holds, unless): (usize, usize),
+    signs: Signs<K>,
+    pending: &Sharded<K>,
+    witness: Evidence<'a, K>,
+    options: &Options,
+    held: u64,
+) -> Result<Decision<'a, K>, Error> {
+    let violated = AtomicBool::new(signs.bad.is_some());
+    if signs.bad.is_none() {
+        let rule = |process: &mut dyn Process, choices: &mut crate::choices::Odometer, _: K| {
+            let sign = model.eval(process, choices).duty(holds, unless);
+            if sign.bad {
+                violated.store(true, Ordering::Relaxed);
+            }
+            sign.pending.then_some(0)
+        };
+        if Graph::build(model, &pending.sorted(), &rule, held).is_none() && !violated.load(Ordering::Relaxed) {
+            return Ok(Verdict::Inconclusive.into());
+        }
+    }
+    if !violated.into_inner() {
+        return Ok(Decision { verdict: Verdict::Holds, bound: None, evidence: witness });
+    }
+    let trace = shortest(model.origin, form, options, model.crew)?;
+    // Memory may not suffice for the search with the duty; a violation in the cycle of `when` has a run without it.
+    let evidence = match trace {
+        Some(trace) => Evidence::Trace(trace),
+        None => seen(form, signs.bad, |sign| sign.bad),
+    };
+    Ok(Decision { verdict: Verdict::Violated, bound: None, evidence })
+}
+
+/// The shortest run that violates a weak until: the duty becomes part of the state, and its violation an atom.
+fn shortest(system: Any, form: &Form, options: &Options, crew: &Crew) -> Result<Option<Trace>, Error> {
+    let duty = Duty::new(system, form);
+    let limits = Limits { time: None, ..options.limits };
+    let options = Options { limits, stop_when_decided: true, ..options.clone() };
+    let watch = Watch::new(limits);
+    let trace = on_store(&duty, &options, crew, &watch, Counterexample { options: &options })?;
+    Ok(trace.map(|trace| duty.strip(trace)))
+}
+
+/// Finds the shortest run to a cycle in which atom 0 is FALSE.
+struct Counterexample<'a> {
+    options: &'a Options,
+}
+
+impl Job<&Duty<'_>> for Counterexample<'_> {
+    type Output = Option<Trace>;
+
+    fn run<T: Stage>(self, model: &Model<&Duty, T::Key>, mut store: T, _: Storage) -> Result<Self::Output, Error> {
+        let form = Form::Always { when: None, then: 0 };
+        let property = [Property { id: String::new(), form: form.clone() }];
+        let found = search(model, &mut store, &property, self.options, &mut ())?;
+        let Some(at) = found.signs[0].bad else { return Ok(None) };
+        let test = sign_test(&form, |sign, _| sign.bad);
+        let runs = runs(model, &mut store, &[Request { at: Some(at), test, state: None }])?;
+        Ok(runs.into_iter().flatten().next().map(|run| run.trace))
+    }
+}

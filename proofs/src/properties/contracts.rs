@@ -1,0 +1,86 @@
+//! The contract of every step function as a property: from any consistent state, under any accepted configuration and
+//! any inputs, one step satisfies every clause. The invariant is one of the clauses, so the facts are inductive.
+
+use stillpoint_monitors::{agreement, external, fault, gear, reference, selection, stop};
+
+use crate::arbitrary;
+use crate::properties::Subject;
+use crate::source::{Source, Verdict};
+
+macro_rules! contract_property {
+    ($(#[$doc:meta])* $monitor:ident) => {
+        $(#[$doc])*
+        pub fn $monitor<S: Source>(source: &mut S, subject: &Subject) -> Verdict {
+            let Some((before, config, inputs)) = arbitrary::$monitor(source) else {
+                return Verdict::Discarded;
+            };
+            let (after, outputs) = (subject.$monitor)(before, &config, &inputs);
+            let step = $monitor::Step { before, config, inputs, after, outputs };
+            let result = $monitor::evaluate(step);
+            for index in 0..$monitor::CLAUSES.len() {
+                source.cover(index, (result.premises >> index) & 1 == 1);
+            }
+            if let Some(index) = result.first_broken($monitor::CLAUSES.len()) {
+                return Verdict::Broken($monitor::CLAUSES.get(index).map_or("", |clause| clause.name));
+            }
+            Verdict::Held
+        }
+    };
+}
+
+contract_property! {
+    /// The contract of the arbitration.
+    stop
+}
+contract_property! {
+    /// The contract of the external stops.
+    external
+}
+contract_property! {
+    /// The contract of STOP F.
+    fault
+}
+contract_property! {
+    /// The contract of the selection.
+    selection
+}
+contract_property! {
+    /// The contract of the referencing.
+    reference
+}
+contract_property! {
+    /// The contract of the user agreement.
+    agreement
+}
+contract_property! {
+    /// The contract of the gear stage.
+    gear
+}
+
+/// The initial state of every monitor satisfies its invariant under every accepted configuration: the base of the
+/// induction.
+pub fn initial_states<S: Source>(source: &mut S, _subject: &Subject) -> Verdict {
+    let law = match source.any_in(0, 6) {
+        0 => arbitrary::stop_config(source).map(|config| stop::State::INITIAL.invariant(&config)),
+        1 => arbitrary::selection_config(source)
+            .map(|(config, _)| selection::State::INITIAL.invariant(&config)),
+        2 => {
+            arbitrary::fault(source).map(|(_, config, _)| fault::State::INITIAL.invariant(&config))
+        }
+        3 => arbitrary::external(source)
+            .map(|(_, config, _)| external::State::INITIAL.invariant(&config)),
+        4 => arbitrary::reference(source)
+            .map(|(_, config, _)| reference::State::INITIAL.invariant(&config)),
+        5 => arbitrary::agreement(source).map(|(state, config, _)| {
+            agreement::State::INITIAL.invariant(&config)
+                && agreement::State::restored(state.agreed).invariant(&config)
+        }),
+        _ => arbitrary::gear(source).map(|(_, config, _)| gear::State::INITIAL.invariant(&config)),
+    };
+    source.cover(0, law == Some(true));
+    match law {
+        None => Verdict::Discarded,
+        Some(true) => Verdict::Held,
+        Some(false) => Verdict::Broken("initial_state_satisfies_the_invariant"),
+    }
+}

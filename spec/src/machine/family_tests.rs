@@ -1,0 +1,332 @@
+//! The data of the shipped family against the tables of the manual, and every plausibility rule against examples.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+
+use super::AxisKind;
+use super::family::{Family, Param, Quantity};
+use super::units::{Dimension, parse};
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).to_owned()
+}
+
+fn family() -> Family {
+    super::family_file::load(&root().join("sinumerik-840d")).unwrap_or_else(|e| panic!("{e}"))
+}
+
+fn table(file: &str) -> toml::Table {
+    let text = std::fs::read_to_string(root().join("sinumerik-840d").join(file)).expect(file);
+    toml::from_str(&text).expect(file)
+}
+
+/// The machine data of the manual by their numbers.
+fn machine_data() -> BTreeMap<i64, toml::Value> {
+    let data = table("machine-data.toml");
+    let list = data["parameter"].as_array().expect("a list");
+    list.iter()
+        .map(|p| (p["number"].as_integer().expect("a number"), p.clone()))
+        .collect()
+}
+
+/// A number of the manual's table in base units.
+fn base(value: &toml::Value, unit: &str, param: &Param, kind: AxisKind) -> i64 {
+    let number = match value {
+        toml::Value::Integer(n) => n.to_string(),
+        toml::Value::Float(x) => format!("{x}"),
+        other => panic!("{other} is no number"),
+    };
+    let (linear, rotary) = unit.split_once('|').unwrap_or((unit, unit));
+    let unit = match kind {
+        AxisKind::Linear => linear,
+        AxisKind::Rotary => rotary,
+    };
+    let dimension = param.quantity.dimension(kind);
+    let text = match dimension {
+        Dimension::Count => number,
+        _ => format!("{number} {unit}"),
+    };
+    parse(&text, dimension).unwrap_or_else(|e| panic!("{text}: {e}"))
+}
+
+/// The number after `MD` in each part of `MD36930/MD1330 $MA_...`.
+fn numbers(param: &Param) -> Vec<i64> {
+    let numbers = param.manual.split(' ').next().unwrap_or("");
+    numbers
+        .split('/')
+        .filter_map(|n| n.strip_prefix("MD")?.parse().ok())
+        .collect()
+}
+
+#[test]
+fn ranges_are_the_smaller_ones_of_both_channels() {
+    let (family, data) = (family(), machine_data());
+    let mut compared = 0;
+    for (name, param) in family.control.iter().chain(&family.axis) {
+        for kind in [AxisKind::Linear, AxisKind::Rotary] {
+            let tighter = match kind {
+                AxisKind::Linear => "max_linear",
+                AxisKind::Rotary => "max_rotary",
+            };
+            let (mut least, mut greatest) = (i64::MIN, i64::MAX);
+            for number in numbers(param) {
+                let datum = data
+                    .get(&number)
+                    .unwrap_or_else(|| panic!("{name}: no MD{number}"));
+                let unit = datum["unit"].as_str().expect("a unit");
+                let get = |key| datum.get(key).map(|v| base(v, unit, param, kind));
+                least = least.max(get("min").unwrap_or(i64::MIN));
+                for key in ["max", tighter] {
+                    greatest = greatest.min(get(key).unwrap_or(i64::MAX));
+                }
+                compared += 1;
+            }
+            if let Some(first) = numbers(param).first() {
+                let limits = param.limits(kind);
+                assert_eq!(
+                    (limits.min, limits.max),
+                    (least, greatest),
+                    "{name} {kind:?}"
+                );
+                let unit = data[first]["unit"].as_str().expect("a unit");
+                let default = base(&data[first]["default"], unit, param, kind);
+                assert_eq!(limits.default, default, "default of {name}");
+            }
+        }
+    }
+    assert!(compared > 100, "{compared} comparisons");
+}
+
+#[test]
+fn names_choices_and_lengths_are_those_of_the_manual() {
+    let (family, data) = (family(), machine_data());
+    for (name, param) in family.control.iter().chain(&family.axis) {
+        for number in numbers(param) {
+            let datum = &data[&number];
+            let printed = datum["name"].as_str().expect("a name");
+            assert!(
+                printed.ends_with(name.as_str()),
+                "{name}: MD{number} is {printed}"
+            );
+            let size = datum
+                .get("array_size")
+                .and_then(toml::Value::as_integer)
+                .unwrap_or(1);
+            assert_eq!(
+                i64::try_from(param.count.max(1)),
+                Ok(size),
+                "values of {name}"
+            );
+            if param.quantity == Quantity::Choice {
+                let codes: BTreeSet<i64> = param.choices.iter().map(|(_, code)| *code).collect();
+                let allowed = datum["allowed"].as_array().expect("a list").iter();
+                let allowed: BTreeSet<i64> = allowed.filter_map(toml::Value::as_integer).collect();
+                assert_eq!(codes, allowed, "choices of {name}");
+            }
+        }
+    }
+}
+
+#[test]
+fn functions_are_the_bits_of_the_enable_word() {
+    let (family, data) = (family(), machine_data());
+    let bits = data[&36901]["bits"].as_array().expect("bits");
+    let printed: BTreeMap<u32, &str> = bits
+        .iter()
+        .map(|b| {
+            (
+                b["bit"].as_integer().and_then(|n| u32::try_from(n).ok()),
+                b["name"].as_str(),
+            )
+        })
+        .filter_map(|(bit, name)| Some((bit?, name?)))
+        .filter(|(_, name)| *name != "reserved")
+        .collect();
+    let ours: BTreeSet<u32> = family.functions.iter().map(|f| f.bit).collect();
+    assert_eq!(ours, printed.keys().copied().collect());
+    for function in family
+        .functions
+        .iter()
+        .filter(|f| f.name.starts_with("SN") || f.bit < 2)
+    {
+        assert_eq!(printed[&function.bit], function.name);
+    }
+    let cells: BTreeSet<_> = family
+        .functions
+        .iter()
+        .map(|f| (&f.variable, f.index))
+        .collect();
+    assert_eq!(
+        cells.len(),
+        family.functions.len(),
+        "two functions share a variable"
+    );
+}
+
+#[test]
+fn requirement_ids_exist() {
+    fn ids(value: &toml::Value, list: &mut Vec<String>) {
+        match value {
+            toml::Value::Table(table) => {
+                for (key, value) in table {
+                    match value.as_array() {
+                        Some(items) if key == "id" => list.extend(
+                            items
+                                .iter()
+                                .filter_map(toml::Value::as_str)
+                                .map(str::to_owned),
+                        ),
+                        _ => ids(value, list),
+                    }
+                }
+            }
+            toml::Value::Array(items) => items.iter().for_each(|i| ids(i, list)),
+            _ => {}
+        }
+    }
+    let mut used = Vec::new();
+    ids(&toml::Value::Table(table("family.toml")), &mut used);
+    assert!(used.len() > 80, "{} ids", used.len());
+    let catalogue = crate::catalogue::load(&root()).unwrap_or_else(|e| panic!("{e}"));
+    let known: BTreeSet<&str> = catalogue
+        .requirements
+        .iter()
+        .map(|r| r.id.as_str())
+        .collect();
+    for id in used {
+        assert!(known.contains(id.as_str()), "{id} is in no catalogue");
+    }
+}
+
+#[test]
+fn alarms_exist() {
+    let alarms = table("alarms.toml");
+    let alarms = alarms["alarm"].as_array().expect("a list").iter();
+    let known: BTreeSet<i64> = alarms.filter_map(|a| a["number"].as_integer()).collect();
+    for rule in family().rules {
+        assert!(
+            rule.alarm.is_none_or(|a| known.contains(&i64::from(a))),
+            "{:?}",
+            rule.alarm
+        );
+    }
+}
+
+/// For each rule a machine that violates it and one beside it that does not: what stands in the file after the family.
+const EXAMPLES: [(&str, &str, &str); 17] = [
+    (
+        "the monitoring cycle is longer than 25 ms",
+        "control.SYSCLOCK_CYCLE_TIME = \"5 ms\"\ncontrol.SAFETY_SYSCLOCK_TIME_RATIO = 6\naxis.X = { kind = \"linear\" }",
+        "control.SYSCLOCK_CYCLE_TIME = \"5 ms\"\ncontrol.SAFETY_SYSCLOCK_TIME_RATIO = 5\naxis.X = { kind = \"linear\" }",
+    ),
+    (
+        "the monitoring cycle is no multiple of the position-control cycle",
+        "control.POSCTRL_SYSCLOCK_TIME_RATIO = 2\naxis.X = { kind = \"linear\" }",
+        "control.POSCTRL_SYSCLOCK_TIME_RATIO = 3\naxis.X = { kind = \"linear\" }",
+    ),
+    (
+        "the drive cannot hold the monitoring cycle",
+        "control.SYSCLOCK_CYCLE_TIME = \"3.333 ms\"\naxis.X = { kind = \"linear\" }",
+        "control.SYSCLOCK_CYCLE_TIME = \"3.375 ms\"\naxis.X = { kind = \"linear\" }",
+    ),
+    (
+        "functions are enabled without \"SBH/SG\"",
+        "axis.X = { kind = \"linear\", functions = [\"SE\"] }",
+        "axis.X = { kind = \"linear\", functions = [\"SBH/SG\", \"SE\"] }",
+    ),
+    (
+        "\"STOP E\" is enabled without \"external stops\"",
+        "axis.X = { kind = \"linear\", functions = [\"SBH/SG\", \"STOP E\"] }",
+        "axis.X = { kind = \"linear\", functions = [\"SBH/SG\", \"STOP E\", \"external stops\"] }",
+    ),
+    (
+        "errors of the safe programmable logic ask for STOP E",
+        "control.SAFE_SPL_STOP_MODE = \"STOP E\"\naxis.X = { kind = \"linear\", functions = [\"SBH/SG\", \"external stops\"] }",
+        "control.SAFE_SPL_STOP_MODE = \"STOP E\"\naxis.X = { kind = \"linear\" }",
+    ),
+    (
+        "\"slip sync\" makes the absolute position meaningless",
+        "axis.X = { kind = \"linear\", ENCODERS = 2, functions = [\"SBH/SG\", \"slip sync\", \"SN3-\"] }",
+        "axis.X = { kind = \"linear\", ENCODERS = 2, functions = [\"SBH/SG\", \"slip sync\"] }",
+    ),
+    (
+        "\"slip sync\" needs two encoders",
+        "axis.X = { kind = \"linear\", functions = [\"SBH/SG\", \"slip sync\"] }",
+        "axis.X = { kind = \"linear\", ENCODERS = 2, functions = [\"SBH/SG\", \"slip sync\"] }",
+    ),
+    (
+        "this control module monitors encoders up to 300 kHz only",
+        "axis.X = { kind = \"linear\", ENC_FREQ_LIMIT = \"301 kHz\", CONTROL_MODULE = \"Standard 2\" }",
+        "axis.X = { kind = \"linear\", ENC_FREQ_LIMIT = \"420 kHz\", CONTROL_MODULE = \"Performance 2\" }",
+    ),
+    (
+        "the upper safe limit position does not lie above the lower one",
+        "axis.X = { kind = \"linear\", POS_LIMIT_PLUS = [\"2 mm\", \"1 mm\"], POS_LIMIT_MINUS = [\"1 mm\", \"1 mm\"] }",
+        "axis.X = { kind = \"linear\", POS_LIMIT_PLUS = [\"2 mm\", \"1.001 mm\"], POS_LIMIT_MINUS = [\"1 mm\", \"1 mm\"] }",
+    ),
+    (
+        "the modulo range is no multiple of 360 deg",
+        "axis.C = { kind = \"rotary\", MODULO_RANGE = \"361 deg\" }",
+        "axis.C = { kind = \"rotary\", MODULO_RANGE = \"720 deg\" }",
+    ),
+    (
+        "an enabled plus cam lies outside the modulo range",
+        "axis.C = { kind = \"rotary\", MODULO_RANGE = \"360 deg\", functions = [\"SBH/SG\", \"SN1+\"], CAM_POS_PLUS = [\"0.099 deg\", \"0 deg\", \"0 deg\", \"0 deg\"] }",
+        "axis.C = { kind = \"rotary\", MODULO_RANGE = \"360 deg\", functions = [\"SBH/SG\", \"SN1+\"], CAM_POS_PLUS = [\"0.1 deg\", \"0 deg\", \"0 deg\", \"0 deg\"] }",
+    ),
+    (
+        "an enabled plus cam lies outside the modulo range",
+        "axis.C = { kind = \"rotary\", functions = [\"SBH/SG\", \"SN4+\"], CAM_POS_PLUS = [\"0 deg\", \"0 deg\", \"0 deg\", \"368639.9 deg\"] }",
+        "axis.C = { kind = \"rotary\", functions = [\"SBH/SG\", \"SN4+\"], CAM_POS_PLUS = [\"0 deg\", \"0 deg\", \"0 deg\", \"368639.899 deg\"] }",
+    ),
+    (
+        "an enabled minus cam lies outside the modulo range",
+        "axis.C = { kind = \"rotary\", MODULO_RANGE = \"360 deg\", functions = [\"SBH/SG\", \"cam sync\", \"SN2-\"], CAM_POS_MINUS = [\"0 deg\", \"359.8 deg\", \"0 deg\", \"0 deg\"] }",
+        "axis.C = { kind = \"rotary\", MODULO_RANGE = \"360 deg\", functions = [\"SBH/SG\", \"SN2-\"], CAM_POS_MINUS = [\"0 deg\", \"359.8 deg\", \"0 deg\", \"0 deg\"] }",
+    ),
+    (
+        "\"cam sync\" is enabled without a cam",
+        "axis.X = { kind = \"linear\", functions = [\"SBH/SG\", \"cam sync\"] }",
+        "axis.X = { kind = \"linear\", functions = [\"SBH/SG\", \"cam sync\", \"SN4-\"] }",
+    ),
+    (
+        "the tolerance time is shorter than two PLC cycles and one interpolator cycle",
+        "control.PLC_CYCLE_MAX = \"50 ms\"\naxis.X = { kind = \"linear\", functions = [\"SBH/SG\"], MODE_SWITCH_TIME = \"115 ms\" }",
+        "control.PLC_CYCLE_MAX = \"50 ms\"\naxis.X = { kind = \"linear\", functions = [\"SBH/SG\"], MODE_SWITCH_TIME = \"116 ms\" }",
+    ),
+    (
+        "nothing monitors this axis while the door is open",
+        "door.front.axes = [\"X\"]\naxis.X = { kind = \"linear\" }",
+        "door.front.axes = [\"X\"]\naxis.X = { kind = \"linear\", functions = [\"SBH/SG\"] }\naxis.Y.kind = \"linear\"",
+    ),
+];
+
+fn load(text: &str) -> crate::diag::Result<super::Machine> {
+    let text = format!("family = \"sinumerik-840d\"\n{text}\n");
+    super::load_bytes(Path::new("example.toml"), text.into_bytes(), &root())
+}
+
+#[test]
+fn each_rule_refuses_its_example_and_nothing_beside_it() {
+    for (rule, bad, good) in EXAMPLES {
+        let errors = load(bad).expect_err(rule).0;
+        let texts: Vec<String> = errors.iter().map(ToString::to_string).collect();
+        assert!(texts.iter().all(|t| t.contains(rule)), "{bad}\n{texts:#?}");
+        assert_eq!(texts.len(), 1, "{texts:#?}");
+        assert!(errors.iter().all(|e| !e.help.is_empty()));
+        if let Err(errors) = load(good) {
+            panic!("{good}\n{errors}");
+        }
+    }
+}
+
+#[test]
+fn each_rule_has_an_example() {
+    for rule in family().rules {
+        let has = EXAMPLES
+            .iter()
+            .any(|(text, _, _)| rule.text.starts_with(text));
+        assert!(has, "no example violates '{}'", rule.text);
+        assert!(!rule.id.is_empty());
+    }
+}
