@@ -4,7 +4,9 @@
 //! [`timing`] show the result.
 
 pub mod check;
+pub mod diff;
 pub mod engine;
+pub mod export;
 pub mod readings;
 pub mod report;
 pub mod subject;

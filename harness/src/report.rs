@@ -175,15 +175,7 @@ fn run(out: &mut String, task: &Task, done: &Checked) {
         let head = format!("  {:<12} {:<16}", verdict_name(judged.verdict), label(property));
         wrapped(out, &head, &format!("{}{length}{bound}", property.text));
     }
-    for (rule, why) in &done.unfired {
-        let why = match why {
-            Unfired::Parameters => "excluded by these parameters".to_owned(),
-            Unfired::Explained(reason) => reason.clone(),
-            Unfired::Unexplained => "FINDING, nothing says why".to_owned(),
-            Unfired::Unknown => "not fired before the limit was reached".to_owned(),
-        };
-        wrapped(out, "  rule not fired: ", &format!("{rule} ({why})"));
-    }
+    unfired(out, done);
     for warning in &task.bound.system.warnings {
         wrapped(out, "  warning: ", warning);
     }
@@ -191,6 +183,26 @@ fn run(out: &mut String, task: &Task, done: &Checked) {
         wrapped(out, "  not analysed: ", &format!("guards of {skipped} read too many values"));
     }
     out.push('\n');
+}
+
+/// Rules that never fired, one line for each reason; the copies of one machine's rule are named once.
+fn unfired(out: &mut String, done: &Checked) {
+    let mut reasons: Vec<(String, Vec<String>)> = Vec::new();
+    for (rule, why) in &done.unfired {
+        let why = match why {
+            Unfired::Parameters => "excluded by these parameters".to_owned(),
+            Unfired::Explained(reason) => reason.clone(),
+            Unfired::Unexplained => "FINDING, nothing says why".to_owned(),
+            Unfired::Unknown => "not fired before the limit was reached".to_owned(),
+        };
+        match reasons.iter_mut().find(|(w, _)| *w == why) {
+            Some((_, rules)) => rules.push(rule.clone()),
+            None => reasons.push((why, vec![rule.clone()])),
+        }
+    }
+    for (why, rules) in reasons {
+        wrapped(out, "  rules not fired: ", &format!("{} ({why})", rules.join(", ")));
+    }
 }
 
 fn wrapped(out: &mut String, head: &str, text: &str) {

@@ -48,19 +48,20 @@ pub struct Subject {
 /// # Errors
 /// Whatever is wrong with the file; nothing has been run then.
 pub fn load(path: &Path, readings: &Readings) -> Result<Subject> {
-    let text = read_text(path)?;
-    if is_machine_file(&text) {
-        of_machine(path, readings)
-    } else {
+    let text = read_text(path, "machine or specification file")?;
+    if has_key(&text, "spec") {
         of_spec(path, text, readings)
+    } else {
+        of_machine(path, readings)
     }
 }
 
-/// A machine file has the key `family` at its top, a specification file the key `spec`.
-fn is_machine_file(text: &str) -> bool {
+/// Whether the file sets this key at its top: `spec` marks a specification file, `family` a machine file.
+fn has_key(text: &str, key: &str) -> bool {
     text.lines()
-        .take_while(|l| !l.trim_start().starts_with('['))
-        .any(|l| l.trim_start().strip_prefix("family").is_some_and(|r| r.trim_start().starts_with('=')))
+        .map(str::trim_start)
+        .take_while(|l| !l.starts_with('['))
+        .any(|l| l.strip_prefix(key).is_some_and(|rest| rest.trim_start().starts_with('=')))
 }
 
 fn of_spec(path: &Path, text: Arc<str>, readings: &Readings) -> Result<Subject> {

@@ -1,5 +1,6 @@
 //! Input choices: the odometer that enumerates them on demand, and the replay of recorded ones.
 
+use crate::report::Step;
 use crate::system::Choices;
 
 #[derive(Clone, Copy, Debug)]
@@ -7,7 +8,8 @@ struct Read {
     input: u32,
     size: u32,
     value: u32,
-    /// Input combinations that agree with the reads up to this one.
+    /// Input combinations that agree with the reads before this one, and up to this one.
+    before: u128,
     weight: u128,
 }
 
@@ -16,7 +18,9 @@ struct Read {
 /// The caller runs the cycle between `begin` and `advance`, until `advance` says that no vector is left.
 #[derive(Clone, Debug)]
 pub(crate) struct Odometer {
+    /// The reads of the present vector, `len` of them; what follows is left over, and saves some divisions.
     reads: Vec<Read>,
+    len: usize,
     at: usize,
     /// Input numbers read in this run, modulo 64: a quick negative answer to "was it read already".
     seen: u64,
@@ -27,16 +31,17 @@ impl Odometer {
     pub(crate) fn new(combinations: u128) -> Self {
         Odometer {
             reads: Vec::with_capacity(64),
+            len: 0,
             at: 0,
             seen: 0,
             total: combinations,
         }
     }
 
-    /// Forgets everything: the next run is the first of a new cycle.
+    /// Forgets the present vector: the next run is the first of a new cycle.
     #[inline]
     pub(crate) fn reset(&mut self) {
-        self.reads.clear();
+        self.len = 0;
         self.begin();
     }
 
@@ -50,14 +55,18 @@ impl Odometer {
     /// The next choice vector; false if there is none.
     #[inline]
     pub(crate) fn advance(&mut self) -> bool {
-        debug_assert_eq!(self.at, self.reads.len(), "a run read less than the one before it");
-        self.reads.truncate(self.at);
-        while let Some(last) = self.reads.last_mut() {
+        debug_assert_eq!(self.at, self.len, "a run read less than the one before it");
+        self.len = self.at;
+        while let Some(last) = self
+            .len
+            .checked_sub(1)
+            .and_then(|last| self.reads.get_mut(last))
+        {
             last.value += 1;
             if last.value < last.size {
                 return true;
             }
-            self.reads.pop();
+            self.len -= 1;
         }
         false
     }
@@ -65,28 +74,54 @@ impl Odometer {
     /// How many input combinations the run just made stands for.
     #[inline]
     pub(crate) fn weight(&self) -> u128 {
-        self.reads.last().map_or(self.total, |last| last.weight)
+        match self.at.checked_sub(1).and_then(|last| self.reads.get(last)) {
+            Some(last) => last.weight,
+            None => self.total,
+        }
     }
 
     /// The inputs read and their values.
-    pub(crate) fn values(&self) -> Vec<(u32, u32)> {
-        self.reads[..self.at].iter().map(|r| (r.input, r.value)).collect()
+    pub(crate) fn values(&self) -> Step {
+        self.reads[..self.at]
+            .iter()
+            .map(|r| (r.input, r.value))
+            .collect()
     }
 
-    #[inline(never)]
+    /// Reads an input that this vector has no value for yet.
+    #[inline]
     fn first(&mut self, input: u32, size: u32) {
-        let size = size.max(1);
         let before = self.weight();
-        let weight = match u64::try_from(before) {
-            Ok(small) => u128::from(small / u64::from(size)),
-            Err(_) => before / u128::from(size),
+        self.len += 1;
+        if let Some(old) = self.reads.get_mut(self.at) {
+            if old.size == size && old.before == before {
+                old.input = input;
+                old.value = 0;
+                return;
+            }
+        }
+        self.divide(input, size, before);
+    }
+
+    #[cold]
+    fn divide(&mut self, input: u32, size: u32, before: u128) {
+        let size = size.max(1);
+        let read = Read {
+            input,
+            size,
+            value: 0,
+            before,
+            weight: before / u128::from(size),
         };
-        self.reads.push(Read { input, size, value: 0, weight });
+        match self.reads.get_mut(self.at) {
+            Some(old) => *old = read,
+            None => self.reads.push(read),
+        }
     }
 }
 
 impl Choices for Odometer {
-    #[inline]
+    #[inline(always)]
     fn choose(&mut self, input: u32, size: u32) -> u32 {
         let bit = 1u64 << (input & 63);
         if self.seen & bit != 0 {
@@ -95,11 +130,14 @@ impl Choices for Odometer {
             }
         }
         self.seen |= bit;
-        if self.at == self.reads.len() {
+        if self.at == self.len {
             self.first(input, size);
         }
-        let read = self.reads[self.at];
-        debug_assert_eq!(read.input, input, "the same answers led to another question");
+        let read = &self.reads[self.at];
+        debug_assert_eq!(
+            read.input, input,
+            "the same answers led to another question"
+        );
         self.at += 1;
         read.value
     }
@@ -121,7 +159,9 @@ impl<'a> Replay<'a> {
 impl Choices for Replay<'_> {
     fn choose(&mut self, input: u32, size: u32) -> u32 {
         let found = self.step.iter().find(|(i, _)| *i == input);
-        found.map_or(0, |(_, value)| *value).min(size.saturating_sub(1))
+        found
+            .map_or(0, |(_, value)| *value)
+            .min(size.saturating_sub(1))
     }
 }
 

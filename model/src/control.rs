@@ -34,7 +34,13 @@ pub fn control_graph<S: System, P: Ord + Clone + Send>(
     project: impl Fn(&[i32]) -> P + Sync,
 ) -> Result<ControlGraph<P>, Error> {
     let watch = Watch::new(options.limits);
-    on_store(Any::new(system), options, &crew(options)?, &watch, Project { project })
+    on_store(
+        Any::new(system),
+        options,
+        &crew(options)?,
+        &watch,
+        Project { project },
+    )
 }
 
 /// Calls `each` with every reachable state, by depth and in the order of indices inside a depth. The answer says
@@ -42,9 +48,19 @@ pub fn control_graph<S: System, P: Ord + Clone + Send>(
 ///
 /// # Errors
 /// As [`crate::explore`].
-pub fn reachable<S: System>(system: &S, options: &Options, each: &mut dyn FnMut(&[i32])) -> Result<bool, Error> {
+pub fn reachable<S: System>(
+    system: &S,
+    options: &Options,
+    each: &mut dyn FnMut(&[i32]),
+) -> Result<bool, Error> {
     let watch = Watch::new(options.limits);
-    on_store(Any::new(system), options, &crew(options)?, &watch, Visit { each })
+    on_store(
+        Any::new(system),
+        options,
+        &crew(options)?,
+        &watch,
+        Visit { each },
+    )
 }
 
 struct Visit<'a> {
@@ -54,7 +70,12 @@ struct Visit<'a> {
 impl Job<Any<'_>> for Visit<'_> {
     type Output = bool;
 
-    fn run<T: Stage>(self, model: &Model<Any, T::Key>, mut store: T, _: Storage) -> Result<bool, Error> {
+    fn run<T: Stage>(
+        self,
+        model: &Model<Any, T::Key>,
+        mut store: T,
+        _: Storage,
+    ) -> Result<bool, Error> {
         let mut state = vec![0; model.origin.domains().len()];
         let show = |store: &T| {
             for key in store.frontier() {
@@ -62,7 +83,8 @@ impl Job<Any<'_>> for Visit<'_> {
                 (self.each)(&state);
             }
         };
-        levels(model, &mut store, || (), |(), _, _| (), show).map(|_| model.watch.stopped().is_none())
+        levels(model, &mut store, || (), |(), _, _| (), show)
+            .map(|_| model.watch.stopped().is_none())
     }
 }
 
@@ -80,10 +102,19 @@ struct Seen<P> {
 impl<P: Ord + Clone + Send, F: Fn(&[i32]) -> P + Sync> Job<Any<'_>> for Project<F> {
     type Output = ControlGraph<P>;
 
-    fn run<T: Stage>(self, model: &Model<Any, T::Key>, mut store: T, _: Storage) -> Result<Self::Output, Error> {
+    fn run<T: Stage>(
+        self,
+        model: &Model<Any, T::Key>,
+        mut store: T,
+        _: Storage,
+    ) -> Result<Self::Output, Error> {
         let mut starts = BTreeSet::new();
         let project = |key| (self.project)(&model.packer.state(key));
-        let none = || Seen { before: None, nodes: BTreeSet::new(), edges: BTreeMap::new() };
+        let none = || Seen {
+            before: None,
+            nodes: BTreeSet::new(),
+            edges: BTreeMap::new(),
+        };
         let each = |seen: &mut Seen<P>, key, to: Option<(T::Key, u128)>| {
             let Some((after, weight)) = to else {
                 let node = project(key);
@@ -92,7 +123,10 @@ impl<P: Ord + Clone + Send, F: Fn(&[i32]) -> P + Sync> Job<Any<'_>> for Project<
                 return;
             };
             if let Some(before) = &seen.before {
-                let count = seen.edges.entry((before.clone(), project(after))).or_insert(0);
+                let count = seen
+                    .edges
+                    .entry((before.clone(), project(after)))
+                    .or_insert(0);
                 *count = count.saturating_add(weight);
             }
         };
@@ -112,13 +146,23 @@ impl<P: Ord + Clone + Send, F: Fn(&[i32]) -> P + Sync> Job<Any<'_>> for Project<
             }
         }
         let mut graph = DiGraph::new();
-        let numbers: BTreeMap<P, NodeIndex> =
-            total.nodes.into_iter().map(|node| (node.clone(), graph.add_node(node))).collect();
+        let numbers: BTreeMap<P, NodeIndex> = total
+            .nodes
+            .into_iter()
+            .map(|node| (node.clone(), graph.add_node(node)))
+            .collect();
         for ((from, to), weight) in total.edges {
             graph.add_edge(numbers[&from], numbers[&to], weight);
         }
-        let initial = starts.iter().filter_map(|node| numbers.get(node).copied()).collect();
-        Ok(ControlGraph { graph, initial, complete: model.watch.stopped().is_none() })
+        let initial = starts
+            .iter()
+            .filter_map(|node| numbers.get(node).copied())
+            .collect();
+        Ok(ControlGraph {
+            graph,
+            initial,
+            complete: model.watch.stopped().is_none(),
+        })
     }
 }
 
@@ -131,40 +175,45 @@ fn levels<T: Store, W: Send>(
     each: impl Fn(&mut W, T::Key, Option<(T::Key, u128)>) + Sync,
     mut level: impl FnMut(&T),
 ) -> Result<Vec<W>, Error> {
-    let mut workers: Vec<_> =
-        (0..model.crew.size()).map(|_| (Cursor::new(&model.origin), store.local(), new())).collect();
+    let mut workers: Vec<_> = (0..model.crew.size())
+        .map(|_| (Cursor::new(&model.origin), store.local(), new()))
+        .collect();
     let mut frontier = initial(model, store)?;
     while frontier > 0 && !model.watch.over(store.bytes()) {
         level(store);
         let now = &*store;
-        model.crew.share(&mut workers, now.pieces(), |(cursor, local, own), piece| {
-            if model.watch.over(now.bytes()) {
-                return;
-            }
-            now.each(piece, |key| {
-                each(own, key, None);
-                let mut run: Option<(T::Key, u128)> = None;
-                cursor.leaves(&model.packer, key, |_, odometer, leaf| {
-                    if let Leaf::To(after) = leaf {
-                        let weight = odometer.weight();
-                        run = match run {
-                            Some((to, sum)) if to == after => Some((to, sum.saturating_add(weight))),
-                            other => {
-                                if other.is_some() {
-                                    each(own, key, other);
-                                }
-                                now.visit(local, after);
-                                Some((after, weight))
-                            }
-                        };
-                    }
-                    ControlFlow::Continue(())
-                });
-                if run.is_some() {
-                    each(own, key, run);
+        model
+            .crew
+            .share(&mut workers, now.pieces(), |(cursor, local, own), piece| {
+                if model.watch.over(now.bytes()) {
+                    return;
                 }
+                now.each(piece, |key| {
+                    each(own, key, None);
+                    let mut run: Option<(T::Key, u128)> = None;
+                    cursor.leaves(&model.packer, key, |_, odometer, leaf| {
+                        if let Leaf::To(after) = leaf {
+                            let weight = odometer.weight();
+                            run = match run {
+                                Some((to, sum)) if to == after => {
+                                    Some((to, sum.saturating_add(weight)))
+                                }
+                                other => {
+                                    if other.is_some() {
+                                        each(own, key, other);
+                                    }
+                                    now.visit(local, after);
+                                    Some((after, weight))
+                                }
+                            };
+                        }
+                        ControlFlow::Continue(())
+                    });
+                    if run.is_some() {
+                        each(own, key, run);
+                    }
+                });
             });
-        });
         frontier = store.advance(workers.iter_mut().map(|(_, local, _)| local).collect());
     }
     Ok(workers.into_iter().map(|(_, _, own)| own).collect())

@@ -21,7 +21,12 @@ pub(crate) struct Watch {
 
 impl Watch {
     pub(crate) fn new(limits: Limits) -> Self {
-        Watch { start: Instant::now(), limits, stopped: AtomicU8::new(0), peak: AtomicU64::new(0) }
+        Watch {
+            start: Instant::now(),
+            limits,
+            stopped: AtomicU8::new(0),
+            peak: AtomicU64::new(0),
+        }
     }
 
     pub(crate) fn seconds(&self) -> f64 {
@@ -36,7 +41,11 @@ impl Watch {
         }
         let reason = if self.limits.memory.is_some_and(|most| bytes > most) {
             2
-        } else if self.limits.time.is_some_and(|most| self.start.elapsed() >= most) {
+        } else if self
+            .limits
+            .time
+            .is_some_and(|most| self.start.elapsed() >= most)
+        {
             1
         } else {
             return false;
@@ -73,7 +82,9 @@ pub(crate) struct Crew {
 impl Crew {
     pub(crate) fn new(threads: usize) -> Result<Self, Error> {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-        Ok(Crew { pool: pool.map_err(|e| Error::Threads(e.to_string()))? })
+        Ok(Crew {
+            pool: pool.map_err(|e| Error::Threads(e.to_string()))?,
+        })
     }
 
     pub(crate) fn size(&self) -> usize {
@@ -81,7 +92,12 @@ impl Crew {
     }
 
     /// Does pieces of work, each once, by whichever worker is free.
-    pub(crate) fn share<W: Send>(&self, workers: &mut [W], pieces: usize, work: impl Fn(&mut W, usize) + Sync) {
+    pub(crate) fn share<W: Send>(
+        &self,
+        workers: &mut [W],
+        pieces: usize,
+        work: impl Fn(&mut W, usize) + Sync,
+    ) {
         if pieces <= 1 || workers.len() <= 1 {
             if let Some(worker) = workers.first_mut() {
                 (0..pieces).for_each(|piece| work(worker, piece));

@@ -2,8 +2,8 @@
 
 use crate::choices::Odometer;
 use crate::pack::{Key, Packer};
-use crate::report::Error;
 use crate::process::{Origin, Process};
+use crate::report::{Error, Step};
 use crate::system::Fault;
 use std::ops::ControlFlow;
 
@@ -54,13 +54,19 @@ impl<P: Process> Cursor<P> {
         self.odometer.reset();
         loop {
             self.odometer.begin();
-            let next = self.process.next(&self.before, &mut self.odometer, &mut self.after);
+            let next = self
+                .process
+                .next(&self.before, &mut self.odometer, &mut self.after);
             let leaf = match next {
                 Err(fault) => Leaf::Fault(fault),
                 Ok(()) if self.process.discarded() => Leaf::Discarded,
-                Ok(()) => packer.pack(&self.after).map_or(Leaf::Fault(Fault::OUT_OF_DOMAIN), Leaf::To),
+                Ok(()) => packer
+                    .pack(&self.after)
+                    .map_or(Leaf::Fault(Fault::OUT_OF_DOMAIN), Leaf::To),
             };
-            if each(&mut self.process, &mut self.odometer, leaf).is_break() || !self.odometer.advance() {
+            if each(&mut self.process, &mut self.odometer, leaf).is_break()
+                || !self.odometer.advance()
+            {
                 return;
             }
         }
@@ -72,7 +78,7 @@ impl<P: Process> Cursor<P> {
         packer: &Packer<K>,
         key: K,
         mut test: impl FnMut(&mut P, &mut Odometer, Leaf<K>) -> bool,
-    ) -> Option<(Vec<(u32, u32)>, Leaf<K>)> {
+    ) -> Option<(Step, Leaf<K>)> {
         let mut found = None;
         self.leaves(packer, key, |process, odometer, leaf| {
             if test(process, odometer, leaf) {

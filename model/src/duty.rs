@@ -22,7 +22,11 @@ impl<'a> Duty<'a> {
     pub(crate) fn new(system: Any<'a>, form: &'a Form) -> Self {
         let mut domains = system.domains().to_vec();
         domains.push(Domain { lo: 0, hi: 1 });
-        Duty { system, form, domains }
+        Duty {
+            system,
+            form,
+            domains,
+        }
     }
 
     /// The run of the system itself.
@@ -45,7 +49,11 @@ impl<'a> Origin for &'a Duty<'a> {
     type Process = DutyProcess<'a>;
 
     fn process(&self) -> DutyProcess<'a> {
-        DutyProcess { inner: self.system.process(), form: self.form, violated: false }
+        DutyProcess {
+            inner: self.system.process(),
+            form: self.form,
+            violated: false,
+        }
     }
 
     fn domains(&self) -> &[Domain] {
@@ -69,9 +77,16 @@ impl Process for DutyProcess<'_> {
         }
     }
 
-    fn next(&mut self, before: &[i32], choices: &mut Odometer, after: &mut [i32]) -> Result<(), Fault> {
+    fn next(
+        &mut self,
+        before: &[i32],
+        choices: &mut Odometer,
+        after: &mut [i32],
+    ) -> Result<(), Fault> {
         self.violated = false;
-        let (Some((pending, inner)), Some((duty, rest))) = (before.split_last(), after.split_last_mut()) else {
+        let (Some((pending, inner)), Some((duty, rest))) =
+            (before.split_last(), after.split_last_mut())
+        else {
             return Ok(());
         };
         self.inner.next(inner, choices, rest)?;
@@ -79,8 +94,19 @@ impl Process for DutyProcess<'_> {
         if self.inner.discarded() {
             return Ok(());
         }
-        let Form::Unless { when, holds, unless } = self.form else { return Ok(()) };
-        let mut eval = Eval { process: &mut self.inner, choices, fault: |_| () };
+        let Form::Unless {
+            when,
+            holds,
+            unless,
+        } = self.form
+        else {
+            return Ok(());
+        };
+        let mut eval = Eval {
+            process: &mut self.inner,
+            choices,
+            fault: |_| (),
+        };
         if *pending == 1 || (eval.atom(*when) && eval.choices.choose(FOLLOW, 2) == 1) {
             let sign = eval.duty(*holds, *unless);
             *duty = i32::from(sign.pending);

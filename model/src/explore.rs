@@ -5,12 +5,14 @@ use crate::cursor::Leaf;
 use crate::hashed::Hashed;
 use crate::liveness::{fair, recoverable, recovery};
 use crate::pack::{Key, space};
+use crate::process::{Any, Origin, Own, Process};
 use crate::property::{Eval, Form, Property, Sign, validate};
-use crate::report::{Error, FaultReport, Judgement, Options, Progress, Report, Storage, Trace, Verdict};
+use crate::report::{
+    Error, FaultReport, Judgement, Options, Progress, Report, Step, Storage, Trace, Verdict,
+};
 use crate::response::{Response, bounded, until};
 use crate::search::{Found, Model, search};
 use crate::store::{Dense, Store};
-use crate::process::{Any, Origin, Own, Process};
 use crate::system::System;
 use crate::trace::{Request, Run, Test, runs};
 use std::collections::BTreeSet;
@@ -22,7 +24,12 @@ const DEFAULT_BITMAP: u64 = 1 << 30;
 /// Work that is written once for every kind of storage.
 pub(crate) trait Job<O> {
     type Output;
-    fn run<T: Stage>(self, model: &Model<O, T::Key>, store: T, storage: Storage) -> Result<Self::Output, Error>;
+    fn run<T: Stage>(
+        self,
+        model: &Model<O, T::Key>,
+        store: T,
+        storage: Storage,
+    ) -> Result<Self::Output, Error>;
 }
 
 /// Runs a job with the storage that suits the index space and the limits.
@@ -35,7 +42,10 @@ pub(crate) fn on_store<O: Origin, J: Job<O>>(
 ) -> Result<J::Output, Error> {
     let space = space(origin.domains())?;
     // A quarter of the memory is left for lists, duties and traces.
-    let bitmap = options.limits.memory.map_or(DEFAULT_BITMAP, |most| most / 4 * 3);
+    let bitmap = options
+        .limits
+        .memory
+        .map_or(DEFAULT_BITMAP, |most| most / 4 * 3);
     match u64::try_from(space) {
         Ok(small) if Dense::need(space) <= u128::from(bitmap) => {
             let model = Model::new(origin, crew, watch)?;
@@ -75,7 +85,12 @@ pub fn explore<S: System>(
     validate(properties)?;
     let watch = Watch::new(options.limits);
     let crew = crew(options)?;
-    let job = Explore { any: Any::new(system), properties, options, progress };
+    let job = Explore {
+        any: Any::new(system),
+        properties,
+        options,
+        progress,
+    };
     on_store(Own(system), options, &crew, &watch, job)
 }
 
@@ -87,7 +102,7 @@ struct Explore<'a> {
 }
 
 /// How a run goes on after the cycle a request found: further steps, and where their loop starts among them.
-pub(crate) type Tail<'a, K> = Box<dyn FnOnce(K) -> Option<(Vec<Vec<(u32, u32)>>, Option<usize>)> + 'a>;
+pub(crate) type Tail<'a, K> = Box<dyn FnOnce(K) -> Option<(Vec<Step>, Option<usize>)> + 'a>;
 
 /// What shows a verdict.
 pub(crate) enum Evidence<'a, K> {
@@ -107,17 +122,41 @@ pub(crate) struct Decision<'a, K> {
 
 impl<K> From<Verdict> for Decision<'_, K> {
     fn from(verdict: Verdict) -> Self {
-        Decision { verdict, bound: None, evidence: Evidence::None }
+        Decision {
+            verdict,
+            bound: None,
+            evidence: Evidence::None,
+        }
     }
 }
 
 impl<O: Origin> Job<O> for Explore<'_> {
     type Output = Report;
 
-    fn run<T: Stage>(self, model: &Model<O, T::Key>, mut store: T, storage: Storage) -> Result<Report, Error> {
-        let found = search(model, &mut store, self.properties, self.options, self.progress)?;
+    fn run<T: Stage>(
+        self,
+        model: &Model<O, T::Key>,
+        mut store: T,
+        storage: Storage,
+    ) -> Result<Report, Error> {
+        let found = search(
+            model,
+            &mut store,
+            self.properties,
+            self.options,
+            self.progress,
+        )?;
         let model = Model::new(self.any, model.crew, model.watch)?;
-        T::finish(store, Finish { model, found, properties: self.properties, options: self.options, storage })
+        T::finish(
+            store,
+            Finish {
+                model,
+                found,
+                properties: self.properties,
+                options: self.options,
+                storage,
+            },
+        )
     }
 }
 
@@ -156,7 +195,13 @@ pub(crate) struct Finish<'a, K> {
 
 impl<K: Key> Finish<'_, K> {
     fn report<T: Store<Key = K>>(self, mut store: T) -> Result<Report, Error> {
-        let Finish { model, found, properties, options, storage } = self;
+        let Finish {
+            model,
+            found,
+            properties,
+            options,
+            storage,
+        } = self;
         let model = &model;
         let decisions = decide(model, &found, properties, options, store.bytes())?;
         let mut requests = Vec::new();
@@ -178,7 +223,10 @@ impl<K: Key> Finish<'_, K> {
                     judgement.trace = Some(trace);
                 }
                 Evidence::Run(request, then) => {
-                    judgement.length = request.at.filter(|_| then.is_none()).map(|(depth, _)| u64::from(depth) + 1);
+                    judgement.length = request
+                        .at
+                        .filter(|_| then.is_none())
+                        .map(|(depth, _)| u64::from(depth) + 1);
                     tail = Some((requests.len(), then));
                     requests.push(request);
                 }
@@ -187,16 +235,33 @@ impl<K: Key> Finish<'_, K> {
             tails.push(tail);
         }
         let first_fault = requests.len();
-        let late = model.late.lock().unwrap_or_else(PoisonError::into_inner).clone();
-        let codes: Vec<u32> = late.into_iter().chain(found.faults.keys().copied()).collect::<BTreeSet<_>>().into_iter().collect();
+        let late = model
+            .late
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .clone();
+        let codes: Vec<u32> = late
+            .into_iter()
+            .chain(found.faults.keys().copied())
+            .collect::<BTreeSet<_>>()
+            .into_iter()
+            .collect();
         for code in &codes {
             let test = fault_test(properties, *code);
-            requests.push(Request { at: found.faults.get(code).copied(), test, state: None });
+            requests.push(Request {
+                at: found.faults.get(code).copied(),
+                test,
+                state: None,
+            });
         }
         let found_runs = runs(model, &mut store, &requests)?;
         for (judgement, tail) in judgements.iter_mut().zip(tails) {
-            let Some((request, then)) = tail else { continue };
-            let Some(run) = found_runs[request].clone() else { continue };
+            let Some((request, then)) = tail else {
+                continue;
+            };
+            let Some(run) = found_runs[request].clone() else {
+                continue;
+            };
             if let Some(trace) = extend(run, then) {
                 judgement.length = Some(trace.steps.len() as u64);
                 judgement.trace = Some(trace);
@@ -206,18 +271,32 @@ impl<K: Key> Finish<'_, K> {
             code,
             length: match run {
                 Some(run) => Some(run.trace.steps.len() as u64),
-                None => found.faults.get(&code).map(|(depth, _)| u64::from(*depth) + 1),
+                None => found
+                    .faults
+                    .get(&code)
+                    .map(|(depth, _)| u64::from(*depth) + 1),
             },
             trace: run.as_ref().map(|run| run.trace.clone()),
         };
-        let faults = codes.into_iter().zip(&found_runs[first_fault..]).map(fault).collect();
+        let faults = codes
+            .into_iter()
+            .zip(&found_runs[first_fault..])
+            .map(fault)
+            .collect();
         Ok(Report {
             states: found.states,
             transitions: found.transitions,
             depth: found.depth,
             seconds: model.watch.seconds(),
-            complete: found.complete && judgements.iter().all(|j| j.verdict != Verdict::Inconclusive),
-            absorbing_examples: found.examples.iter().map(|key| model.packer.state(*key)).collect(),
+            complete: found.complete
+                && judgements
+                    .iter()
+                    .all(|j| j.verdict != Verdict::Inconclusive),
+            absorbing_examples: found
+                .examples
+                .iter()
+                .map(|key| model.packer.state(*key))
+                .collect(),
             coverage: found.coverage,
             absorbing: found.absorbing,
             memory: found.bytes.max(model.watch.peak()),
@@ -246,7 +325,12 @@ pub(crate) fn sign_test<'a, K: Key>(
 ) -> Test<'a, K> {
     Arc::new(move |process: &mut dyn Process, choices, leaf| {
         let Leaf::To(after) = leaf else { return false };
-        let sign = Eval { process, choices, fault: |_| () }.sign(form);
+        let sign = Eval {
+            process,
+            choices,
+            fault: |_| (),
+        }
+        .sign(form);
         accept(sign, after)
     })
 }
@@ -258,7 +342,11 @@ fn fault_test<'a, K: Key>(properties: &'a [Property], code: u32) -> Test<'a, K> 
         Leaf::Discarded => false,
         Leaf::To(_) => {
             let mut atoms = properties.iter().flat_map(|p| p.form.atoms());
-            atoms.any(|atom| process.atom(atom, choices).is_err_and(|fault| fault.code == code))
+            atoms.any(|atom| {
+                process
+                    .atom(atom, choices)
+                    .is_err_and(|fault| fault.code == code)
+            })
         }
     })
 }
@@ -271,7 +359,14 @@ pub(crate) fn seen<'a, K: Key>(
 ) -> Evidence<'a, K> {
     match at {
         None => Evidence::None,
-        Some(_) => Evidence::Run(Request { at, test: sign_test(form, move |s, _| accept(s)), state: None }, None),
+        Some(_) => Evidence::Run(
+            Request {
+                at,
+                test: sign_test(form, move |s, _| accept(s)),
+                state: None,
+            },
+            None,
+        ),
     }
 }
 
@@ -300,7 +395,11 @@ fn decide<'a, K: Key>(
             true => seen(form, signs.first, |s| s.first),
             false => Evidence::None,
         };
-        let decision = |verdict, evidence| Decision { verdict, bound: None, evidence };
+        let decision = |verdict, evidence| Decision {
+            verdict,
+            bound: None,
+            evidence,
+        };
         decisions.push(match form {
             Form::Always { .. } if signs.bad.is_some() => {
                 decision(Verdict::Violated, seen(form, signs.bad, |s| s.bad))
@@ -308,17 +407,37 @@ fn decide<'a, K: Key>(
             Form::Reachable { .. } if signs.first.is_some() => {
                 decision(Verdict::Reached, seen(form, signs.first, |s| s.first))
             }
-            Form::Unless { holds, unless, .. } if found.complete || signs.bad.is_some() => match signs.first {
-                None => Verdict::Vacuous.into(),
-                Some(_) => until(model, form, (*holds, *unless), signs, pending, witness, options, held)?,
-            },
+            Form::Unless { holds, unless, .. } if found.complete || signs.bad.is_some() => {
+                match signs.first {
+                    None => Verdict::Vacuous.into(),
+                    Some(_) => until(
+                        model,
+                        form,
+                        (*holds, *unless),
+                        signs,
+                        pending,
+                        witness,
+                        options,
+                        held,
+                    )?,
+                }
+            }
             _ if !found.complete => Verdict::Inconclusive.into(),
             Form::Reachable { .. } => Verdict::Unreachable.into(),
             Form::Always { when: None, .. } => Verdict::Holds.into(),
             Form::CanAlwaysReach { .. } => recovery(lost.next().flatten(), witness),
             _ if signs.first.is_none() => Verdict::Vacuous.into(),
-            Form::LeadsTo { goal, within, fair: conditions, assuming, .. } => {
-                let response = Response { goal: *goal, assuming: *assuming };
+            Form::LeadsTo {
+                goal,
+                within,
+                fair: conditions,
+                assuming,
+                ..
+            } => {
+                let response = Response {
+                    goal: *goal,
+                    assuming: *assuming,
+                };
                 match within {
                     Some(within) => bounded(model, form, response, *within, pending, witness, held),
                     None => fair(model, form, response, conditions, pending, witness, held),

@@ -3,9 +3,9 @@
 use crate::choices::Odometer;
 use crate::cursor::{Cursor, Leaf};
 use crate::pack::Key;
+use crate::process::{Any, Process};
 use crate::search::Model;
 use crate::store::PIECE;
-use crate::process::{Any, Process};
 use std::ops::ControlFlow;
 
 /// Says whether a cycle to the given state is an edge, and its label.
@@ -38,47 +38,69 @@ struct Piece<K> {
 
 impl<K: Key> Graph<K> {
     /// The graph reached from the seeds; none if a limit is reached first. `held` bytes are in use elsewhere.
-    pub(crate) fn build(model: &Model<Any, K>, seeds: &[K], rule: &Rule<K>, held: u64) -> Option<Self> {
-        let mut graph =
-            Graph { keys: Vec::new(), table: vec![0; 64], first: vec![0], edges: Vec::new(), seeds: 0 };
+    pub(crate) fn build(
+        model: &Model<Any, K>,
+        seeds: &[K],
+        rule: &Rule<K>,
+        held: u64,
+    ) -> Option<Self> {
+        let mut graph = Graph {
+            keys: Vec::new(),
+            table: vec![0; 64],
+            first: vec![0],
+            edges: Vec::new(),
+            seeds: 0,
+        };
         for key in seeds {
             graph.node(*key)?;
         }
         graph.seeds = u32::try_from(graph.keys.len()).ok()?;
-        let mut workers: Vec<_> =
-            (0..model.crew.size()).map(|_| (Cursor::new(&model.origin), Vec::<Piece<K>>::new())).collect();
+        let mut workers: Vec<_> = (0..model.crew.size())
+            .map(|_| (Cursor::new(&model.origin), Vec::<Piece<K>>::new()))
+            .collect();
         let mut done = 0;
         while done < graph.keys.len() {
             if model.watch.over(0) || model.watch.too_much(held + graph.bytes()) {
                 return None;
             }
-            let block = &graph.keys[done..graph.keys.len().min(done + 128 * PIECE)];
-            model.crew.share(&mut workers, block.len().div_ceil(PIECE), |(cursor, pieces), number| {
-                let mut piece = Piece { number, degrees: Vec::new(), ends: Vec::new() };
-                for key in &block[number * PIECE..block.len().min((number + 1) * PIECE)] {
-                    let begin = piece.ends.len();
-                    cursor.leaves(&model.packer, *key, |process, odometer, leaf| {
-                        if let Leaf::To(after) = leaf {
-                            let label = rule(&mut **process, odometer, after);
-                            piece.ends.extend(label.map(|label| (after, label)));
+            let block = &graph.keys[done..graph.keys.len().min(done + 1024 * PIECE)];
+            model.crew.share(
+                &mut workers,
+                block.len().div_ceil(PIECE),
+                |(cursor, pieces), number| {
+                    let mut piece = Piece {
+                        number,
+                        degrees: Vec::new(),
+                        ends: Vec::new(),
+                    };
+                    for key in &block[number * PIECE..block.len().min((number + 1) * PIECE)] {
+                        let begin = piece.ends.len();
+                        cursor.leaves(&model.packer, *key, |process, odometer, leaf| {
+                            if let Leaf::To(after) = leaf {
+                                let label = rule(&mut **process, odometer, after);
+                                piece.ends.extend(label.map(|label| (after, label)));
+                            }
+                            ControlFlow::Continue(())
+                        });
+                        piece.ends[begin..].sort_unstable();
+                        let mut kept = begin;
+                        for end in begin..piece.ends.len() {
+                            if kept == begin || piece.ends[kept - 1] != piece.ends[end] {
+                                piece.ends[kept] = piece.ends[end];
+                                kept += 1;
+                            }
                         }
-                        ControlFlow::Continue(())
-                    });
-                    piece.ends[begin..].sort_unstable();
-                    let mut kept = begin;
-                    for end in begin..piece.ends.len() {
-                        if kept == begin || piece.ends[kept - 1] != piece.ends[end] {
-                            piece.ends[kept] = piece.ends[end];
-                            kept += 1;
-                        }
+                        piece.ends.truncate(kept);
+                        piece.degrees.push(kept - begin);
                     }
-                    piece.ends.truncate(kept);
-                    piece.degrees.push(kept - begin);
-                }
-                pieces.push(piece);
-            });
+                    pieces.push(piece);
+                },
+            );
             done += block.len();
-            let mut pieces: Vec<Piece<K>> = workers.iter_mut().flat_map(|(_, pieces)| pieces.drain(..)).collect();
+            let mut pieces: Vec<Piece<K>> = workers
+                .iter_mut()
+                .flat_map(|(_, pieces)| pieces.drain(..))
+                .collect();
             pieces.sort_unstable_by_key(|piece| piece.number);
             for piece in pieces {
                 for (key, label) in piece.ends {
@@ -86,7 +108,9 @@ impl<K: Key> Graph<K> {
                     graph.edges.push(Edge { to, label });
                 }
                 for degree in piece.degrees {
-                    graph.first.push(graph.first.last().copied().unwrap_or(0) + degree);
+                    graph
+                        .first
+                        .push(graph.first.last().copied().unwrap_or(0) + degree);
                 }
             }
         }
@@ -96,7 +120,8 @@ impl<K: Key> Graph<K> {
 
     pub(crate) fn bytes(&self) -> u64 {
         let keys = self.keys.capacity() * size_of::<K>() + self.table.capacity() * 4;
-        let edges = self.edges.capacity() * size_of::<Edge>() + self.first.capacity() * size_of::<usize>();
+        let edges =
+            self.edges.capacity() * size_of::<Edge>() + self.first.capacity() * size_of::<usize>();
         (keys + edges) as u64
     }
 
@@ -121,7 +146,8 @@ impl<K: Key> Graph<K> {
         if self.keys.len() * 3 >= self.table.len() * 2 {
             self.table = vec![0; self.table.len() * 2];
             for (node, number) in self.keys.iter().zip(1..) {
-                let mut slot = ((u128::from(node.hash()) * self.table.len() as u128) >> 64) as usize;
+                let mut slot =
+                    ((u128::from(node.hash()) * self.table.len() as u128) >> 64) as usize;
                 while self.table[slot] != 0 {
                     slot = (slot + 1) % self.table.len();
                 }
@@ -152,7 +178,11 @@ impl<K: Key> Graph<K> {
     pub(crate) fn components(&self, keep: impl Fn(Edge) -> bool) -> Components {
         const NONE: u32 = u32::MAX;
         let size = self.keys.len();
-        let mut found = Components { of: vec![NONE; size], order: Vec::with_capacity(size), cyclic: Vec::new() };
+        let mut found = Components {
+            of: vec![NONE; size],
+            order: Vec::with_capacity(size),
+            cyclic: Vec::new(),
+        };
         let mut index = vec![NONE; size];
         let mut low = vec![0u32; size];
         let mut open: Vec<u32> = Vec::new();
@@ -168,7 +198,9 @@ impl<K: Key> Graph<K> {
                     open.push(node);
                     calls.push((node, 0));
                 }
-                let Some((node, position)) = calls.last_mut() else { break };
+                let Some((node, position)) = calls.last_mut() else {
+                    break;
+                };
                 let at = *node as usize;
                 let Some(edge) = self.edges(*node).get(*position) else {
                     if low[at] == index[at] {
@@ -191,7 +223,11 @@ impl<K: Key> Graph<K> {
         }
         for node in 0..self.nodes() {
             let component = found.of[node as usize];
-            if self.edges(node).iter().any(|e| keep(*e) && found.of[e.to as usize] == component) {
+            if self
+                .edges(node)
+                .iter()
+                .any(|e| keep(*e) && found.of[e.to as usize] == component)
+            {
                 found.cyclic[component as usize] = true;
             }
         }

@@ -47,7 +47,10 @@ impl<K: Key> Shard<K> {
 
     fn grow(&mut self, bytes: &AtomicU64) {
         let before = self.slots.len();
-        let old = std::mem::replace(&mut self.slots, vec![K::EMPTY; (before + before / 2).max(16)]);
+        let old = std::mem::replace(
+            &mut self.slots,
+            vec![K::EMPTY; (before + before / 2).max(16)],
+        );
         let more = (self.slots.len() - before) * size_of::<K>();
         bytes.fetch_add(more as u64, Ordering::Relaxed);
         for key in old.into_iter().filter(|key| *key != K::EMPTY) {
@@ -74,8 +77,18 @@ impl<K: Key> Batch<K> {
 
 impl<K: Key> Sharded<K> {
     pub(crate) fn new() -> Self {
-        let shards = (0..SHARDS).map(|_| Mutex::new(Shard { slots: Vec::new(), used: 0 })).collect();
-        Sharded { shards, bytes: AtomicU64::new(0) }
+        let shards = (0..SHARDS)
+            .map(|_| {
+                Mutex::new(Shard {
+                    slots: Vec::new(),
+                    used: 0,
+                })
+            })
+            .collect();
+        Sharded {
+            shards,
+            bytes: AtomicU64::new(0),
+        }
     }
 
     /// Adds the key at once or later; `found` gets each key that is new when it is added.
@@ -90,7 +103,9 @@ impl<K: Key> Sharded<K> {
     }
 
     fn flush_shard(&self, shard: usize, keys: &mut Vec<K>, mut found: impl FnMut(K)) {
-        let mut table = self.shards[shard].lock().unwrap_or_else(PoisonError::into_inner);
+        let mut table = self.shards[shard]
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner);
         for key in keys.drain(..) {
             if table.insert(key, &self.bytes) {
                 found(key);
@@ -100,7 +115,12 @@ impl<K: Key> Sharded<K> {
 
     /// Adds everything still in the batch.
     pub(crate) fn flush(&self, batch: &mut Batch<K>, mut found: impl FnMut(K)) {
-        for (shard, keys) in batch.0.iter_mut().enumerate().filter(|(_, keys)| !keys.is_empty()) {
+        for (shard, keys) in batch
+            .0
+            .iter_mut()
+            .enumerate()
+            .filter(|(_, keys)| !keys.is_empty())
+        {
             self.flush_shard(shard, keys, &mut found);
         }
     }
@@ -136,7 +156,11 @@ pub(crate) struct HashedLocal<K> {
 
 impl<K: Key> Hashed<K> {
     pub(crate) fn new() -> Self {
-        Hashed { set: Sharded::new(), list: Vec::new(), lists: AtomicU64::new(0) }
+        Hashed {
+            set: Sharded::new(),
+            list: Vec::new(),
+            lists: AtomicU64::new(0),
+        }
     }
 }
 
@@ -145,16 +169,23 @@ impl<K: Key> Store for Hashed<K> {
     type Local = HashedLocal<K>;
 
     fn local(&self) -> HashedLocal<K> {
-        HashedLocal { batch: Batch::new(), found: Vec::new() }
+        HashedLocal {
+            batch: Batch::new(),
+            found: Vec::new(),
+        }
     }
 
     #[inline]
     fn visit(&self, local: &mut HashedLocal<K>, key: K) {
         let found = &mut local.found;
         let before = found.capacity();
-        self.set.insert(&mut local.batch, key, |key| found.push(key));
+        self.set
+            .insert(&mut local.batch, key, |key| found.push(key));
         if found.capacity() > before {
-            self.lists.fetch_add(((found.capacity() - before) * size_of::<K>()) as u64, Ordering::Relaxed);
+            self.lists.fetch_add(
+                ((found.capacity() - before) * size_of::<K>()) as u64,
+                Ordering::Relaxed,
+            );
         }
     }
 

@@ -1,6 +1,31 @@
 //! Explores finite systems exhaustively and judges their properties.
+//!
+//! A [`System`] says what its initial states are and what one cycle does; it asks a [`Choices`] for each input it reads.
+//! [`explore`] makes every cycle from every reachable state, enumerating only the inputs that are read, and judges
+//! properties ([`Form`]) about cycles and runs. Verdicts are exact: every state has an exact index, no state is
+//! confused with another, and what a limit leaves open is called [`Verdict::Inconclusive`].
+//!
+//! How it works, module by module:
+//!
+//! * `choices`, `cursor`, `process`: the odometer over the inputs read, and the cycles of one state. Evaluating a property
+//!   may read further inputs of the cycle; a transition counts with all combinations of the inputs nobody read.
+//! * `pack`, `bitmap`, `store`, `hashed`: a state is a number in mixed radix. The states found are a bitmap over all numbers where
+//!   that fits the memory (at most two bits an index), else an exact hash set.
+//! * `crew`, `search`: one breadth-first search, level by level, on some threads. It tells for each property the first
+//!   place, in the order (depth, state), where something showed: so the report does not depend on the threads.
+//! * `graph`, `response`, `liveness`: what the search cannot tell. The cycles under a pending duty form a graph; bounded
+//!   responses ask for its longest path, responses under fairness for its strongly connected components, recoverability
+//!   for what the components of the whole graph lead to. `duty` makes a weak until part of the state, for its shortest
+//!   counterexample.
+//! * `trace`: shortest runs. The search keeps no parents; a second search keeps its levels, and a walk back through them
+//!   finds the least predecessors.
+//! * `twin`, `control`: two runs side by side; views of the reachable states.
+//!
+//! A cycle whose evaluation meets a fault has no successor and is reported. A fault in a property's atom makes that atom
+//! FALSE there and is reported too: verdicts stand on their own only in a report without faults.
 #![forbid(unsafe_code)]
 
+mod bitmap;
 mod choices;
 mod control;
 mod crew;
@@ -26,6 +51,8 @@ pub use choices::Replay;
 pub use control::{ControlGraph, control_graph, reachable};
 pub use explore::explore;
 pub use property::{Form, Property};
-pub use report::{Error, FaultReport, Judgement, Limits, Options, Progress, Report, Storage, Trace, Verdict};
+pub use report::{
+    Error, FaultReport, Judgement, Limits, Options, Progress, Report, Step, Storage, Trace, Verdict,
+};
 pub use system::{Choices, Domain, Fault, System};
 pub use twin::{Twin, TwinWork};

@@ -6,11 +6,11 @@ use crate::explore::{Decision, Evidence, Tail, sign_test};
 use crate::graph::{Components, Edge, Graph};
 use crate::hashed::Sharded;
 use crate::pack::Key;
+use crate::process::{Any, Process};
 use crate::property::Form;
 use crate::report::{Error, Verdict};
 use crate::response::Response;
 use crate::search::Model;
-use crate::process::{Any, Process};
 use crate::trace::Request;
 use std::collections::{HashMap, VecDeque};
 use std::ops::ControlFlow;
@@ -45,7 +45,9 @@ pub(crate) fn fair<'a, K: Key>(
         if eval.atom(goal) || !eval.given(assuming) {
             return None;
         }
-        Some(fair.iter().enumerate().fold(0, |mask, (bit, atom)| mask | u32::from(eval.atom(*atom)) << bit))
+        Some(fair.iter().enumerate().fold(0, |mask, (bit, atom)| {
+            mask | u32::from(eval.atom(*atom)) << bit
+        }))
     };
     let Some(graph) = Graph::build(model, &pending.sorted(), &label, held) else {
         return Verdict::Inconclusive.into();
@@ -53,12 +55,20 @@ pub(crate) fn fair<'a, K: Key>(
     let all = (1u32 << fair.len()) - 1;
     let found = Pending::new(graph, all);
     if (0..found.graph.seeds).all(|seed| !found.is_bad(seed)) {
-        return Decision { verdict: Verdict::Holds, bound: None, evidence: witness };
+        return Decision {
+            verdict: Verdict::Holds,
+            bound: None,
+            evidence: witness,
+        };
     }
     let shared = Arc::new(found);
     let other = Arc::clone(&shared);
     let test = sign_test(form, move |sign, after| {
-        sign.pending && other.graph.number(after).is_some_and(|node| other.is_bad(node))
+        sign.pending
+            && other
+                .graph
+                .number(after)
+                .is_some_and(|node| other.is_bad(node))
     });
     let tail: Tail<K> = Box::new(move |end| {
         let mut cursor = Cursor::new(&model.origin);
@@ -66,15 +76,28 @@ pub(crate) fn fair<'a, K: Key>(
         let mut steps = Vec::new();
         for (from, edge) in edges {
             let target = shared.graph.key(edge.to);
-            let (choices, _) = cursor.first(&model.packer, shared.graph.key(from), |process, choices, leaf| {
-                leaf == Leaf::To(target) && label(&mut **process, choices, target) == Some(edge.label)
-            })?;
+            let (choices, _) = cursor.first(
+                &model.packer,
+                shared.graph.key(from),
+                |process, choices, leaf| {
+                    leaf == Leaf::To(target)
+                        && label(&mut **process, choices, target) == Some(edge.label)
+                },
+            )?;
             steps.push(choices);
         }
         Some((steps, Some(start)))
     });
-    let request = Request { at: None, test, state: None };
-    Decision { verdict: Verdict::Violated, bound: None, evidence: Evidence::Run(request, Some(tail)) }
+    let request = Request {
+        at: None,
+        test,
+        state: None,
+    };
+    Decision {
+        verdict: Verdict::Violated,
+        bound: None,
+        evidence: Evidence::Run(request, Some(tail)),
+    }
 }
 
 impl<K: Key> Pending<K> {
@@ -83,13 +106,32 @@ impl<K: Key> Pending<K> {
         let mut labels = vec![0; components.cyclic.len()];
         for node in 0..graph.nodes() {
             let component = components.of[node as usize];
-            for edge in graph.edges(node).iter().filter(|e| components.of[e.to as usize] == component) {
+            for edge in graph
+                .edges(node)
+                .iter()
+                .filter(|e| components.of[e.to as usize] == component)
+            {
                 labels[component as usize] |= edge.label;
             }
         }
-        let fair: Vec<bool> = components.cyclic.iter().zip(labels).map(|(c, label)| *c && label == all).collect();
-        let bad = components.reaching(&graph, |_| true, |node| fair[components.of[node as usize] as usize]);
-        Pending { graph, components, fair, bad, all }
+        let fair: Vec<bool> = components
+            .cyclic
+            .iter()
+            .zip(labels)
+            .map(|(c, label)| *c && label == all)
+            .collect();
+        let bad = components.reaching(
+            &graph,
+            |_| true,
+            |node| fair[components.of[node as usize] as usize],
+        );
+        Pending {
+            graph,
+            components,
+            fair,
+            bad,
+            all,
+        }
     }
 
     fn component(&self, node: u32) -> usize {
@@ -113,7 +155,9 @@ impl<K: Key> Pending<K> {
         let (mut at, mut met) = (entry, 0);
         while met != self.all {
             path.extend(self.walk(at, inside, |edge| edge.label & !met != 0)?);
-            met = path[prefix..].iter().fold(0, |met, (_, edge)| met | edge.label);
+            met = path[prefix..]
+                .iter()
+                .fold(0, |met, (_, edge)| met | edge.label);
             at = path.last()?.1.to;
         }
         if at != entry || path.len() == prefix {
@@ -132,7 +176,13 @@ impl<K: Key> Pending<K> {
         let mut came: HashMap<u32, Option<(u32, Edge)>> = HashMap::from([(from, None)]);
         let mut queue = VecDeque::from([from]);
         while let Some(node) = queue.pop_front() {
-            for edge in self.graph.edges(node).iter().copied().filter(|e| allowed(*e)) {
+            for edge in self
+                .graph
+                .edges(node)
+                .iter()
+                .copied()
+                .filter(|e| allowed(*e))
+            {
                 if pass(edge) {
                     let mut path = vec![(node, edge)];
                     let mut back = node;
@@ -180,11 +230,16 @@ pub(crate) fn recoverable<'a, K: Key>(
     for goals in goals.chunks(TOGETHER) {
         let label = |process: &mut dyn Process, choices: &mut Odometer, _: K| {
             let mut eval = model.eval(process, choices);
-            Some(goals.iter().enumerate().fold(0, |mask, (number, (goal, using))| {
-                let used = eval.given(*using);
-                let reached = used && eval.atom(*goal);
-                mask | (u32::from(used) | u32::from(reached) << 1) << (2 * number)
-            }))
+            Some(
+                goals
+                    .iter()
+                    .enumerate()
+                    .fold(0, |mask, (number, (goal, using))| {
+                        let used = eval.given(*using);
+                        let reached = used && eval.atom(*goal);
+                        mask | (u32::from(used) | u32::from(reached) << 1) << (2 * number)
+                    }),
+            )
         };
         let Some(graph) = Graph::build(model, &initial, &label, held).map(Arc::new) else {
             verdicts.extend(goals.iter().map(|_| None));
@@ -194,14 +249,21 @@ pub(crate) fn recoverable<'a, K: Key>(
             let used = |edge: Edge| edge.label >> (2 * number) & 1 != 0;
             let reached = |edge: &Edge| edge.label >> (2 * number) & 2 != 0;
             let components = graph.components(used);
-            let saved = components.reaching(&graph, used, |node| graph.edges(node).iter().any(reached));
+            let saved =
+                components.reaching(&graph, used, |node| graph.edges(node).iter().any(reached));
             if saved.iter().all(|saved| *saved) {
                 verdicts.push(Some(None));
                 continue;
             }
             let graph = Arc::clone(&graph);
-            let lost = move |key| graph.number(key).is_some_and(|n| !saved[components.of[n as usize] as usize]);
-            verdicts.push(Some(Some(Arc::new(lost) as Arc<dyn Fn(K) -> bool + Send + Sync>)));
+            let lost = move |key| {
+                graph
+                    .number(key)
+                    .is_some_and(|n| !saved[components.of[n as usize] as usize])
+            };
+            verdicts.push(Some(Some(
+                Arc::new(lost) as Arc<dyn Fn(K) -> bool + Send + Sync>
+            )));
         }
     }
     Ok(verdicts)
@@ -214,7 +276,11 @@ pub(crate) fn recovery<'a, K: Key>(
 ) -> Decision<'a, K> {
     match lost {
         None => Verdict::Inconclusive.into(),
-        Some(None) => Decision { verdict: Verdict::Holds, bound: None, evidence: witness },
+        Some(None) => Decision {
+            verdict: Verdict::Holds,
+            bound: None,
+            evidence: witness,
+        },
         Some(Some(lost)) => {
             let state = Arc::clone(&lost);
             let request = Request {
@@ -222,7 +288,11 @@ pub(crate) fn recovery<'a, K: Key>(
                 test: Arc::new(move |_, _, leaf| matches!(leaf, Leaf::To(after) if lost(after))),
                 state: Some(state),
             };
-            Decision { verdict: Verdict::Violated, bound: None, evidence: Evidence::Run(request, None) }
+            Decision {
+                verdict: Verdict::Violated,
+                bound: None,
+                evidence: Evidence::Run(request, None),
+            }
         }
     }
 }

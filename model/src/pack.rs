@@ -85,7 +85,9 @@ pub(crate) fn space(domains: &[Domain]) -> Result<u128, Error> {
         if domain.size() == 0 {
             return Err(Error::EmptyDomain { variable });
         }
-        space = space.checked_mul(u128::from(domain.size())).ok_or(Error::SpaceTooLarge)?;
+        space = space
+            .checked_mul(u128::from(domain.size()))
+            .ok_or(Error::SpaceTooLarge)?;
     }
     Ok(space)
 }
@@ -99,7 +101,11 @@ impl<K: Key> Packer<K> {
         let mut digits = Vec::with_capacity(domains.len());
         for domain in domains.iter().rev() {
             let size = domain.size();
-            digits.push(Digit { lo: domain.lo, size, stride: K::of(stride).ok_or(Error::SpaceTooLarge)? });
+            digits.push(Digit {
+                lo: domain.lo,
+                size,
+                stride: K::of(stride).ok_or(Error::SpaceTooLarge)?,
+            });
             stride *= u128::from(size);
         }
         digits.reverse();
@@ -112,8 +118,8 @@ impl<K: Key> Packer<K> {
         let mut key = K::ZERO;
         let mut inside = state.len() == self.digits.len();
         for (digit, value) in self.digits.iter().zip(state) {
-            // A value below `lo` wraps to a number above every size.
-            let offset = (i64::from(*value) - i64::from(digit.lo)) as u64;
+            // A value below `lo` wraps to a number from `size` on: a domain has at most 2^32 values.
+            let offset = u64::from((*value as u32).wrapping_sub(digit.lo as u32));
             inside &= offset < digit.size;
             key = key.add_digit(digit.stride, offset);
         }
@@ -153,7 +159,11 @@ mod tests {
 
     #[test]
     fn indices_are_dense_and_exact() {
-        let domains = [Domain { lo: -3, hi: 4 }, Domain { lo: 7, hi: 7 }, Domain { lo: 0, hi: 2 }];
+        let domains = [
+            Domain { lo: -3, hi: 4 },
+            Domain { lo: 7, hi: 7 },
+            Domain { lo: 0, hi: 2 },
+        ];
         assert_eq!(space(&domains), Ok(24));
         round_trip::<u64>(&domains, 0..24);
         round_trip::<u128>(&domains, 0..24);
@@ -168,10 +178,19 @@ mod tests {
 
     #[test]
     fn wide_spaces() {
-        let full = Domain { lo: i32::MIN, hi: i32::MAX };
-        round_trip::<u128>(&[full, full, full], [0, 1, 1 << 95, (1 << 96) - 1].into_iter());
+        let full = Domain {
+            lo: i32::MIN,
+            hi: i32::MAX,
+        };
+        round_trip::<u128>(
+            &[full, full, full],
+            [0, 1, 1 << 95, (1 << 96) - 1].into_iter(),
+        );
         assert!(Packer::<u64>::new(&[full, full]).is_err());
         assert_eq!(space(&[full; 4]), Err(Error::SpaceTooLarge));
-        assert_eq!(space(&[full, Domain { lo: 1, hi: 0 }]), Err(Error::EmptyDomain { variable: 1 }));
+        assert_eq!(
+            space(&[full, Domain { lo: 1, hi: 0 }]),
+            Err(Error::EmptyDomain { variable: 1 })
+        );
     }
 }

@@ -7,7 +7,12 @@ use crate::system::{Domain, Fault, System};
 /// A system and a work area. The methods are those of [`System`] with the choices of an odometer.
 pub(crate) trait Process: Send {
     fn initial(&mut self, choices: &mut Odometer, state: &mut [i32]);
-    fn next(&mut self, before: &[i32], choices: &mut Odometer, after: &mut [i32]) -> Result<(), Fault>;
+    fn next(
+        &mut self,
+        before: &[i32],
+        choices: &mut Odometer,
+        after: &mut [i32],
+    ) -> Result<(), Fault>;
     fn atom(&mut self, atom: usize, choices: &mut Odometer) -> Result<bool, Fault>;
     /// Adds `weight` to the count of each rule that fired.
     fn count(&self, weight: u64, coverage: &mut [u64]);
@@ -36,7 +41,12 @@ impl<S: System> Process for Direct<'_, S> {
     }
 
     #[inline]
-    fn next(&mut self, before: &[i32], choices: &mut Odometer, after: &mut [i32]) -> Result<(), Fault> {
+    fn next(
+        &mut self,
+        before: &[i32],
+        choices: &mut Odometer,
+        after: &mut [i32],
+    ) -> Result<(), Fault> {
         self.system.next(&mut self.work, before, choices, after)
     }
 
@@ -67,7 +77,10 @@ impl<'s, S: System> Origin for Own<'s, S> {
     type Process = Direct<'s, S>;
 
     fn process(&self) -> Direct<'s, S> {
-        Direct { system: self.0, work: self.0.work() }
+        Direct {
+            system: self.0,
+            work: self.0.work(),
+        }
     }
 
     fn domains(&self) -> &[Domain] {
@@ -91,7 +104,12 @@ impl Process for AnyProcess<'_> {
         (**self).initial(choices, state);
     }
 
-    fn next(&mut self, before: &[i32], choices: &mut Odometer, after: &mut [i32]) -> Result<(), Fault> {
+    fn next(
+        &mut self,
+        before: &[i32],
+        choices: &mut Odometer,
+        after: &mut [i32],
+    ) -> Result<(), Fault> {
         (**self).next(before, choices, after)
     }
 

@@ -1,8 +1,8 @@
 //! Properties, and what the search watches for on their behalf.
 
-use crate::report::Error;
 use crate::choices::Odometer;
 use crate::process::Process;
+use crate::report::Error;
 use crate::system::Fault;
 
 /// A property with its name.
@@ -67,10 +67,14 @@ pub(crate) fn validate(properties: &[Property]) -> Result<(), Error> {
     for property in properties {
         if let Form::LeadsTo { within, fair, .. } = &property.form {
             if within.is_some() && !fair.is_empty() {
-                return Err(Error::FairWithBound { id: property.id.clone() });
+                return Err(Error::FairWithBound {
+                    id: property.id.clone(),
+                });
             }
             if fair.len() > MOST_FAIR {
-                return Err(Error::TooManyFair { id: property.id.clone() });
+                return Err(Error::TooManyFair {
+                    id: property.id.clone(),
+                });
             }
         }
     }
@@ -126,7 +130,11 @@ impl<P: Process + ?Sized, F: FnMut(Fault)> Eval<'_, P, F> {
                 sign.first = self.atom(*when);
                 sign.pending = sign.first && !self.atom(*goal);
             }
-            Form::Unless { when, holds, unless } => {
+            Form::Unless {
+                when,
+                holds,
+                unless,
+            } => {
                 sign.first = self.atom(*when);
                 if sign.first {
                     let duty = self.duty(*holds, *unless);
@@ -147,7 +155,11 @@ impl<P: Process + ?Sized, F: FnMut(Fault)> Eval<'_, P, F> {
     pub(crate) fn duty(&mut self, holds: usize, unless: usize) -> Sign {
         let ended = self.atom(unless);
         let held = !ended && self.atom(holds);
-        Sign { first: false, bad: !ended && !held, pending: held }
+        Sign {
+            first: false,
+            bad: !ended && !held,
+            pending: held,
+        }
     }
 }
 
@@ -156,10 +168,23 @@ impl Form {
     pub(crate) fn atoms(&self) -> Vec<usize> {
         match self {
             Form::Always { when, then } => when.iter().chain([then]).copied().collect(),
-            Form::LeadsTo { when, goal, fair, assuming, .. } => {
-                [when, goal].into_iter().chain(fair).chain(assuming).copied().collect()
-            }
-            Form::Unless { when, holds, unless } => vec![*when, *holds, *unless],
+            Form::LeadsTo {
+                when,
+                goal,
+                fair,
+                assuming,
+                ..
+            } => [when, goal]
+                .into_iter()
+                .chain(fair)
+                .chain(assuming)
+                .copied()
+                .collect(),
+            Form::Unless {
+                when,
+                holds,
+                unless,
+            } => vec![*when, *holds, *unless],
             Form::CanAlwaysReach { goal, using } => using.iter().chain([goal]).copied().collect(),
             Form::Reachable { goal } => vec![*goal],
         }

@@ -28,7 +28,12 @@ pub struct Options {
 
 impl Default for Options {
     fn default() -> Self {
-        Options { limits: Limits::default(), witnesses: true, stop_when_decided: false, examples: 8 }
+        Options {
+            limits: Limits::default(),
+            witnesses: true,
+            stop_when_decided: false,
+            examples: 8,
+        }
     }
 }
 
@@ -53,13 +58,17 @@ pub enum Error {
         variable: usize,
     },
     /// The number of states of the index space needs more than 128 bits.
-    #[error("the index space of the state variables does not fit 128 bits; make their ranges smaller")]
+    #[error(
+        "the index space of the state variables does not fit 128 bits; make their ranges smaller"
+    )]
     SpaceTooLarge,
     /// `initial` wrote a state outside the domains.
     #[error("an initial state lies outside the domains of the state variables")]
     InitialOutOfDomain,
     /// The weights of the transitions do not add up to the declared input combinations of the cycles made.
-    #[error("the system declares {declared} input combinations a cycle, but its reads make another number")]
+    #[error(
+        "the system declares {declared} input combinations a cycle, but its reads make another number"
+    )]
     Combinations {
         /// The declared number.
         declared: u128,
@@ -98,13 +107,16 @@ pub enum Verdict {
     Inconclusive,
 }
 
+/// The choices (input, value) of one cycle, in the order of their reading.
+pub type Step = Vec<(u32, u32)>;
+
 /// A run from an initial state, to be replayed with [`crate::Replay`].
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Trace {
     /// Choices (input, value) of the initial state.
-    pub initial: Vec<(u32, u32)>,
+    pub initial: Step,
     /// Choices of each cycle; an input that is not listed was not read and has any value.
-    pub steps: Vec<Vec<(u32, u32)>>,
+    pub steps: Vec<Step>,
     /// The steps from this one on repeat forever.
     pub loop_start: Option<usize>,
 }
@@ -120,7 +132,8 @@ pub struct Judgement {
     pub length: Option<u64>,
     /// For a response with a bound: the least bound that holds; none if no bound does (or it is not known).
     pub bound: Option<u64>,
-    /// The counterexample or witness. It may be missing where memory did not suffice to rebuild it.
+    /// The counterexample or witness. It may be missing where memory did not suffice to rebuild it, or where it has
+    /// more than a million cycles.
     pub trace: Option<Trace>,
 }
 

@@ -2,18 +2,21 @@
 
 use crate::crew::{Crew, Watch};
 use crate::cursor::{Cursor, Leaf};
+use crate::duty::Duty;
 use crate::explore::{Decision, Evidence, Job, Stage, Tail, on_store, seen, sign_test};
 use crate::graph::Graph;
 use crate::hashed::Sharded;
 use crate::pack::Key;
+use crate::process::{Any, Process};
 use crate::property::{Form, Property};
-use crate::duty::Duty;
 use crate::report::{Error, Limits, Options, Storage, Trace, Verdict};
 use crate::search::{Model, Signs, search};
-use crate::process::{Any, Process};
 use crate::trace::{Request, runs};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+
+/// The most cycles without the goal that a counterexample lists.
+const LONGEST: u32 = 1 << 20;
 
 /// What a response is about.
 #[derive(Clone, Copy)]
@@ -45,9 +48,13 @@ pub(crate) fn bounded<'a, K: Key>(
     // With a path of h edges from a seed, h + 1 cycles pass without the goal after the first one.
     let bound = (0..graph.seeds)
         .map(|seed| heights[seed as usize].map(|h| u64::from(h) + 1))
-        .fold(Some(0), |most, one| most.zip(one).map(|(a, b)| a.max(b)));
+        .try_fold(0, |most, one| one.map(|one| most.max(one)));
     if bound.is_some_and(|bound| bound <= u64::from(within)) {
-        return Decision { verdict: Verdict::Holds, bound, evidence: witness };
+        return Decision {
+            verdict: Verdict::Holds,
+            bound,
+            evidence: witness,
+        };
     }
     let shared = Arc::new((graph, heights));
     let other = Arc::clone(&shared);
@@ -57,6 +64,9 @@ pub(crate) fn bounded<'a, K: Key>(
         sign.pending && graph.number(after).is_some_and(long)
     });
     let tail: Tail<K> = Box::new(move |end| {
+        if within > LONGEST {
+            return None;
+        }
         let (graph, heights) = &*shared;
         let mut cursor = Cursor::new(&model.origin);
         let mut node = graph.number(end)?;
@@ -65,16 +75,25 @@ pub(crate) fn bounded<'a, K: Key>(
             let long = |to: u32| heights[to as usize].is_none_or(|h| h >= rest);
             let to = graph.edges(node).iter().find(|e| long(e.to))?.to;
             let wanted = Leaf::To(graph.key(to));
-            let (choices, _) = cursor.first(&model.packer, graph.key(node), |process, choices, leaf| {
-                leaf == wanted && edge(&mut **process, choices, graph.key(to)).is_some()
-            })?;
+            let (choices, _) =
+                cursor.first(&model.packer, graph.key(node), |process, choices, leaf| {
+                    leaf == wanted && edge(&mut **process, choices, graph.key(to)).is_some()
+                })?;
             steps.push(choices);
             node = to;
         }
         Some((steps, None))
     });
-    let request = Request { at: None, test, state: None };
-    Decision { verdict: Verdict::Violated, bound, evidence: Evidence::Run(request, Some(tail)) }
+    let request = Request {
+        at: None,
+        test,
+        state: None,
+    };
+    Decision {
+        verdict: Verdict::Violated,
+        bound,
+        evidence: Evidence::Run(request, Some(tail)),
+    }
 }
 
 /// Judges a weak until: a violation is seen in the cycle of `when` itself, or in a cycle under a pending duty.
@@ -98,12 +117,18 @@ pub(crate) fn until<'a, K: Key>(
             }
             sign.pending.then_some(0)
         };
-        if Graph::build(model, &pending.sorted(), &rule, held).is_none() && !violated.load(Ordering::Relaxed) {
+        if Graph::build(model, &pending.sorted(), &rule, held).is_none()
+            && !violated.load(Ordering::Relaxed)
+        {
             return Ok(Verdict::Inconclusive.into());
         }
     }
     if !violated.into_inner() {
-        return Ok(Decision { verdict: Verdict::Holds, bound: None, evidence: witness });
+        return Ok(Decision {
+            verdict: Verdict::Holds,
+            bound: None,
+            evidence: witness,
+        });
     }
     let trace = shortest(model.origin, form, options, model.crew)?;
     // Memory may not suffice for the search with the duty; a violation in the cycle of `when` has a run without it.
@@ -111,16 +136,38 @@ pub(crate) fn until<'a, K: Key>(
         Some(trace) => Evidence::Trace(trace),
         None => seen(form, signs.bad, |sign| sign.bad),
     };
-    Ok(Decision { verdict: Verdict::Violated, bound: None, evidence })
+    Ok(Decision {
+        verdict: Verdict::Violated,
+        bound: None,
+        evidence,
+    })
 }
 
 /// The shortest run that violates a weak until: the duty becomes part of the state, and its violation an atom.
-fn shortest(system: Any, form: &Form, options: &Options, crew: &Crew) -> Result<Option<Trace>, Error> {
+fn shortest(
+    system: Any,
+    form: &Form,
+    options: &Options,
+    crew: &Crew,
+) -> Result<Option<Trace>, Error> {
     let duty = Duty::new(system, form);
-    let limits = Limits { time: None, ..options.limits };
-    let options = Options { limits, stop_when_decided: true, ..options.clone() };
+    let limits = Limits {
+        time: None,
+        ..options.limits
+    };
+    let options = Options {
+        limits,
+        stop_when_decided: true,
+        ..options.clone()
+    };
     let watch = Watch::new(limits);
-    let trace = on_store(&duty, &options, crew, &watch, Counterexample { options: &options })?;
+    let trace = on_store(
+        &duty,
+        &options,
+        crew,
+        &watch,
+        Counterexample { options: &options },
+    )?;
     Ok(trace.map(|trace| duty.strip(trace)))
 }
 
@@ -132,13 +179,34 @@ struct Counterexample<'a> {
 impl Job<&Duty<'_>> for Counterexample<'_> {
     type Output = Option<Trace>;
 
-    fn run<T: Stage>(self, model: &Model<&Duty, T::Key>, mut store: T, _: Storage) -> Result<Self::Output, Error> {
-        let form = Form::Always { when: None, then: 0 };
-        let property = [Property { id: String::new(), form: form.clone() }];
+    fn run<T: Stage>(
+        self,
+        model: &Model<&Duty, T::Key>,
+        mut store: T,
+        _: Storage,
+    ) -> Result<Self::Output, Error> {
+        let form = Form::Always {
+            when: None,
+            then: 0,
+        };
+        let property = [Property {
+            id: String::new(),
+            form: form.clone(),
+        }];
         let found = search(model, &mut store, &property, self.options, &mut ())?;
-        let Some(at) = found.signs[0].bad else { return Ok(None) };
+        let Some(at) = found.signs[0].bad else {
+            return Ok(None);
+        };
         let test = sign_test(&form, |sign, _| sign.bad);
-        let runs = runs(model, &mut store, &[Request { at: Some(at), test, state: None }])?;
+        let runs = runs(
+            model,
+            &mut store,
+            &[Request {
+                at: Some(at),
+                test,
+                state: None,
+            }],
+        )?;
         Ok(runs.into_iter().flatten().next().map(|run| run.trace))
     }
 }

@@ -5,10 +5,10 @@ use crate::crew::{Crew, Watch};
 use crate::cursor::{Cursor, Leaf};
 use crate::hashed::{Batch, Sharded};
 use crate::pack::{Key, Packer};
+use crate::process::{Origin, Process};
 use crate::property::{Eval, Property};
 use crate::report::{Error, Options, Progress};
 use crate::store::Store;
-use crate::process::{Origin, Process};
 use crate::system::Fault;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::ControlFlow;
@@ -27,7 +27,13 @@ pub(crate) struct Model<'a, O, K> {
 impl<'a, O: Origin, K: Key> Model<'a, O, K> {
     pub(crate) fn new(origin: O, crew: &'a Crew, watch: &'a Watch) -> Result<Self, Error> {
         let packer = Packer::new(origin.domains())?;
-        Ok(Model { origin, packer, crew, watch, late: Mutex::default() })
+        Ok(Model {
+            origin,
+            packer,
+            crew,
+            watch,
+            late: Mutex::default(),
+        })
     }
 
     /// Evaluates atoms after the search; faults are noted and count as FALSE.
@@ -37,9 +43,16 @@ impl<'a, O: Origin, K: Key> Model<'a, O, K> {
         choices: &'b mut Odometer,
     ) -> Eval<'b, P, impl FnMut(Fault) + 'b> {
         let fault = |fault: Fault| {
-            self.late.lock().unwrap_or_else(PoisonError::into_inner).insert(fault.code);
+            self.late
+                .lock()
+                .unwrap_or_else(PoisonError::into_inner)
+                .insert(fault.code);
         };
-        Eval { process, choices, fault }
+        Eval {
+            process,
+            choices,
+            fault,
+        }
     }
 }
 
@@ -123,7 +136,13 @@ pub(crate) fn search<O: Origin, T: Store>(
         transitions: 0,
         depth: 0,
         complete: false,
-        signs: vec![Signs { first: None, bad: None }; properties.len()],
+        signs: vec![
+            Signs {
+                first: None,
+                bad: None
+            };
+            properties.len()
+        ],
         pending: properties.iter().map(|_| Sharded::new()).collect(),
         faults: BTreeMap::new(),
         coverage: vec![0; origin.rules()],
@@ -136,11 +155,24 @@ pub(crate) fn search<O: Origin, T: Store>(
         let open: Vec<usize> = (0..properties.len())
             .filter(|p| {
                 let signs = found.signs[*p];
-                !properties[*p].form.settled(signs.first.is_some(), signs.bad.is_some())
+                !properties[*p]
+                    .form
+                    .settled(signs.first.is_some(), signs.bad.is_some())
             })
             .collect();
-        let level = Level { model, store: &*store, properties, open: &open, pending: &found.pending, options };
-        model.crew.share(&mut workers, store.pieces(), |worker, piece| level.explore(worker, piece));
+        let level = Level {
+            model,
+            store: &*store,
+            properties,
+            open: &open,
+            pending: &found.pending,
+            options,
+        };
+        model
+            .crew
+            .share(&mut workers, store.pieces(), |worker, piece| {
+                level.explore(worker, piece)
+            });
         for worker in &mut workers {
             gather(&mut found, worker, options.examples);
         }
@@ -148,23 +180,34 @@ pub(crate) fn search<O: Origin, T: Store>(
         let frontier = store.advance(workers.iter_mut().map(|w| &mut w.local).collect());
         found.bytes = found.bytes.max(bytes(store, &found.pending));
         found.states += frontier;
-        let transitions = workers.iter().fold(0u128, |sum, w| sum.saturating_add(w.transitions));
+        let transitions = workers
+            .iter()
+            .fold(0u128, |sum, w| sum.saturating_add(w.transitions));
         if frontier > 0 {
             found.depth += 1;
             progress.on_level(found.depth, found.states, transitions, frontier);
         }
         let decided = options.stop_when_decided
-            && properties.iter().zip(&found.signs).all(|(p, s)| p.form.decided_by(s.first.is_some(), s.bad.is_some()));
+            && properties
+                .iter()
+                .zip(&found.signs)
+                .all(|(p, s)| p.form.decided_by(s.first.is_some(), s.bad.is_some()));
         if model.watch.stopped().is_some() || frontier == 0 || decided {
             found.complete = model.watch.stopped().is_none() && frontier == 0;
             found.transitions = transitions;
             break;
         }
     }
-    let explored = workers.iter().fold(0u128, |sum, w| sum + u128::from(w.explored));
-    let weights = workers.iter().fold(0u128, |sum, w| sum.wrapping_add(w.weights));
+    let explored = workers
+        .iter()
+        .fold(0u128, |sum, w| sum + u128::from(w.explored));
+    let weights = workers
+        .iter()
+        .fold(0u128, |sum, w| sum.wrapping_add(w.weights));
     if weights != explored.wrapping_mul(origin.combinations()) {
-        return Err(Error::Combinations { declared: origin.combinations() });
+        return Err(Error::Combinations {
+            declared: origin.combinations(),
+        });
     }
     Ok(found)
 }
@@ -174,7 +217,10 @@ fn bytes<T: Store>(store: &T, pending: &[Sharded<T::Key>]) -> u64 {
 }
 
 /// Makes the initial states the frontier of an empty store.
-pub(crate) fn initial<O: Origin, T: Store>(model: &Model<O, T::Key>, store: &mut T) -> Result<u64, Error> {
+pub(crate) fn initial<O: Origin, T: Store>(
+    model: &Model<O, T::Key>,
+    store: &mut T,
+) -> Result<u64, Error> {
     let mut local = store.local();
     Cursor::new(&model.origin).initial(&model.packer, |key, _| {
         store.visit(&mut local, key);
@@ -203,7 +249,16 @@ impl<O: Origin, T: Store> Level<'_, O, T> {
 
     #[inline]
     fn state(&self, worker: &mut Worker<O::Process, T::Key, T::Local>, key: T::Key) {
-        let Worker { cursor, local, first, bad, pending, faults, coverage, .. } = worker;
+        let Worker {
+            cursor,
+            local,
+            first,
+            bad,
+            pending,
+            faults,
+            coverage,
+            ..
+        } = worker;
         let mut last = key;
         let (mut stays, mut makes) = (true, false);
         let (mut weights, mut discarded) = (0u128, 0u128);
@@ -213,8 +268,11 @@ impl<O: Origin, T: Store> Level<'_, O, T> {
                     makes = true;
                     stays &= after == key;
                     for property in self.open.iter().copied() {
-                        let mut eval =
-                            Eval { process, choices: odometer, fault: |fault: Fault| record(faults, fault.code, key) };
+                        let mut eval = Eval {
+                            process,
+                            choices: odometer,
+                            fault: |fault: Fault| record(faults, fault.code, key),
+                        };
                         let sign = eval.sign(&self.properties[property].form);
                         if sign.first {
                             lower(&mut first[property], key);
@@ -247,7 +305,9 @@ impl<O: Origin, T: Store> Level<'_, O, T> {
         });
         worker.explored += 1;
         worker.weights = worker.weights.wrapping_add(weights);
-        worker.transitions = worker.transitions.saturating_add(weights.wrapping_sub(discarded));
+        worker.transitions = worker
+            .transitions
+            .saturating_add(weights.wrapping_sub(discarded));
         if stays && makes {
             worker.absorbing += 1;
             worker.examples.push(key);

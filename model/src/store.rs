@@ -1,8 +1,8 @@
 //! The set of states found and the frontier of the level being explored.
 
+use crate::bitmap::{Bitmap, place};
 use crate::pack::Key;
-use std::sync::OnceLock;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::Ordering;
 
 /// A set of states that grows level by level. `visit` runs in all workers at once, the rest between levels.
 pub(crate) trait Store: Sync {
@@ -34,16 +34,16 @@ pub(crate) trait Store: Sync {
 }
 
 /// States of a list handed out at once.
-pub(crate) const PIECE: usize = 512;
+pub(crate) const PIECE: usize = 64;
 /// Bitmap words handed out at once.
-const WORDS: usize = 512;
+const WORDS: usize = 64;
 
 /// A bitmap with one bit an index, and a list of the frontier. Where a level has more states than such a list may hold,
 /// a second bitmap carries the frontier. With both, a state is (visited, wave):
 /// 00 not found, 10 explored, 01 in the present frontier, 11 in the next one.
 pub(crate) struct Dense {
-    visited: Vec<AtomicU64>,
-    wave: OnceLock<Vec<AtomicU64>>,
+    visited: Bitmap,
+    wave: Bitmap,
     /// The frontier is in the wave bitmap, else in the list.
     in_wave: bool,
     list: Vec<u64>,
@@ -60,39 +60,23 @@ pub(crate) struct DenseLocal {
 }
 
 impl Dense {
-    /// The bytes needed for `space` indices at most.
+    /// The bytes needed for `space` indices at most: two bits each, and the page tables.
     pub(crate) fn need(space: u128) -> u128 {
-        space / 4 + 4096
+        space / 4 + space / 4096 + 65536
     }
 
     pub(crate) fn new(space: u64, threads: usize) -> Self {
         let words = usize::try_from(space.div_ceil(64)).unwrap_or(usize::MAX);
-        // Lists of 64-bit indices that together take at most a quarter bit an index.
-        let most = (words / 4 / threads.max(1)).max(4096);
         Dense {
-            visited: zeros(words),
-            wave: OnceLock::new(),
+            visited: Bitmap::new(words),
+            wave: Bitmap::new(words),
             in_wave: false,
             list: Vec::new(),
-            most,
+            // Lists of 64-bit indices that together take at most a quarter bit an index.
+            most: (words / 4 / threads.max(1)).max(4096),
             peak: 0,
         }
     }
-
-    fn wave(&self) -> &[AtomicU64] {
-        self.wave.get_or_init(|| zeros(self.visited.len()))
-    }
-}
-
-fn zeros(words: usize) -> Vec<AtomicU64> {
-    let mut bits = Vec::new();
-    bits.resize_with(words, AtomicU64::default);
-    bits
-}
-
-#[inline]
-fn place(key: u64) -> (usize, u64) {
-    ((key >> 6) as usize, 1 << (key & 63))
 }
 
 impl Store for Dense {
@@ -100,52 +84,51 @@ impl Store for Dense {
     type Local = DenseLocal;
 
     fn local(&self) -> DenseLocal {
-        DenseLocal { found: Vec::new(), count: 0, spilled: false }
+        DenseLocal {
+            found: Vec::new(),
+            count: 0,
+            spilled: false,
+        }
     }
 
     #[inline]
     fn visit(&self, local: &mut DenseLocal, key: u64) {
         let (word, bit) = place(key);
-        if self.visited[word].load(Ordering::Relaxed) & bit != 0 {
+        if self.visited.load(word, Ordering::Relaxed) & bit != 0 {
             return;
         }
         // In the present frontier: the wave bit stands alone.
-        if self.in_wave && self.wave()[word].load(Ordering::Relaxed) & bit != 0 {
+        if self.in_wave && self.wave.load(word, Ordering::Relaxed) & bit != 0 {
             return;
         }
-        if self.visited[word].fetch_or(bit, Ordering::Relaxed) & bit != 0 {
+        if self.visited.set(word, bit, Ordering::Relaxed) & bit != 0 {
             return;
         }
         local.count += 1;
         if local.spilled {
             // Release: who sees the wave bit sees the visited bit too, and does not take the state for a present one.
-            self.wave()[word].fetch_or(bit, Ordering::Release);
+            self.wave.set(word, bit, Ordering::Release);
             return;
         }
         local.found.push(key);
         if local.found.len() >= self.most {
             local.spilled = true;
-            let wave = self.wave();
             for key in std::mem::take(&mut local.found) {
                 let (word, bit) = place(key);
-                wave[word].fetch_or(bit, Ordering::Release);
+                self.wave.set(word, bit, Ordering::Release);
             }
         }
     }
 
     fn advance(&mut self, locals: Vec<&mut DenseLocal>) -> u64 {
-        let lists: usize = self.list.capacity() + locals.iter().map(|l| l.found.capacity()).sum::<usize>();
+        let lists = self.list.capacity() + locals.iter().map(|l| l.found.capacity()).sum::<usize>();
         self.peak = self.peak.max(8 * lists as u64);
         let count = locals.iter().map(|l| l.count).sum();
         let spilled = locals.iter().any(|l| l.spilled);
         if spilled || self.in_wave {
-            if let Some(wave) = self.wave.get_mut() {
-                for (visited, wave) in self.visited.iter_mut().zip(wave) {
-                    let (v, w) = (*visited.get_mut(), *wave.get_mut());
-                    *visited.get_mut() = v ^ w;
-                    *wave.get_mut() = v & w;
-                }
-            }
+            self.visited.change(&mut self.wave, |visited, wave| {
+                (*visited, *wave) = (*visited ^ *wave, *visited & *wave);
+            });
         }
         self.list.clear();
         self.in_wave = spilled;
@@ -153,10 +136,8 @@ impl Store for Dense {
             if spilled {
                 for key in local.found.drain(..) {
                     let (word, bit) = place(key);
-                    *self.visited[word].get_mut() &= !bit;
-                    if let Some(wave) = self.wave.get_mut() {
-                        *wave[word].get_mut() |= bit;
-                    }
+                    self.visited.clear(word, bit);
+                    self.wave.set(word, bit, Ordering::Relaxed);
                 }
             } else {
                 self.list.append(&mut local.found);
@@ -169,7 +150,7 @@ impl Store for Dense {
 
     fn pieces(&self) -> usize {
         if self.in_wave {
-            self.visited.len().div_ceil(WORDS)
+            self.visited.words().div_ceil(WORDS)
         } else {
             self.list.len().div_ceil(PIECE)
         }
@@ -184,10 +165,9 @@ impl Store for Dense {
             }
             return;
         }
-        let wave = self.wave();
-        for word in piece * WORDS..self.visited.len().min((piece + 1) * WORDS) {
-            let next = wave[word].load(Ordering::Acquire);
-            let mut present = next & !self.visited[word].load(Ordering::Relaxed);
+        for word in piece * WORDS..self.visited.words().min((piece + 1) * WORDS) {
+            let next = self.wave.load(word, Ordering::Acquire);
+            let mut present = next & !self.visited.load(word, Ordering::Relaxed);
             while present != 0 {
                 visit((word as u64) << 6 | u64::from(present.trailing_zeros()));
                 present &= present - 1;
@@ -196,14 +176,13 @@ impl Store for Dense {
     }
 
     fn bytes(&self) -> u64 {
-        let bitmaps = 1 + u64::from(self.wave.get().is_some());
-        8 * bitmaps * self.visited.len() as u64 + self.peak
+        self.visited.bytes() + self.wave.bytes() + self.peak
     }
 
     fn clear(&mut self) {
-        for word in self.visited.iter_mut().chain(self.wave.get_mut().into_iter().flatten()) {
-            *word.get_mut() = 0;
-        }
+        let words = self.visited.words();
+        self.visited = Bitmap::new(words);
+        self.wave = Bitmap::new(words);
         self.list = Vec::new();
         self.in_wave = false;
     }

@@ -4,10 +4,10 @@
 use crate::choices::Odometer;
 use crate::cursor::{Cursor, Leaf};
 use crate::pack::Key;
+use crate::process::{Origin, Process};
 use crate::report::{Error, Trace};
 use crate::search::{Model, initial, lower};
 use crate::store::{PIECE, Store};
-use crate::process::{Origin, Process};
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
@@ -74,14 +74,24 @@ fn forward<O: Origin, T: Store>(
     requests: &[Request<T::Key>],
 ) -> Result<(Vec<Vec<T::Key>>, Vec<Option<Goal<T::Key>>>), Error> {
     let known = |r: &Request<T::Key>| {
-        r.at.map(|(depth, key)| Goal { depth: depth as usize, key, no_cycle: false })
+        r.at.map(|(depth, key)| Goal {
+            depth: depth as usize,
+            key,
+            no_cycle: false,
+        })
     };
     let mut goals: Vec<_> = requests.iter().map(known).collect();
     let deepest = goals.iter().flatten().map(|g| g.depth).max().unwrap_or(0);
     let mut levels: Vec<Vec<T::Key>> = Vec::new();
     let mut held = 0;
     let mut workers: Vec<_> = (0..model.crew.size())
-        .map(|_| (Cursor::new(&model.origin), store.local(), vec![None; requests.len()]))
+        .map(|_| {
+            (
+                Cursor::new(&model.origin),
+                store.local(),
+                vec![None; requests.len()],
+            )
+        })
         .collect();
     initial(model, store)?;
     loop {
@@ -94,7 +104,11 @@ fn forward<O: Origin, T: Store>(
             for (goal, request) in goals.iter_mut().zip(requests) {
                 if let Some(test) = &request.state {
                     if let Some(key) = level.iter().copied().find(|key| test(*key)) {
-                        *goal = Some(Goal { depth, key, no_cycle: true });
+                        *goal = Some(Goal {
+                            depth,
+                            key,
+                            no_cycle: true,
+                        });
                     }
                 }
             }
@@ -109,24 +123,35 @@ fn forward<O: Origin, T: Store>(
             break;
         }
         let (now, open) = (&*store, &open);
-        model.crew.share(&mut workers, now.pieces(), |(cursor, local, hits), piece| {
-            now.each(piece, |key| {
-                cursor.leaves(&model.packer, key, |process, odometer, leaf| {
-                    for request in open.iter().copied() {
-                        if (requests[request].test)(process, odometer, leaf) {
-                            lower(&mut hits[request], key);
+        model.crew.share(
+            &mut workers,
+            now.pieces(),
+            |(cursor, local, hits), piece| {
+                now.each(piece, |key| {
+                    cursor.leaves(&model.packer, key, |process, odometer, leaf| {
+                        for request in open.iter().copied() {
+                            if (requests[request].test)(process, odometer, leaf) {
+                                lower(&mut hits[request], key);
+                            }
                         }
-                    }
-                    if let Leaf::To(after) = leaf {
-                        now.visit(local, after);
-                    }
-                    ControlFlow::Continue(())
+                        if let Leaf::To(after) = leaf {
+                            now.visit(local, after);
+                        }
+                        ControlFlow::Continue(())
+                    });
                 });
-            });
-        });
+            },
+        );
         for request in open.iter().copied() {
-            let hit = workers.iter_mut().filter_map(|(_, _, hits)| hits[request].take()).min();
-            goals[request] = hit.map(|key| Goal { depth, key, no_cycle: false });
+            let hit = workers
+                .iter_mut()
+                .filter_map(|(_, _, hits)| hits[request].take())
+                .min();
+            goals[request] = hit.map(|key| Goal {
+                depth,
+                key,
+                no_cycle: false,
+            });
         }
         store.advance(workers.iter_mut().map(|(_, local, _)| local).collect());
     }
@@ -143,19 +168,29 @@ fn backward<O: Origin, K: Key>(
     mut levels: Vec<Vec<K>>,
     goals: &[Option<Goal<K>>],
 ) -> Vec<Vec<K>> {
-    let mut chains: Vec<Vec<K>> = goals.iter().map(|g| g.map(|g| g.key).into_iter().collect()).collect();
-    let mut cursors: Vec<_> = (0..model.crew.size()).map(|_| (Cursor::new(&model.origin), Vec::new())).collect();
+    let mut chains: Vec<Vec<K>> = goals
+        .iter()
+        .map(|g| g.map(|g| g.key).into_iter().collect())
+        .collect();
+    let mut cursors: Vec<_> = (0..model.crew.size())
+        .map(|_| (Cursor::new(&model.origin), Vec::new()))
+        .collect();
     while levels.len() > 1 {
         levels.truncate(levels.len() - 1);
         let Some(level) = levels.last() else { break };
         let above = levels.len();
-        let involved: Vec<usize> = (0..goals.len()).filter(|g| goals[*g].is_some_and(|g| g.depth >= above)).collect();
-        let mut wanted: Vec<K> = involved.iter().filter_map(|g| chains[*g].last().copied()).collect();
+        let involved: Vec<usize> = (0..goals.len())
+            .filter(|g| goals[*g].is_some_and(|g| g.depth >= above))
+            .collect();
+        let mut wanted: Vec<K> = involved
+            .iter()
+            .filter_map(|g| chains[*g].last().copied())
+            .collect();
         wanted.sort_unstable();
         wanted.dedup();
         let mut parents: Vec<Option<K>> = vec![None; wanted.len()];
         // In ascending blocks, so that the walk ends as soon as every wanted state has its least predecessor.
-        for block in level.chunks(64 * PIECE) {
+        for block in level.chunks(512 * PIECE) {
             if parents.iter().all(Option::is_some) {
                 break;
             }
@@ -163,24 +198,28 @@ fn backward<O: Origin, K: Key>(
                 *found = vec![None; wanted.len()];
             }
             let pieces = block.len().div_ceil(PIECE);
-            model.crew.share(&mut cursors, pieces, |(cursor, found), piece| {
-                for key in &block[piece * PIECE..block.len().min((piece + 1) * PIECE)] {
-                    cursor.leaves(&model.packer, *key, |_, _, leaf| {
-                        if let Leaf::To(after) = leaf {
-                            if let Ok(place) = wanted.binary_search(&after) {
-                                lower(&mut found[place], *key);
+            model
+                .crew
+                .share(&mut cursors, pieces, |(cursor, found), piece| {
+                    for key in &block[piece * PIECE..block.len().min((piece + 1) * PIECE)] {
+                        cursor.leaves(&model.packer, *key, |_, _, leaf| {
+                            if let Leaf::To(after) = leaf {
+                                if let Ok(place) = wanted.binary_search(&after) {
+                                    lower(&mut found[place], *key);
+                                }
                             }
-                        }
-                        ControlFlow::Continue(())
-                    });
-                }
-            });
+                            ControlFlow::Continue(())
+                        });
+                    }
+                });
             for (place, parent) in parents.iter_mut().enumerate().filter(|(_, p)| p.is_none()) {
                 *parent = cursors.iter().filter_map(|(_, found)| found[place]).min();
             }
         }
         for goal in involved {
-            let parent = chains[goal].last().and_then(|last| wanted.binary_search(last).ok());
+            let parent = chains[goal]
+                .last()
+                .and_then(|last| wanted.binary_search(last).ok());
             if let Some(Some(parent)) = parent.map(|place| parents[place]) {
                 chains[goal].push(parent);
             }
@@ -198,7 +237,11 @@ fn spell<O: Origin, K: Key>(
     chain: &[K],
 ) -> Result<Option<Run<K>>, Error> {
     let mut trace = Trace::default();
-    let Some(start) = chain.last().copied().filter(|_| chain.len() == goal.depth + 1) else {
+    let Some(start) = chain
+        .last()
+        .copied()
+        .filter(|_| chain.len() == goal.depth + 1)
+    else {
         return Ok(None);
     };
     cursor.initial(&model.packer, |key, odometer| {
@@ -209,17 +252,28 @@ fn spell<O: Origin, K: Key>(
         ControlFlow::Continue(())
     })?;
     for pair in chain.windows(2).rev() {
-        let step = cursor.first(&model.packer, pair[1], |_, _, leaf| leaf == Leaf::To(pair[0]));
+        let step = cursor.first(&model.packer, pair[1], |_, _, leaf| {
+            leaf == Leaf::To(pair[0])
+        });
         trace.steps.extend(step.map(|(choices, _)| choices));
     }
     if goal.no_cycle {
-        return Ok(Some(Run { trace, end: Some(goal.key) }));
+        return Ok(Some(Run {
+            trace,
+            end: Some(goal.key),
+        }));
     }
     let test = &request.test;
-    let last = cursor.first(&model.packer, goal.key, |process, odometer, leaf| test(process, odometer, leaf));
+    let last = cursor.first(&model.packer, goal.key, |process, odometer, leaf| {
+        test(process, odometer, leaf)
+    });
     Ok(last.map(|(choices, leaf)| {
         trace.steps.push(choices);
-        let end = if let Leaf::To(key) = leaf { Some(key) } else { None };
+        let end = if let Leaf::To(key) = leaf {
+            Some(key)
+        } else {
+            None
+        };
         Run { trace, end }
     }))
 }

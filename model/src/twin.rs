@@ -39,16 +39,31 @@ impl<'a, S: System> Twin<'a, S> {
 
     /// Two runs of `system`. `listed`: the inputs that may differ, with their sizes; `during`: the atom of the
     /// condition (none: always); `observed`: the numbers of the expressions to compare.
-    pub fn new(system: &'a S, listed: Vec<(u32, u32)>, during: Option<usize>, observed: Vec<usize>) -> Self {
+    pub fn new(
+        system: &'a S,
+        listed: Vec<(u32, u32)>,
+        during: Option<usize>,
+        observed: Vec<usize>,
+    ) -> Self {
         let domains = [system.domains(), system.domains()].concat();
-        Twin { system, listed, during, observed, domains }
+        Twin {
+            system,
+            listed,
+            during,
+            observed,
+            domains,
+        }
     }
 
     /// The two runs of a trace of the twin.
     pub fn split(&self, trace: &Trace) -> [Trace; 2] {
         let run = |second: bool| {
             let step = |step: &Vec<(u32, u32)>| {
-                let mut own: Vec<(u32, u32)> = step.iter().copied().filter(|(i, _)| i & OTHER == 0).collect();
+                let mut own: Vec<(u32, u32)> = step
+                    .iter()
+                    .copied()
+                    .filter(|(i, _)| i & OTHER == 0)
+                    .collect();
                 for (input, value) in step.iter().filter(|(i, _)| i & OTHER != 0) {
                     let input = input & !OTHER;
                     match own.iter_mut().find(|(i, _)| *i == input) {
@@ -60,12 +75,20 @@ impl<'a, S: System> Twin<'a, S> {
                 }
                 own
             };
-            Trace { steps: trace.steps.iter().map(step).collect(), ..trace.clone() }
+            Trace {
+                steps: trace.steps.iter().map(step).collect(),
+                ..trace.clone()
+            }
         };
         [run(false), run(true)]
     }
 
-    fn during<C: Choices>(&self, work: &mut TwinWork<S::Work>, run: usize, choices: &mut C) -> bool {
+    fn during<C: Choices>(
+        &self,
+        work: &mut TwinWork<S::Work>,
+        run: usize,
+        choices: &mut C,
+    ) -> bool {
         let Some(atom) = self.during else { return true };
         let (inner, mut side) = self.side(work, run, choices);
         self.system.atom(inner, atom, &mut side).unwrap_or(false)
@@ -77,11 +100,29 @@ impl<'a, S: System> Twin<'a, S> {
         run: usize,
         choices: &'w mut C,
     ) -> (&'w mut S::Work, Side<'w, C>) {
-        let TwinWork { runs, values, equal, .. } = work;
-        (&mut runs[run], Side { choices, listed: &self.listed, values, run, equal: *equal })
+        let TwinWork {
+            runs,
+            values,
+            equal,
+            ..
+        } = work;
+        (
+            &mut runs[run],
+            Side {
+                choices,
+                listed: &self.listed,
+                values,
+                run,
+                equal: *equal,
+            },
+        )
     }
 
-    fn agree<C: Choices>(&self, work: &mut TwinWork<S::Work>, choices: &mut C) -> Result<bool, Fault> {
+    fn agree<C: Choices>(
+        &self,
+        work: &mut TwinWork<S::Work>,
+        choices: &mut C,
+    ) -> Result<bool, Fault> {
         for expression in self.observed.iter().copied() {
             let mut values = [0; 2];
             for (run, value) in values.iter_mut().enumerate() {
@@ -109,7 +150,11 @@ impl<C: Choices> Choices for Side<'_, C> {
     fn choose(&mut self, input: u32, size: u32) -> u32 {
         match self.listed.iter().position(|(listed, _)| *listed == input) {
             Some(place) => {
-                let own = if self.run == 1 && !self.equal { input | OTHER } else { input };
+                let own = if self.run == 1 && !self.equal {
+                    input | OTHER
+                } else {
+                    input
+                };
                 let value = self.choices.choose(own, size);
                 self.values[self.run][place] = Some(value);
                 value
@@ -161,21 +206,31 @@ impl<S: System> System for Twin<'_, S> {
         work.equal = false;
         work.discarded = false;
         let (inner, mut side) = self.side(work, 0, choices);
-        self.system.next(inner, &before[..half], &mut side, after.0)?;
+        self.system
+            .next(inner, &before[..half], &mut side, after.0)?;
         // Where the condition does not hold in the first run, the second one gets the same inputs.
         let first = self.during(work, 0, choices);
         work.equal = !first;
         let (inner, mut side) = self.side(work, 1, choices);
-        self.system.next(inner, &before[half..], &mut side, after.1)?;
+        self.system
+            .next(inner, &before[half..], &mut side, after.1)?;
         work.both = first && self.during(work, 1, choices);
         let [one, other] = &work.values;
-        let differ = one.iter().zip(other).any(|(a, b)| a.is_some() && b.is_some() && a != b);
+        let differ = one
+            .iter()
+            .zip(other)
+            .any(|(a, b)| a.is_some() && b.is_some() && a != b);
         let gone = work.runs.iter().any(|run| self.system.discarded(run));
         work.discarded = gone || (differ && !work.both);
         Ok(())
     }
 
-    fn atom<C: Choices>(&self, work: &mut Self::Work, atom: usize, choices: &mut C) -> Result<bool, Fault> {
+    fn atom<C: Choices>(
+        &self,
+        work: &mut Self::Work,
+        atom: usize,
+        choices: &mut C,
+    ) -> Result<bool, Fault> {
         if atom == Self::BOTH {
             return Ok(work.both);
         }

@@ -4,7 +4,9 @@ mod common;
 
 use common::naive::Naive;
 use common::{Cycle, Random, Table, padding, random_table, replay};
-use stillpoint_model::{Form, Judgement, Limits, Options, Property, Report, Storage, Trace, Verdict, explore};
+use stillpoint_model::{
+    Form, Judgement, Limits, Options, Property, Report, Storage, Trace, Verdict, explore,
+};
 
 const ATOMS: usize = 6;
 const SYSTEMS: u64 = 4000;
@@ -13,26 +15,101 @@ fn forms(seed: u64) -> Vec<Property> {
     let mut random = Random(seed ^ 0xabcd_ef01);
     let mut any = || random.below(ATOMS);
     let forms = vec![
-        Form::Always { when: None, then: any() },
-        Form::Always { when: Some(any()), then: any() },
-        Form::LeadsTo { when: any(), goal: any(), within: Some(0), fair: vec![], assuming: None },
-        Form::LeadsTo { when: any(), goal: any(), within: Some(2), fair: vec![], assuming: None },
-        Form::LeadsTo { when: any(), goal: any(), within: Some(7), fair: vec![], assuming: Some(any()) },
-        Form::LeadsTo { when: any(), goal: any(), within: None, fair: vec![], assuming: None },
-        Form::LeadsTo { when: any(), goal: any(), within: None, fair: vec![any()], assuming: None },
-        Form::LeadsTo { when: any(), goal: any(), within: None, fair: vec![any(), any()], assuming: None },
-        Form::LeadsTo { when: any(), goal: any(), within: None, fair: vec![any(), any(), any()], assuming: Some(any()) },
-        Form::Unless { when: any(), holds: any(), unless: any() },
-        Form::Unless { when: any(), holds: any(), unless: any() },
-        Form::CanAlwaysReach { goal: any(), using: None },
-        Form::CanAlwaysReach { goal: any(), using: Some(any()) },
+        Form::Always {
+            when: None,
+            then: any(),
+        },
+        Form::Always {
+            when: Some(any()),
+            then: any(),
+        },
+        Form::LeadsTo {
+            when: any(),
+            goal: any(),
+            within: Some(0),
+            fair: vec![],
+            assuming: None,
+        },
+        Form::LeadsTo {
+            when: any(),
+            goal: any(),
+            within: Some(2),
+            fair: vec![],
+            assuming: None,
+        },
+        Form::LeadsTo {
+            when: any(),
+            goal: any(),
+            within: Some(7),
+            fair: vec![],
+            assuming: Some(any()),
+        },
+        Form::LeadsTo {
+            when: any(),
+            goal: any(),
+            within: None,
+            fair: vec![],
+            assuming: None,
+        },
+        Form::LeadsTo {
+            when: any(),
+            goal: any(),
+            within: None,
+            fair: vec![any()],
+            assuming: None,
+        },
+        Form::LeadsTo {
+            when: any(),
+            goal: any(),
+            within: None,
+            fair: vec![any(), any()],
+            assuming: None,
+        },
+        Form::LeadsTo {
+            when: any(),
+            goal: any(),
+            within: None,
+            fair: vec![any(), any(), any()],
+            assuming: Some(any()),
+        },
+        Form::Unless {
+            when: any(),
+            holds: any(),
+            unless: any(),
+        },
+        Form::Unless {
+            when: any(),
+            holds: any(),
+            unless: any(),
+        },
+        Form::CanAlwaysReach {
+            goal: any(),
+            using: None,
+        },
+        Form::CanAlwaysReach {
+            goal: any(),
+            using: Some(any()),
+        },
         Form::Reachable { goal: any() },
     ];
-    forms.into_iter().enumerate().map(|(n, form)| Property { id: format!("p{n}"), form }).collect()
+    forms
+        .into_iter()
+        .enumerate()
+        .map(|(n, form)| Property {
+            id: format!("p{n}"),
+            form,
+        })
+        .collect()
 }
 
 fn options(threads: usize) -> Options {
-    Options { limits: Limits { threads, ..Limits::default() }, ..Options::default() }
+    Options {
+        limits: Limits {
+            threads,
+            ..Limits::default()
+        },
+        ..Options::default()
+    }
 }
 
 /// That a counterexample or witness shows what it claims.
@@ -52,17 +129,32 @@ fn check_trace(table: &Table, form: &Form, judgement: &Judgement, trace: &Trace)
         }
         Form::Reachable { goal } => assert!(last.atoms[*goal]),
         Form::CanAlwaysReach { .. } => (),
-        Form::Unless { when, .. } | Form::LeadsTo { when, .. } if !violated => assert!(last.atoms[*when]),
-        Form::Unless { when, holds, unless } => {
+        Form::Unless { when, .. } | Form::LeadsTo { when, .. } if !violated => {
+            assert!(last.atoms[*when])
+        }
+        Form::Unless {
+            when,
+            holds,
+            unless,
+        } => {
             assert!(!last.atoms[*unless] && !last.atoms[*holds]);
             let duty = |c: &Cycle| !c.atoms[*unless] && c.atoms[*holds];
-            let begins = |k: usize| cycles[k].atoms[*when] && cycles[k..cycles.len() - 1].iter().all(duty);
+            let begins =
+                |k: usize| cycles[k].atoms[*when] && cycles[k..cycles.len() - 1].iter().all(duty);
             assert!((0..cycles.len()).any(begins));
         }
-        Form::LeadsTo { when, goal, within, fair, assuming } => {
+        Form::LeadsTo {
+            when,
+            goal,
+            within,
+            fair,
+            assuming,
+        } => {
             let pending = |c: &Cycle| !c.atoms[*goal] && assuming.is_none_or(|a| c.atoms[a]);
             let begins = |k: usize| {
-                cycles[k].atoms[*when] && !cycles[k].atoms[*goal] && cycles[k + 1..].iter().all(pending)
+                cycles[k].atoms[*when]
+                    && !cycles[k].atoms[*goal]
+                    && cycles[k + 1..].iter().all(pending)
             };
             if let Some(within) = within {
                 assert!(begins(cycles.len() - 1 - *within as usize));
@@ -88,18 +180,37 @@ fn compare(seed: u64, padded: usize, storage: Storage) -> Report {
     assert!(report.complete, "{place}");
     assert_eq!(report.states, naive.depth.len() as u64, "{place}");
     assert_eq!(report.transitions, naive.transitions, "{place}");
-    assert_eq!(u64::from(report.depth), *naive.depth.values().max().unwrap(), "{place}");
+    assert_eq!(
+        u64::from(report.depth),
+        *naive.depth.values().max().unwrap(),
+        "{place}"
+    );
     assert_eq!(report.absorbing, naive.absorbing, "{place}");
-    assert_eq!(report.absorbing_examples.len() as u64, naive.absorbing.min(8), "{place}");
+    assert_eq!(
+        report.absorbing_examples.len() as u64,
+        naive.absorbing.min(8),
+        "{place}"
+    );
     for (state, count) in report.coverage.iter().enumerate() {
         let expected = naive.edges.iter().filter(|e| e.from == state).count() as u64;
         assert_eq!(*count, expected, "{place} coverage of {state}");
     }
-    let faults: Vec<_> = report.faults.iter().map(|f| (f.code, f.length.unwrap() - 1)).collect();
-    assert_eq!(faults, naive.faults.into_iter().collect::<Vec<_>>(), "{place}");
+    let faults: Vec<_> = report
+        .faults
+        .iter()
+        .map(|f| (f.code, f.length.unwrap() - 1))
+        .collect();
+    assert_eq!(
+        faults,
+        naive.faults.into_iter().collect::<Vec<_>>(),
+        "{place}"
+    );
     for fault in &report.faults {
         let cycles = replay(&table, fault.trace.as_ref().unwrap(), 0);
-        assert_eq!(cycles.last().unwrap().after.as_ref().unwrap_err().code, fault.code);
+        assert_eq!(
+            cycles.last().unwrap().after.as_ref().unwrap_err().code,
+            fault.code
+        );
     }
     let naive = Naive::new(&table);
     for (property, judgement) in properties.iter().zip(&report.properties) {
@@ -124,7 +235,9 @@ fn verdicts_agree_with_the_naive_implementation() {
     for seed in 0..SYSTEMS {
         let report = compare(seed, 0, Storage::Bitmap);
         for (number, judgement) in report.properties.iter().enumerate() {
-            *seen.entry((number, format!("{:?}", judgement.verdict))).or_insert(0) += 1;
+            *seen
+                .entry((number, format!("{:?}", judgement.verdict)))
+                .or_insert(0) += 1;
         }
     }
     // The sample is worth something: every form met each of its verdicts often.
@@ -135,7 +248,10 @@ fn verdicts_agree_with_the_naive_implementation() {
             _ => &["Holds", "Violated", "Vacuous"],
         };
         for verdict in verdicts {
-            let count = seen.get(&(number, (*verdict).to_string())).copied().unwrap_or(0);
+            let count = seen
+                .get(&(number, (*verdict).to_string()))
+                .copied()
+                .unwrap_or(0);
             assert!(count >= 40, "form {number} {verdict}: {count} times only");
         }
     }
@@ -144,10 +260,14 @@ fn verdicts_agree_with_the_naive_implementation() {
 #[test]
 fn hash_sets_agree_with_the_bitmap() {
     for seed in 0..400 {
-        let mut reports: Vec<Report> = [(0, Storage::Bitmap), (1, Storage::Hash64), (3, Storage::Hash128)]
-            .into_iter()
-            .map(|(padded, storage)| compare(seed, padded, storage))
-            .collect();
+        let mut reports: Vec<Report> = [
+            (0, Storage::Bitmap),
+            (1, Storage::Hash64),
+            (3, Storage::Hash128),
+        ]
+        .into_iter()
+        .map(|(padded, storage)| compare(seed, padded, storage))
+        .collect();
         for report in &mut reports {
             report.seconds = 0.0;
             report.memory = 0;

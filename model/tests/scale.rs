@@ -7,55 +7,121 @@ use common::{padding, replay};
 use std::collections::{BTreeSet, VecDeque};
 use std::time::{Duration, Instant};
 use stillpoint_model::{
-    Choices, Domain, Error, Fault, Form, Limits, Options, Progress, Property, Report, Storage, System, Verdict,
-    control_graph, explore, reachable,
+    Choices, Domain, Error, Fault, Form, Limits, Options, Progress, Property, Report, Storage,
+    System, Verdict, control_graph, explore, reachable,
 };
 
 fn options(threads: usize) -> Options {
-    Options { limits: Limits { threads, ..Limits::default() }, ..Options::default() }
+    Options {
+        limits: Limits {
+            threads,
+            ..Limits::default()
+        },
+        ..Options::default()
+    }
 }
 
 #[test]
 fn the_yardstick_has_its_counts() {
     let report = explore(&TwoAxis::new(500), &[], &options(2), &mut ()).unwrap();
-    assert_eq!((report.states, report.transitions), (4_024_036, 193_153_728));
+    assert_eq!(
+        (report.states, report.transitions),
+        (4_024_036, 193_153_728)
+    );
     assert!(report.complete);
     assert_eq!(report.storage, Storage::Bitmap);
-    assert!(report.memory * 8 <= 2 * 3507 * 3507 + 8 * (1 << 18), "{} bytes", report.memory);
+    assert!(
+        report.memory * 8 <= 2 * 3507 * 3507 + 8 * (1 << 18),
+        "{} bytes",
+        report.memory
+    );
     // The only absorbing state: both axes with pulses off.
-    assert_eq!((report.absorbing, report.absorbing_examples), (1, vec![vec![6, 0, 6, 0]]));
+    assert_eq!(
+        (report.absorbing, report.absorbing_examples),
+        (1, vec![vec![6, 0, 6, 0]])
+    );
 }
 
 fn properties() -> Vec<Property> {
-    let response = |within, fair: &[usize]| Form::LeadsTo { when: 0, goal: 1, within, fair: fair.to_vec(), assuming: None };
+    let response = |within, fair: &[usize]| Form::LeadsTo {
+        when: 0,
+        goal: 1,
+        within,
+        fair: fair.to_vec(),
+        assuming: None,
+    };
     let forms = vec![
-        Form::Always { when: None, then: 6 },
-        Form::Always { when: Some(0), then: 4 },
-        Form::Always { when: Some(6), then: 5 },
+        Form::Always {
+            when: None,
+            then: 6,
+        },
+        Form::Always {
+            when: Some(0),
+            then: 4,
+        },
+        Form::Always {
+            when: Some(6),
+            then: 5,
+        },
         response(Some(10), &[]),
         response(None, &[]),
         response(None, &[2]),
-        Form::Unless { when: 0, holds: 4, unless: 1 },
-        Form::Unless { when: 4, holds: 4, unless: 6 },
-        Form::CanAlwaysReach { goal: 3, using: None },
-        Form::CanAlwaysReach { goal: 3, using: Some(2) },
-        Form::CanAlwaysReach { goal: 5, using: None },
+        Form::Unless {
+            when: 0,
+            holds: 4,
+            unless: 1,
+        },
+        Form::Unless {
+            when: 4,
+            holds: 4,
+            unless: 6,
+        },
+        Form::CanAlwaysReach {
+            goal: 3,
+            using: None,
+        },
+        Form::CanAlwaysReach {
+            goal: 3,
+            using: Some(2),
+        },
+        Form::CanAlwaysReach {
+            goal: 5,
+            using: None,
+        },
         Form::Reachable { goal: 5 },
     ];
-    forms.into_iter().enumerate().map(|(n, form)| Property { id: n.to_string(), form }).collect()
+    forms
+        .into_iter()
+        .enumerate()
+        .map(|(n, form)| Property {
+            id: n.to_string(),
+            form,
+        })
+        .collect()
 }
 
 #[test]
 fn the_report_does_not_depend_on_threads_or_storage() {
     let mut reports = Vec::new();
-    for (padded, storage) in [(0, Storage::Bitmap), (1, Storage::Hash64), (3, Storage::Hash128)] {
+    for (padded, storage) in [
+        (0, Storage::Bitmap),
+        (1, Storage::Hash64),
+        (3, Storage::Hash128),
+    ] {
         let system = Watched::new(60, padding(padded));
         for threads in [1, 2, 5] {
             let report = explore(&system, &properties(), &options(threads), &mut ()).unwrap();
             assert_eq!(report.storage, storage);
             let example: Vec<i32> = report.absorbing_examples[0][..4].to_vec();
             assert_eq!((report.absorbing, example), (1, vec![6, 0, 6, 0]));
-            reports.push(Report { seconds: 0.0, memory: 0, index_space: 0, storage: Storage::Bitmap, absorbing_examples: vec![], ..report });
+            reports.push(Report {
+                seconds: 0.0,
+                memory: 0,
+                index_space: 0,
+                storage: Storage::Bitmap,
+                absorbing_examples: vec![],
+                ..report
+            });
         }
     }
     for report in &reports[1..] {
@@ -65,7 +131,10 @@ fn the_report_does_not_depend_on_threads_or_storage() {
     use Verdict::{Holds, Reached, Violated};
     assert_eq!(
         verdicts,
-        [Violated, Holds, Violated, Violated, Violated, Holds, Holds, Violated, Holds, Violated, Violated, Reached]
+        [
+            Violated, Holds, Violated, Violated, Violated, Holds, Holds, Violated, Holds, Violated,
+            Violated, Reached
+        ]
     );
     // A stop 2 to 4 lasts its timer: demand, 60 cycles of it, and the cycle that leaves.
     assert_eq!(reports[0].properties[11].length, Some(62));
@@ -76,13 +145,21 @@ fn lengths_of_the_yardstick_properties_replay() {
     let system = Watched::new(20, vec![]);
     let report = explore(&system, &properties(), &options(2), &mut ()).unwrap();
     let length = |n: usize| report.properties[n].length;
-    let last = |n: usize| replay(&system, report.properties[n].trace.as_ref().unwrap(), 7).pop().unwrap();
+    let last = |n: usize| {
+        replay(&system, report.properties[n].trace.as_ref().unwrap(), 7)
+            .pop()
+            .unwrap()
+    };
     assert_eq!(length(0), Some(1));
     // Axis 2 in stop 3 with 7 of 20 cycles left: entered with 20, then 13 cycles.
     assert_eq!(length(2), Some(14));
     assert!(last(2).atoms[6] && !last(2).atoms[5]);
     assert_eq!(length(3), Some(11));
-    assert!(replay(&system, report.properties[3].trace.as_ref().unwrap(), 7).iter().all(|c| !c.atoms[1]));
+    assert!(
+        replay(&system, report.properties[3].trace.as_ref().unwrap(), 7)
+            .iter()
+            .all(|c| !c.atoms[1])
+    );
 }
 
 /// From 0 anywhere, then three ways round: one level is far wider than the others.
@@ -95,35 +172,61 @@ const FAN: u32 = 60_000;
 
 impl Jump {
     fn new(padding: Vec<Domain>) -> Self {
-        Jump { domains: [Domain { lo: 5, hi: 5 + SIZE as i32 - 1 }].into_iter().chain(padding).collect() }
+        Jump {
+            domains: [Domain {
+                lo: 5,
+                hi: 5 + SIZE as i32 - 1,
+            }]
+            .into_iter()
+            .chain(padding)
+            .collect(),
+        }
     }
 
     fn to(x: u32, choice: u32) -> u32 {
-        if x == 0 { 3 * choice } else { (x * 2 + choice % 3 * 7 + 1) % SIZE }
+        if x == 0 {
+            3 * choice
+        } else {
+            (x * 2 + choice % 3 * 12_000 + 1) % SIZE
+        }
     }
 }
 
 impl System for Jump {
-    type Work = ();
-    fn work(&self) {}
+    type Work = u32;
+    fn work(&self) -> u32 {
+        0
+    }
     fn domains(&self) -> &[Domain] {
         &self.domains
     }
     fn combinations(&self) -> u128 {
         u128::from(FAN) * 3
     }
-    fn initial<C: Choices>(&self, _: &mut (), _: &mut C, state: &mut [i32]) {
+    fn initial<C: Choices>(&self, _: &mut u32, _: &mut C, state: &mut [i32]) {
         state.fill(5);
     }
-    fn next<C: Choices>(&self, _: &mut (), before: &[i32], c: &mut C, after: &mut [i32]) -> Result<(), Fault> {
+    fn next<C: Choices>(
+        &self,
+        w: &mut u32,
+        before: &[i32],
+        c: &mut C,
+        after: &mut [i32],
+    ) -> Result<(), Fault> {
         let x = (before[0] - 5) as u32;
-        let choice = if x == 0 { c.choose(0, FAN) } else { c.choose(1, 3) };
+        let choice = if x == 0 {
+            c.choose(0, FAN)
+        } else {
+            c.choose(1, 3)
+        };
         after.fill(5);
-        after[0] = 5 + Self::to(x, choice) as i32;
+        *w = Self::to(x, choice);
+        after[0] = 5 + *w as i32;
         Ok(())
     }
-    fn atom<C: Choices>(&self, _: &mut (), _: usize, _: &mut C) -> Result<bool, Fault> {
-        Ok(false)
+    /// Atom n: the cycle leads to the state 1000 n + 17.
+    fn atom<C: Choices>(&self, w: &mut u32, atom: usize, _: &mut C) -> Result<bool, Fault> {
+        Ok(*w == 1000 * atom as u32 + 17)
     }
 }
 
@@ -158,22 +261,76 @@ fn wide_levels_spill_into_the_second_bitmap_and_lose_nothing() {
     assert!(sizes[1] > 50_000 && sizes.len() > 3, "{sizes:?}");
     for (padded, threads) in [(0, 1), (0, 2), (0, 5), (1, 2), (3, 2)] {
         let mut levels = Levels::default();
-        let report = explore(&Jump::new(padding(padded)), &[], &options(threads), &mut levels).unwrap();
+        let report = explore(
+            &Jump::new(padding(padded)),
+            &[],
+            &options(threads),
+            &mut levels,
+        )
+        .unwrap();
         assert_eq!(levels.0, sizes);
         assert_eq!(report.states, sizes.iter().sum::<u64>());
-        assert_eq!(report.transitions, u128::from(report.states) * u128::from(FAN) * 3);
+        assert_eq!(
+            report.transitions,
+            u128::from(report.states) * u128::from(FAN) * 3
+        );
     }
     let mut met = BTreeSet::new();
-    assert!(reachable(&Jump::new(vec![]), &options(2), &mut |s| assert!(met.insert(s[0]))).unwrap());
+    assert!(
+        reachable(&Jump::new(vec![]), &options(2), &mut |s| assert!(
+            met.insert(s[0])
+        ))
+        .unwrap()
+    );
     assert_eq!(met.len() as u64, sizes.iter().sum::<u64>());
+}
+
+#[test]
+fn the_predecessors_of_traces_do_not_depend_on_threads() {
+    let form = |goal| Form::Reachable { goal };
+    let goals: Vec<_> = (0..200)
+        .map(|n| Property {
+            id: n.to_string(),
+            form: form(n),
+        })
+        .collect();
+    let run = |padded, threads| {
+        explore(
+            &Jump::new(padding(padded)),
+            &goals,
+            &options(threads),
+            &mut (),
+        )
+        .unwrap()
+        .properties
+    };
+    let one = run(0, 1);
+    let long = |length: u64| one.iter().filter(|p| p.length == Some(length)).count();
+    assert!(long(1) > 20 && long(2) > 20 && long(3) > 20);
+    for (padded, threads) in [(0, 2), (0, 8), (0, 8), (1, 4)] {
+        assert!(run(padded, threads) == one, "{padded} {threads}");
+    }
 }
 
 #[test]
 fn limits_end_early_and_keep_what_was_found() {
     let system = Watched::new(500, vec![]);
     let long = Instant::now();
-    let limits = Limits { time: Some(Duration::from_millis(40)), memory: None, threads: 2 };
-    let report = explore(&system, &properties(), &Options { limits, ..Options::default() }, &mut ()).unwrap();
+    let limits = Limits {
+        time: Some(Duration::from_millis(40)),
+        memory: None,
+        threads: 2,
+    };
+    let report = explore(
+        &system,
+        &properties(),
+        &Options {
+            limits,
+            ..Options::default()
+        },
+        &mut (),
+    )
+    .unwrap();
     assert!(!report.complete && report.states > 0 && report.states < 4_024_036);
     assert!(long.elapsed() < Duration::from_secs(20));
     let verdicts: Vec<_> = report.properties.iter().map(|p| p.verdict).collect();
@@ -183,8 +340,21 @@ fn limits_end_early_and_keep_what_was_found() {
     assert!(!verdicts.contains(&Verdict::Holds) && !verdicts.contains(&Verdict::Vacuous));
 
     // 1 MB does not hold the bitmap, nor the hash set for all states.
-    let limits = Limits { time: None, memory: Some(1_000_000), threads: 2 };
-    let report = explore(&system, &properties(), &Options { limits, ..Options::default() }, &mut ()).unwrap();
+    let limits = Limits {
+        time: None,
+        memory: Some(1_000_000),
+        threads: 2,
+    };
+    let report = explore(
+        &system,
+        &properties(),
+        &Options {
+            limits,
+            ..Options::default()
+        },
+        &mut (),
+    )
+    .unwrap();
     assert!(!report.complete && report.storage == Storage::Hash64);
     assert_eq!(report.properties[0].verdict, Verdict::Violated);
     assert_eq!(report.properties[1].verdict, Verdict::Inconclusive);
@@ -192,10 +362,27 @@ fn limits_end_early_and_keep_what_was_found() {
 
     // Enough for the search, too little for the graph of the recoverability properties: these alone stay open.
     let system = Watched::new(150, vec![]);
-    let limits = Limits { time: None, memory: Some(16_000_000), threads: 2 };
-    let report = explore(&system, &properties(), &Options { limits, ..Options::default() }, &mut ()).unwrap();
+    let limits = Limits {
+        time: None,
+        memory: Some(16_000_000),
+        threads: 2,
+    };
+    let report = explore(
+        &system,
+        &properties(),
+        &Options {
+            limits,
+            ..Options::default()
+        },
+        &mut (),
+    )
+    .unwrap();
     assert_eq!((report.states, report.storage), (367_236, Storage::Bitmap));
-    assert!(!report.complete && report.memory < 24_000_000, "{}", report.memory);
+    assert!(
+        !report.complete && report.memory < 24_000_000,
+        "{}",
+        report.memory
+    );
     assert_eq!(report.properties[1].verdict, Verdict::Holds);
     assert_eq!(report.properties[8].verdict, Verdict::Inconclusive);
 }
@@ -203,8 +390,14 @@ fn limits_end_early_and_keep_what_was_found() {
 #[test]
 fn stopping_when_decided() {
     let system = Watched::new(500, vec![]);
-    let property = [Property { id: "p".into(), form: Form::Reachable { goal: 6 } }];
-    let options = Options { stop_when_decided: true, ..options(2) };
+    let property = [Property {
+        id: "p".into(),
+        form: Form::Reachable { goal: 6 },
+    }];
+    let options = Options {
+        stop_when_decided: true,
+        ..options(2)
+    };
     let report = explore(&system, &property, &options, &mut ()).unwrap();
     assert_eq!(report.properties[0].verdict, Verdict::Reached);
     assert_eq!(report.properties[0].length, Some(494));
@@ -217,14 +410,23 @@ fn the_control_graph_shows_the_stops() {
     assert!(shown.complete);
     let graph = shown.graph;
     let node = |n| *graph.node_weight(n).unwrap();
-    assert_eq!(shown.initial.iter().map(|n| node(*n)).collect::<Vec<_>>(), [(0, 0)]);
+    assert_eq!(
+        shown.initial.iter().map(|n| node(*n)).collect::<Vec<_>>(),
+        [(0, 0)]
+    );
     assert_eq!(graph.node_count(), 36);
     for edge in graph.edge_indices() {
-        let (from, to) = graph.edge_endpoints(edge).map(|(a, b)| (node(a), node(b))).unwrap();
+        let (from, to) = graph
+            .edge_endpoints(edge)
+            .map(|(a, b)| (node(a), node(b)))
+            .unwrap();
         // One axis at a time; upwards, or from 2 to 4 back to 0; 6 stays.
         assert!(from.0 == to.0 || from.1 == to.1);
         for (a, b) in [(from.0, to.0), (from.1, to.1)] {
-            assert!(b >= a || (b == 0 && (2..=4).contains(&a)), "{from:?} {to:?}");
+            assert!(
+                b >= a || (b == 0 && (2..=4).contains(&a)),
+                "{from:?} {to:?}"
+            );
         }
     }
     let total: u128 = graph.edge_weights().sum();
@@ -247,7 +449,13 @@ impl System for Wrong {
     fn initial<C: Choices>(&self, _: &mut (), _: &mut C, state: &mut [i32]) {
         state[0] = 0;
     }
-    fn next<C: Choices>(&self, _: &mut (), _: &[i32], c: &mut C, after: &mut [i32]) -> Result<(), Fault> {
+    fn next<C: Choices>(
+        &self,
+        _: &mut (),
+        _: &[i32],
+        c: &mut C,
+        after: &mut [i32],
+    ) -> Result<(), Fault> {
         after[0] = c.choose(0, 2) as i32;
         Ok(())
     }
@@ -259,11 +467,26 @@ impl System for Wrong {
 #[test]
 fn contradictions_of_a_system_are_told() {
     let run = |system: &Wrong| explore(system, &[], &options(1), &mut ());
-    assert_eq!(run(&Wrong(3, Domain { lo: 0, hi: 1 })), Err(Error::Combinations { declared: 3 }));
-    assert_eq!(run(&Wrong(2, Domain { lo: 1, hi: 1 })), Err(Error::InitialOutOfDomain));
-    assert_eq!(run(&Wrong(2, Domain { lo: 1, hi: 0 })), Err(Error::EmptyDomain { variable: 0 }));
+    assert_eq!(
+        run(&Wrong(3, Domain { lo: 0, hi: 1 })),
+        Err(Error::Combinations { declared: 3 })
+    );
+    assert_eq!(
+        run(&Wrong(2, Domain { lo: 1, hi: 1 })),
+        Err(Error::InitialOutOfDomain)
+    );
+    assert_eq!(
+        run(&Wrong(2, Domain { lo: 1, hi: 0 })),
+        Err(Error::EmptyDomain { variable: 0 })
+    );
     // A step that leaves the domain is a fault, not another state.
     let report = run(&Wrong(2, Domain { lo: 0, hi: 0 })).unwrap();
-    assert_eq!((report.states, report.faults[0].code), (1, Fault::OUT_OF_DOMAIN.code));
-    assert_eq!(report.faults[0].trace.as_ref().unwrap().steps, [vec![(0, 1)]]);
+    assert_eq!(
+        (report.states, report.faults[0].code),
+        (1, Fault::OUT_OF_DOMAIN.code)
+    );
+    assert_eq!(
+        report.faults[0].trace.as_ref().unwrap().steps,
+        [vec![(0, 1)]]
+    );
 }

@@ -48,12 +48,15 @@ pub fn rust(system: &System, type_name: &str, table_name: &str) -> String {
     chooser(&mut out, "Truth of an atom", &format!("atom{head}(k: usize, {args}) -> bool"), "false", atoms);
     let observed = system.observed.iter().map(|n| layout.int(n)).collect();
     chooser(&mut out, "An observed expression", &format!("observe{head}(k: usize, {args}) -> i64"), "0", observed);
+    let lazies = (0..system.lazies.len()).map(|k| format!("Self::lazy_{k}(f, p, r)")).collect();
+    chooser(&mut out, "A named expression", &format!("lazy{head}(k: usize, {args}) -> i64"), "0", lazies);
     out.push_str(&format!(
         "}}\nconst {table_name}: Table = Table {{\n\
          name: {name:?}, fingerprint: {fingerprint}, cells: {cells}, states: {states}, inputs: {inputs}, lazies: {lazies}, fired: {fired},\n\
          step: |f, p, r| {{ let (f, p) = fixed(f, p)?; {type_name}::step(f, p, r) }},\n\
          atom: |k, f, p, r| {{ let (f, p) = fixed(f, p)?; Ok({type_name}::atom(k, f, p, r)) }},\n\
-         observe: |k, f, p, r| {{ let (f, p) = fixed(f, p)?; Ok({type_name}::observe(k, f, p, r)) }},\n}};\n",
+         observe: |k, f, p, r| {{ let (f, p) = fixed(f, p)?; Ok({type_name}::observe(k, f, p, r)) }},\n\
+         lazy: |k, f, p, r| {{ let (f, p) = fixed(f, p)?; Ok({type_name}::lazy(k, f, p, r)) }},\n}};\n",
         name = system.name,
         fingerprint = system.fingerprint(),
         cells = layout.cells,

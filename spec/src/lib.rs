@@ -20,5 +20,7 @@ mod property;
 mod schema;
 mod scope;
 mod spec;
+mod text;
 
-pub use spec::{Spec, read_text};
+pub use spec::Spec;
+pub use text::read_text;

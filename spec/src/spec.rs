@@ -10,6 +10,7 @@ use indexmap::IndexMap;
 use crate::diag::{Diagnostic, Diagnostics, Result};
 use crate::lang::{self, SyntaxError, ast};
 use crate::schema::{self, Text};
+use crate::text::read_text;
 
 /// A file that was read.
 #[derive(Debug, Clone)]
@@ -43,49 +44,8 @@ pub struct Spec {
     pub(crate) systems: IndexMap<String, Located<schema::System>>,
 }
 
-/// Largest file that is read, in bytes.
-const MAX_BYTES: u64 = 16 << 20;
-
-/// Reads a text file; the error says what is there instead of one.
-pub fn read_text(path: &Path) -> Result<Arc<str>> {
-    let name = path.display().to_string();
-    let empty: Arc<str> = Arc::from("");
-    let fail = |message: String, help: &str| -> Diagnostics {
-        Diagnostic::new(&name, &empty, None, message).help(help).into()
-    };
-    let meta = std::fs::metadata(path).map_err(|e| {
-        fail(format!("cannot be opened: {e}"), "check the name and the permissions")
-    })?;
-    if meta.is_dir() {
-        return Err(fail(
-            "is a directory, not a file".to_owned(),
-            "name a TOML file in it",
-        ));
-    }
-    if meta.len() > MAX_BYTES {
-        return Err(fail(
-            format!("has {} bytes; at most {MAX_BYTES} are read", meta.len()),
-            "split it into files joined by `use`",
-        ));
-    }
-    let bytes = std::fs::read(path)
-        .map_err(|e| fail(format!("cannot be read: {e}"), "check the permissions"))?;
-    let text = String::from_utf8(bytes).map_err(|e| {
-        let at = e.utf8_error().valid_up_to();
-        let line = e.as_bytes()[..at].iter().filter(|b| **b == b'\n').count() + 1;
-        fail(
-            format!("is not UTF-8 text: byte {at} (line {line}) has no meaning"),
-            "save it as UTF-8",
-        )
-    })?;
-    if text.trim().is_empty() {
-        return Err(fail(
-            "is empty".to_owned(),
-            "a specification starts with `spec = \"name\"`, a machine file with `family = \"sinumerik-840d\"`",
-        ));
-    }
-    Ok(Arc::from(text))
-}
+/// What this module reads, in messages.
+const KIND: &str = "specification file";
 
 /// Turns an error of the TOML reader into a diagnostic.
 pub(crate) fn toml_error(file: &str, text: &Arc<str>, e: &toml::de::Error) -> Diagnostic {
@@ -106,7 +66,7 @@ impl Spec {
     /// # Errors
     /// Everything wrong in the files' TOML, and definitions that stand twice.
     pub fn load(path: &Path) -> Result<Self> {
-        let text = read_text(path)?;
+        let text = read_text(path, KIND)?;
         Self::from_text(path, text)
     }
 
@@ -168,7 +128,7 @@ impl Spec {
             if seen.contains(&known) {
                 continue;
             }
-            match read_text(&target) {
+            match read_text(&target, KIND) {
                 Ok(inner) => self.include(&target, inner, seen, errors),
                 Err(Diagnostics(list)) => errors.extend(list.into_iter().map(|d| {
                     Diagnostic::new(&name, &text, Some(used.span()), d.to_string())

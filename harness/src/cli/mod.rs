@@ -1,6 +1,8 @@
 //! Arguments, exit status, and what goes to which stream.
 
 mod check;
+mod diff;
+mod export;
 mod progress;
 mod values;
 
@@ -31,6 +33,12 @@ enum Command {
     /// Explore every reachable state and judge every property
     #[command(after_help = "Examples:\n  stillpoint check spec/machines/milling-840d.toml\n  stillpoint check spec/bench/two-axis.toml --json\n  stillpoint check spec/machines/milling-840d.toml --readings A-25=RESET_AT_ONCE")]
     Check(check::Arguments),
+    /// Check the production monitors against the tables
+    #[command(after_help = "Examples:\n  stillpoint diff spec/machines/milling-840d.toml --exhaustive\n  stillpoint diff spec/machines/milling-840d.toml --random 1000000 --seed 7\n  stillpoint diff spec/machines/milling-840d.toml --mutant stop-b-no-timer-exit   (must diverge)")]
+    Diff(diff::Arguments),
+    /// Write a system in the format of another tool
+    #[command(after_help = "Examples:\n  stillpoint export spec/bench/two-axis.toml --to promela --output two-axis.pml\n  stillpoint export spec/sinumerik-840d/axis.toml --system stop --to dot | dot -Tsvg")]
+    Export(export::Arguments),
     /// Check whether a machine file is plausible, without exploring anything
     #[command(after_help = "Example: stillpoint validate spec/machines/milling-840d.toml")]
     Validate {
@@ -49,6 +57,8 @@ pub fn main() -> ExitCode {
     };
     let status = match arguments.command {
         Command::Check(arguments) => check::run(&arguments),
+        Command::Diff(arguments) => diff::run(&arguments),
+        Command::Export(arguments) => export::run(&arguments),
         Command::Validate { file } => validate(&file),
     };
     ExitCode::from(status.unwrap_or_else(|failure| failure.show()))

@@ -34,7 +34,13 @@ pub struct Frame {
 
 /// Constant variables that widen the index space: none for a bitmap, one for 64-bit, three for 128-bit keys.
 pub fn padding(count: usize) -> Vec<Domain> {
-    vec![Domain { lo: i32::MIN, hi: i32::MAX }; count]
+    vec![
+        Domain {
+            lo: i32::MIN,
+            hi: i32::MAX
+        };
+        count
+    ]
 }
 
 impl Table {
@@ -61,7 +67,13 @@ impl Table {
     }
 
     pub fn basic(states: usize, sizes: Sizes, padding: Vec<Domain>) -> Self {
-        let own = [Domain { lo: -1, hi: (states as i32 - 1) / 3 - 1 }, Domain { lo: 0, hi: 2 }];
+        let own = [
+            Domain {
+                lo: -1,
+                hi: (states as i32 - 1) / 3 - 1,
+            },
+            Domain { lo: 0, hi: 2 },
+        ];
         let mut table = Table {
             states,
             sizes,
@@ -114,13 +126,21 @@ impl System for Table {
         self.write(self.initial[chosen], state);
     }
 
-    fn next<C: Choices>(&self, w: &mut Frame, before: &[i32], c: &mut C, after: &mut [i32]) -> Result<(), Fault> {
+    fn next<C: Choices>(
+        &self,
+        w: &mut Frame,
+        before: &[i32],
+        c: &mut C,
+        after: &mut [i32],
+    ) -> Result<(), Fault> {
         w.before = Self::number(before);
         let mut inputs = [0; 3];
-        for input in 0..2 {
-            if self.reads[w.before][input] {
-                inputs[input] = c.choose(input as u32, self.sizes[input]);
-            }
+        let [first, second] = self.reads[w.before];
+        if first {
+            inputs[0] = c.choose(0, self.sizes[0]);
+        }
+        if second {
+            inputs[1] = c.choose(1, self.sizes[1]);
         }
         w.after = self.next[self.index(w.before, inputs)].map_err(|code| Fault { code })?;
         self.write(w.after, after);
@@ -146,7 +166,12 @@ impl System for Table {
         each(w.before);
     }
 
-    fn observe<C: Choices>(&self, w: &mut Frame, expression: usize, c: &mut C) -> Result<i64, Fault> {
+    fn observe<C: Choices>(
+        &self,
+        w: &mut Frame,
+        expression: usize,
+        c: &mut C,
+    ) -> Result<i64, Fault> {
         self.atom(w, expression, c).map(i64::from)
     }
 }
@@ -168,10 +193,16 @@ pub fn replay<S: System>(system: &S, trace: &Trace, atoms: usize) -> Vec<Cycle> 
         let mut after = state.clone();
         let result = system.next(&mut work, &state, &mut choices, &mut after);
         let values = match result {
-            Ok(()) => (0..atoms).map(|a| system.atom(&mut work, a, &mut choices).unwrap()).collect(),
+            Ok(()) => (0..atoms)
+                .map(|a| system.atom(&mut work, a, &mut choices).unwrap())
+                .collect(),
             Err(_) => Vec::new(),
         };
-        cycles.push(Cycle { before: state, after: result.map(|()| after.clone()), atoms: values });
+        cycles.push(Cycle {
+            before: state,
+            after: result.map(|()| after.clone()),
+            atoms: values,
+        });
         state = after;
     }
     cycles
@@ -201,9 +232,15 @@ impl Random {
 pub fn random_table(seed: u64, atoms: usize, padding: Vec<Domain>) -> Table {
     let mut random = Random(seed);
     let states = 1 + random.below(10);
-    let sizes = [1 + random.below(3) as u32, 1 + random.below(3) as u32, 1 + random.below(2) as u32];
+    let sizes = [
+        1 + random.below(3) as u32,
+        1 + random.below(3) as u32,
+        1 + random.below(2) as u32,
+    ];
     let mut table = Table::basic(states, sizes, padding);
-    table.initial = (0..1 + random.below(3)).map(|_| random.below(states)).collect();
+    table.initial = (0..1 + random.below(3))
+        .map(|_| random.below(states))
+        .collect();
     let faults = if random.percent(20) { 6 } else { 0 };
     // Mostly local moves make long paths.
     let local = random.percent(50);

@@ -41,12 +41,19 @@ impl Naive {
                     for c in 0..table.sizes[2] {
                         let masked = |keep: [bool; 3]| {
                             let value = |k: bool, v: u32| if k { v } else { 0 };
-                            table.index(from, [value(keep[0], a), value(keep[1], b), value(keep[2], c)])
+                            table.index(
+                                from,
+                                [value(keep[0], a), value(keep[1], b), value(keep[2], c)],
+                            )
                         };
                         let [x, y] = table.reads[from];
                         match table.next[masked([x, y, false])] {
                             Ok(to) => {
-                                let atoms = table.atoms.iter().map(|(keep, v)| v[masked(*keep)]).collect();
+                                let atoms = table
+                                    .atoms
+                                    .iter()
+                                    .map(|(keep, v)| v[masked(*keep)])
+                                    .collect();
                                 all.push(Edge { from, to, atoms });
                             }
                             Err(code) => faulty.push((from, code)),
@@ -57,8 +64,15 @@ impl Naive {
         }
         let mut depth: BTreeMap<usize, u64> = table.initial.iter().map(|s| (*s, 0)).collect();
         for level in 0.. {
-            let next: Set = all.iter().filter(|e| depth.get(&e.from) == Some(&level)).map(|e| e.to).collect();
-            let new: Vec<usize> = next.into_iter().filter(|s| !depth.contains_key(s)).collect();
+            let next: Set = all
+                .iter()
+                .filter(|e| depth.get(&e.from) == Some(&level))
+                .map(|e| e.to)
+                .collect();
+            let new: Vec<usize> = next
+                .into_iter()
+                .filter(|s| !depth.contains_key(s))
+                .collect();
             if new.is_empty() {
                 break;
             }
@@ -70,28 +84,48 @@ impl Naive {
             let least = faults.entry(*code).or_insert(depth[from]);
             *least = depth[from].min(*least);
         }
-        let edges: Vec<Edge> = all.into_iter().filter(|e| depth.contains_key(&e.from)).collect();
+        let edges: Vec<Edge> = all
+            .into_iter()
+            .filter(|e| depth.contains_key(&e.from))
+            .collect();
         let stays = |s: &usize| {
-            edges.iter().filter(|e| e.from == *s).all(|e| e.to == *s) && faulty.iter().all(|(from, _)| from != s)
+            edges.iter().filter(|e| e.from == *s).all(|e| e.to == *s)
+                && faulty.iter().all(|(from, _)| from != s)
         };
         let absorbing = depth.keys().filter(|s| stays(s)).count() as u64;
         let transitions = (edges.len() + faulty.len()) as u128;
-        Naive { depth, edges, faults, transitions, absorbing }
+        Naive {
+            depth,
+            edges,
+            faults,
+            transitions,
+            absorbing,
+        }
     }
 
     fn shortest(&self, edge: impl Fn(&Edge) -> bool) -> Option<u64> {
-        self.edges.iter().filter(|e| edge(e)).map(|e| self.depth[&e.from] + 1).min()
+        self.edges
+            .iter()
+            .filter(|e| edge(e))
+            .map(|e| self.depth[&e.from] + 1)
+            .min()
     }
 
     pub fn judge(&self, form: &Form) -> Answer {
-        let answer = |verdict, length| Answer { verdict, length, bound: None };
+        let answer = |verdict, length| Answer {
+            verdict,
+            length,
+            bound: None,
+        };
         let given = |e: &Edge, atom: &Option<usize>| atom.is_none_or(|a| e.atoms[a]);
         match form {
             Form::Always { when, then } => {
                 if let Some(length) = self.shortest(|e| given(e, when) && !e.atoms[*then]) {
                     return answer(Verdict::Violated, Some(length));
                 }
-                let Some(when) = when else { return answer(Verdict::Holds, None) };
+                let Some(when) = when else {
+                    return answer(Verdict::Holds, None);
+                };
                 self.unless_vacuous(*when)
             }
             Form::Reachable { goal } => match self.shortest(|e| e.atoms[*goal]) {
@@ -101,21 +135,40 @@ impl Naive {
             Form::CanAlwaysReach { goal, using } => {
                 let mut good = Set::new();
                 loop {
-                    let step = |e: &&Edge| given(e, using) && (e.atoms[*goal] || good.contains(&e.to));
+                    let step =
+                        |e: &&Edge| given(e, using) && (e.atoms[*goal] || good.contains(&e.to));
                     let more: Set = self.edges.iter().filter(step).map(|e| e.from).collect();
                     if more == good {
                         break;
                     }
                     good = more;
                 }
-                let lost = self.depth.iter().filter(|(s, _)| !good.contains(s)).map(|(_, d)| *d).min();
+                let lost = self
+                    .depth
+                    .iter()
+                    .filter(|(s, _)| !good.contains(s))
+                    .map(|(_, d)| *d)
+                    .min();
                 match lost {
                     Some(depth) => answer(Verdict::Violated, Some(depth)),
-                    None => answer(Verdict::Holds, self.shortest(|e| given(e, using) && e.atoms[*goal])),
+                    None => answer(
+                        Verdict::Holds,
+                        self.shortest(|e| given(e, using) && e.atoms[*goal]),
+                    ),
                 }
             }
-            Form::Unless { when, holds, unless } => self.unless(*when, *holds, *unless),
-            Form::LeadsTo { when, goal, within, fair, assuming } => {
+            Form::Unless {
+                when,
+                holds,
+                unless,
+            } => self.unless(*when, *holds, *unless),
+            Form::LeadsTo {
+                when,
+                goal,
+                within,
+                fair,
+                assuming,
+            } => {
                 let start = |e: &Edge| e.atoms[*when] && !e.atoms[*goal];
                 let pending = |e: &Edge| !e.atoms[*goal] && given(e, assuming);
                 match within {
@@ -128,20 +181,47 @@ impl Naive {
 
     fn unless_vacuous(&self, when: usize) -> Answer {
         match self.shortest(|e| e.atoms[when]) {
-            None => Answer { verdict: Verdict::Vacuous, length: None, bound: None },
-            length => Answer { verdict: Verdict::Holds, length, bound: None },
+            None => Answer {
+                verdict: Verdict::Vacuous,
+                length: None,
+                bound: None,
+            },
+            length => Answer {
+                verdict: Verdict::Holds,
+                length,
+                bound: None,
+            },
         }
     }
 
-    fn bounded(&self, when: usize, start: impl Fn(&Edge) -> bool, pending: impl Fn(&Edge) -> bool, within: u64) -> Answer {
-        let mut set: Set = self.edges.iter().filter(|e| start(e)).map(|e| e.to).collect();
+    fn bounded(
+        &self,
+        when: usize,
+        start: impl Fn(&Edge) -> bool,
+        pending: impl Fn(&Edge) -> bool,
+        within: u64,
+    ) -> Answer {
+        let mut set: Set = self
+            .edges
+            .iter()
+            .filter(|e| start(e))
+            .map(|e| e.to)
+            .collect();
         let mut sizes = Vec::new();
         // After more cycles than there are states a path has gone round, and goes on forever.
         for _ in 0..self.depth.len() + 2 {
             sizes.push(set.len());
-            set = self.edges.iter().filter(|e| pending(e) && set.contains(&e.from)).map(|e| e.to).collect();
+            set = self
+                .edges
+                .iter()
+                .filter(|e| pending(e) && set.contains(&e.from))
+                .map(|e| e.to)
+                .collect();
         }
-        let bound = sizes.iter().position(|size| *size == 0).map(|bound| bound as u64);
+        let bound = sizes
+            .iter()
+            .position(|size| *size == 0)
+            .map(|bound| bound as u64);
         if bound.is_some_and(|bound| bound <= within) {
             let answer = self.unless_vacuous(when);
             let bound = bound.filter(|_| answer.verdict == Verdict::Holds);
@@ -150,14 +230,31 @@ impl Naive {
         // The states from which `within` pending cycles can follow.
         let mut long: Set = self.depth.keys().copied().collect();
         for _ in 0..within {
-            long = self.edges.iter().filter(|e| pending(e) && long.contains(&e.to)).map(|e| e.from).collect();
+            long = self
+                .edges
+                .iter()
+                .filter(|e| pending(e) && long.contains(&e.to))
+                .map(|e| e.from)
+                .collect();
         }
-        let first = self.shortest(|e| start(e) && long.contains(&e.to)).expect("a pending path");
-        Answer { verdict: Verdict::Violated, length: Some(first + within), bound }
+        let first = self
+            .shortest(|e| start(e) && long.contains(&e.to))
+            .expect("a pending path");
+        Answer {
+            verdict: Verdict::Violated,
+            length: Some(first + within),
+            bound,
+        }
     }
 
     /// Emerson and Lei's fixpoint, on cycles.
-    fn fair(&self, when: usize, start: impl Fn(&Edge) -> bool, pending: impl Fn(&Edge) -> bool, fair: &[usize]) -> Answer {
+    fn fair(
+        &self,
+        when: usize,
+        start: impl Fn(&Edge) -> bool,
+        pending: impl Fn(&Edge) -> bool,
+        fair: &[usize],
+    ) -> Answer {
         let mut stay: Set = self.depth.keys().copied().collect();
         loop {
             let before = stay.clone();
@@ -166,11 +263,24 @@ impl Naive {
                 some => some.iter().map(|a| Some(*a)).collect(),
             };
             for condition in conditions {
-                let inside = |e: &&Edge| pending(e) && stay.contains(&e.from) && stay.contains(&e.to);
+                let inside =
+                    |e: &&Edge| pending(e) && stay.contains(&e.from) && stay.contains(&e.to);
                 let met = |e: &&Edge| condition.is_none_or(|a| e.atoms[a]);
-                let mut reach: Set = self.edges.iter().filter(inside).filter(met).map(|e| e.from).collect();
+                let mut reach: Set = self
+                    .edges
+                    .iter()
+                    .filter(inside)
+                    .filter(met)
+                    .map(|e| e.from)
+                    .collect();
                 loop {
-                    let back: Set = self.edges.iter().filter(inside).filter(|e| reach.contains(&e.to)).map(|e| e.from).collect();
+                    let back: Set = self
+                        .edges
+                        .iter()
+                        .filter(inside)
+                        .filter(|e| reach.contains(&e.to))
+                        .map(|e| e.from)
+                        .collect();
                     let size = reach.len();
                     reach.extend(back);
                     if reach.len() == size {
@@ -184,7 +294,11 @@ impl Naive {
             }
         }
         match self.shortest(|e| start(e) && stay.contains(&e.to)) {
-            Some(_) => Answer { verdict: Verdict::Violated, length: None, bound: None },
+            Some(_) => Answer {
+                verdict: Verdict::Violated,
+                length: None,
+                bound: None,
+            },
             None => self.unless_vacuous(when),
         }
     }
@@ -212,9 +326,19 @@ impl Naive {
             }
         }
         let at_once = self.shortest(|e| e.atoms[when] && broken(e));
-        let later = self.edges.iter().filter(|e| broken(e)).filter_map(|e| since.get(&e.from)).map(|d| d + 1).min();
+        let later = self
+            .edges
+            .iter()
+            .filter(|e| broken(e))
+            .filter_map(|e| since.get(&e.from))
+            .map(|d| d + 1)
+            .min();
         match at_once.into_iter().chain(later).min() {
-            length @ Some(_) => Answer { verdict: Verdict::Violated, length, bound: None },
+            length @ Some(_) => Answer {
+                verdict: Verdict::Violated,
+                length,
+                bound: None,
+            },
             None => self.unless_vacuous(when),
         }
     }

@@ -11,7 +11,10 @@ pub struct TwoAxis {
 impl TwoAxis {
     pub fn new(timer: i32) -> Self {
         let (stop, time) = (Domain { lo: 0, hi: 6 }, Domain { lo: 0, hi: timer });
-        TwoAxis { domains: [stop, time, stop, time], timer }
+        TwoAxis {
+            domains: [stop, time, stop, time],
+            timer,
+        }
     }
 }
 
@@ -33,8 +36,14 @@ impl System for TwoAxis {
     }
 
     #[inline]
-    fn next<C: Choices>(&self, _: &mut (), before: &[i32], c: &mut C, after: &mut [i32]) -> Result<(), Fault> {
-        after.copy_from_slice(before);
+    fn next<C: Choices>(
+        &self,
+        _: &mut (),
+        before: &[i32],
+        c: &mut C,
+        after: &mut [i32],
+    ) -> Result<(), Fault> {
+        after[..4].copy_from_slice(&before[..4]);
         let axis = 2 * c.choose(0, 2) as usize;
         let (stop, timer) = (before[axis], before[axis + 1]);
         let request = if stop < 6 { c.choose(1, 6) as i32 } else { 0 };
@@ -97,7 +106,13 @@ impl System for Watched {
         state.fill(0);
     }
 
-    fn next<C: Choices>(&self, w: &mut Self::Work, before: &[i32], c: &mut C, after: &mut [i32]) -> Result<(), Fault> {
+    fn next<C: Choices>(
+        &self,
+        w: &mut Self::Work,
+        before: &[i32],
+        c: &mut C,
+        after: &mut [i32],
+    ) -> Result<(), Fault> {
         after.fill(0);
         self.inner.next(&mut (), &before[..4], c, &mut after[..4])?;
         w[0].copy_from_slice(&before[..4]);

@@ -8,7 +8,8 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::AxisKind;
-use super::document::{Findings, read_text};
+use super::document::Findings;
+use crate::text::read_text;
 use super::eval;
 use super::family::{
     Binding, Explore, Family, Formula, Function, Limits, Param, Quantity, Rule, Scope,

@@ -166,7 +166,7 @@ impl Setting {
 /// Everything that is wrong with the file, in its order: unreadable, not TOML, unknown keys, values outside their range
 /// or in a wrong unit, names that do not exist, violated plausibility rules.
 pub fn load(path: &Path, families: &Path) -> Result<Machine> {
-    let source = document::read_text(path, "machine file")?;
+    let source = crate::text::read_text(path, "machine file")?;
     read_source(path, &source, families)
 }
 
@@ -175,7 +175,7 @@ pub fn load(path: &Path, families: &Path) -> Result<Machine> {
 /// # Errors
 /// As [`load`].
 pub fn load_bytes(path: &Path, bytes: Vec<u8>, families: &Path) -> Result<Machine> {
-    let source = document::decode(&path.display().to_string(), bytes, "machine file")?;
+    let source = crate::text::decode(&path.display().to_string(), bytes, "machine file")?;
     read_source(path, &source, families)
 }
 

@@ -39,6 +39,8 @@ pub struct Table {
     pub atom: fn(usize, &mut [i32], &[i32], &mut Reader<'_>) -> Result<bool, u32>,
     /// Value of an observed expression in the cycle just made.
     pub observe: fn(usize, &mut [i32], &[i32], &mut Reader<'_>) -> Result<i64, u32>,
+    /// Value of a named expression in the cycle just made.
+    pub lazy: fn(usize, &mut [i32], &[i32], &mut Reader<'_>) -> Result<i64, u32>,
 }
 
 impl Table {

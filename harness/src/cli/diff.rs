@@ -1,0 +1,97 @@
+//! `stillpoint diff`.
+
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+use clap::Args;
+use stillpoint::diff::{DiffError, exhaustive, pairings, sample, text, to_json};
+use stillpoint::diff::random::Random;
+use stillpoint::subject::{self, Readings};
+use stillpoint_model::{Limits, Options};
+use stillpoint_monitors::mutant::Mutant;
+
+use super::Failure;
+use super::progress::Line;
+use super::values;
+
+#[derive(Args)]
+pub struct Arguments {
+    /// Machine or specification file
+    file: PathBuf,
+    /// Every reachable pair of table and monitor, every input (the default)
+    #[arg(long, conflicts_with = "random")]
+    exhaustive: bool,
+    /// Random runs of that many cycles in all
+    #[arg(long, value_name = "CYCLES")]
+    random: Option<u64>,
+    /// Seed of the random runs
+    #[arg(long, requires = "random", default_value_t = 1)]
+    seed: u64,
+    /// Print the report as JSON
+    #[arg(long)]
+    json: bool,
+    /// Worker threads [default: all processors]
+    #[arg(long, default_value_t = 0, hide_default_value = true)]
+    threads: usize,
+    /// Most memory for the explorer, e.g. 2GiB
+    #[arg(long, value_parser = values::size)]
+    memory: Option<u64>,
+    /// Most wall time, e.g. 90s
+    #[arg(long, value_parser = values::duration)]
+    time: Option<Duration>,
+    /// Compare with a deliberately wrong monitor: a test of the comparison itself
+    #[arg(long, value_name = "NAME")]
+    mutant: Option<String>,
+}
+
+pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
+    let mutant = arguments
+        .mutant
+        .as_ref()
+        .map(|name| name.parse::<Mutant>().map_err(|e| Failure::Other(format!("`{name}`: {e}"))))
+        .transpose()?;
+    let subject = subject::load(&arguments.file, &Readings::new())?;
+    let fail = |e: DiffError| match e {
+        DiffError::Input(d) => Failure::Input(d),
+        other => Failure::Other(other.to_string()),
+    };
+    let pairings = pairings(&subject).map_err(fail)?;
+    if pairings.is_empty() {
+        return Err(Failure::Other(format!("{}: none of its machines has a monitor", subject.name)));
+    }
+    let start = Instant::now();
+    let mut compared = Vec::new();
+    let mut random = Random::new(arguments.seed);
+    let share = arguments.random.map(|n| n.div_ceil(pairings.len() as u64));
+    for pairing in &pairings {
+        let result = match share {
+            Some(cycles) => sample(pairing, mutant, cycles, &mut random),
+            None => {
+                let limits = Limits {
+                    memory: arguments.memory,
+                    time: arguments.time.map(|t| t.saturating_sub(start.elapsed())),
+                    threads: arguments.threads,
+                };
+                let options = Options { limits, witnesses: false, ..Options::default() };
+                exhaustive(pairing, mutant, &options, &mut Line::new(&pairing.machine))
+            }
+        };
+        compared.push(result.map_err(fail)?);
+    }
+    let what = match arguments.random {
+        Some(_) => format!("random runs, seed {}: a test, not a proof", arguments.seed),
+        None => "every reachable pair, every input of the interface".to_owned(),
+    };
+    if arguments.json {
+        println!("{:#}", to_json(&compared, arguments.random.map(|_| arguments.seed)));
+    } else {
+        print!("{}", text(&compared, &what));
+    }
+    Ok(if compared.iter().any(|c| c.divergence.is_some()) {
+        1
+    } else if compared.iter().all(|c| c.complete) {
+        0
+    } else {
+        3
+    })
+}

@@ -1,0 +1,300 @@
+//! The product of a table and its monitor: one system that drives both with the same inputs and compares them.
+
+use stillpoint_model::{Choices, Domain, Fault, System, Trace};
+use stillpoint_spec::bind::Bound;
+use stillpoint_spec::eval::Frame;
+use stillpoint_spec::ir::{LazyKind, Ty};
+use stillpoint_tables::Table;
+
+use super::peer::{Numbers, Peer};
+use crate::timing::{Diagram, Lane};
+
+/// What an output of the monitor is compared with.
+#[derive(Clone, Copy)]
+enum Source {
+    State(usize),
+    Lazy(usize),
+}
+
+/// A table machine on its own, and its monitor.
+pub struct Product<'a> {
+    bound: &'a Bound,
+    /// The generated step of the table, if there is one; else the interpreter runs it.
+    table: Option<&'static Table>,
+    peer: &'a dyn Peer,
+    domains: Vec<Domain>,
+    /// For each table input: its values at this interface.
+    values: Vec<Vec<i32>>,
+    /// For each input of the monitor: the table input.
+    feeds: Vec<usize>,
+    compared: Vec<(Source, Ty)>,
+    combinations: u128,
+}
+
+/// The work area of a product.
+pub struct Work {
+    frame: Frame,
+    generated: Box<[i32]>,
+    inputs: Vec<i32>,
+    table: Numbers,
+    monitor: Numbers,
+}
+
+impl<'a> Product<'a> {
+    /// The product of `bound`, one machine on its own, and its monitor.
+    ///
+    /// # Errors
+    /// A port or output that only one side has: a sentence.
+    pub fn new(bound: &'a Bound, peer: &'a dyn Peer) -> Result<Self, String> {
+        let system = &bound.system;
+        let short = |name: &str| name.split_once('.').map_or(name.to_owned(), |(_, n)| n.to_owned());
+        let mut feeds = Vec::new();
+        for name in peer.inputs() {
+            let found = system.inputs.iter().position(|i| short(&i.name) == *name);
+            feeds.push(found.ok_or_else(|| format!("table {} has no input `{name}`", system.name))?);
+        }
+        let mut values = Vec::new();
+        for (k, (lo, hi)) in bound.inputs.iter().enumerate() {
+            let port = feeds.iter().position(|f| *f == k);
+            values.push(match port {
+                // An input that the monitor does not have keeps its least value: its readings are not the recommended ones.
+                None => vec![*lo],
+                Some(port) => match peer.allowed(port) {
+                    Some(list) => list.to_vec(),
+                    None => (*lo..=*hi).collect(),
+                },
+            });
+        }
+        let mut compared = Vec::new();
+        for name in peer.outputs() {
+            let state = system.states.iter().position(|s| short(&s.var.name) == *name);
+            let lazy = || {
+                system.lazies.iter().position(|l| l.kind == LazyKind::Output && short(&l.name) == *name)
+            };
+            compared.push(match (state, lazy()) {
+                (Some(k), _) => (Source::State(k), system.states[k].var.ty),
+                (None, Some(k)) => (Source::Lazy(k), system.lazies[k].ty),
+                (None, None) => return Err(format!("table {} has no output `{name}`", system.name)),
+            });
+        }
+        let mut domains: Vec<Domain> =
+            bound.states.iter().map(|(lo, hi)| Domain { lo: *lo, hi: *hi }).collect();
+        domains.extend(peer.domains());
+        let combinations = values.iter().map(|v| v.len() as u128).product();
+        let table = Table::find(&system.name, system.fingerprint());
+        Ok(Self { bound, table, peer, domains, values, feeds, compared, combinations })
+    }
+
+    /// Number of outputs compared in each cycle.
+    pub fn outputs(&self) -> usize {
+        self.compared.len()
+    }
+
+    /// Atom: table and monitor agree on every output.
+    pub const AGREE: usize = 0;
+
+    /// Steps both sides with the inputs in `work`; `cells` holds both states.
+    pub fn step(&self, work: &mut Work, cells: &mut [i32]) -> Result<(), Fault> {
+        let n = self.bound.states.len();
+        work.table.clear();
+        match self.table {
+            Some(table) => self.generated(table, work, &mut cells[..n])?,
+            None => self.interpreted(work, &mut cells[..n])?,
+        }
+        // `feeds` has at most as many entries as the largest monitor has inputs.
+        let mut fed = [0; 16];
+        for (to, from) in fed.iter_mut().zip(&self.feeds) {
+            *to = work.inputs[*from];
+        }
+        work.monitor.clear();
+        self.peer.step(&mut cells[n..], &fed[..self.feeds.len()], &mut work.monitor);
+        Ok(())
+    }
+
+    fn generated(&self, table: &Table, work: &mut Work, cells: &mut [i32]) -> Result<(), Fault> {
+        let (frame, params) = (&mut work.generated[..], &self.bound.values[..]);
+        let mut never = |k: usize| self.bound.inputs[k].0;
+        let fault = |code| Fault { code };
+        table.start(frame, cells);
+        frame[2 * table.states..2 * table.states + table.inputs].copy_from_slice(&work.inputs);
+        (table.step)(frame, params, &mut never).map_err(fault)?;
+        cells.copy_from_slice(&frame[..table.states]);
+        for (source, _) in &self.compared {
+            work.table.push(match source {
+                Source::State(k) => i64::from(cells[*k]),
+                Source::Lazy(k) => (table.lazy)(*k, frame, params, &mut never).map_err(fault)?,
+            });
+        }
+        Ok(())
+    }
+
+    fn interpreted(&self, work: &mut Work, cells: &mut [i32]) -> Result<(), Fault> {
+        let mut never = |k: usize| self.bound.inputs[k].0;
+        work.frame.start(cells);
+        work.frame.inputs.copy_from_slice(&work.inputs);
+        self.bound.step(&mut work.frame, &mut never).map_err(|code| Fault { code })?;
+        cells.copy_from_slice(&work.frame.now);
+        for (source, _) in &self.compared {
+            work.table.push(match source {
+                Source::State(k) => i64::from(cells[*k]),
+                Source::Lazy(k) => self.bound.lazy(*k, &mut work.frame, &mut never),
+            });
+        }
+        Ok(())
+    }
+
+    /// A work area, also for runs that are not explored.
+    pub fn new_work(&self) -> Work {
+        Work {
+            frame: Frame::new(self.bound),
+            generated: vec![0; self.table.map_or(0, |t| t.cells)].into_boxed_slice(),
+            inputs: self.bound.inputs.iter().map(|(lo, _)| *lo).collect(),
+            table: Numbers::new(),
+            monitor: Numbers::new(),
+        }
+    }
+
+    /// The values input `k` of the table can have.
+    pub fn values(&self, k: usize) -> &[i32] {
+        &self.values[k]
+    }
+
+    /// Both initial states; `any` gives a state variable of the table that may start with any value.
+    pub fn start(&self, any: &mut dyn FnMut(usize) -> i32) -> Vec<i32> {
+        let table: Vec<i32> =
+            self.bound.initial.iter().enumerate().map(|(k, v)| v.unwrap_or_else(|| any(k))).collect();
+        let named = |name: &str| {
+            let states = &self.bound.system.states;
+            let k = states.iter().position(|s| s.var.name.ends_with(&format!(".{name}")));
+            k.map_or(0, |k| table[k])
+        };
+        let own = self.peer.initial(&named);
+        [table, own].concat()
+    }
+
+    /// Whether the outputs of the last step agree.
+    pub fn agree(&self, work: &Work) -> bool {
+        work.table == work.monitor
+    }
+
+    /// Input vectors of an explored run: the initial state and the inputs of each cycle.
+    pub fn inputs_of(&self, trace: &Trace) -> (Vec<i32>, Vec<Vec<i32>>) {
+        let chosen = |step: &[(u32, u32)], k: usize| {
+            step.iter().find(|(i, _)| *i as usize == k).map_or(0, |(_, v)| *v as usize)
+        };
+        let start =
+            self.start(&mut |k| self.bound.states[k].0 + chosen(&trace.initial, k) as i32);
+        let cycles = trace
+            .steps
+            .iter()
+            .map(|step| (0..self.values.len()).map(|k| self.values[k][chosen(step, k)]).collect())
+            .collect();
+        (start, cycles)
+    }
+
+    /// Both sides of a run as one diagram, marked where they part.
+    pub fn diagram(&self, start: &[i32], cycles: &[Vec<i32>]) -> Diagram {
+        let system = &self.bound.system;
+        let mut lanes: Vec<Lane> = Vec::new();
+        for (k, input) in system.inputs.iter().enumerate() {
+            if self.feeds.contains(&k) {
+                let values = cycles.iter().map(|c| Some(system.show(input.ty, i64::from(c[k]))));
+                lanes.push(Lane {
+                    group: "inputs",
+                    name: input.name.split_once('.').map_or(input.name.clone(), |(_, n)| n.to_owned()),
+                    level: input.ty == Ty::Bool,
+                    values: std::iter::once(None).chain(values).collect(),
+                });
+            }
+        }
+        let lane = |group, name: &str, ty: Ty| Lane {
+            group,
+            name: name.to_owned(),
+            level: ty == Ty::Bool,
+            values: vec![None],
+        };
+        let names = self.peer.outputs();
+        let sides = |group| -> Vec<Lane> {
+            names.iter().zip(&self.compared).map(|(n, (_, ty))| lane(group, n, *ty)).collect()
+        };
+        let (mut table, mut monitor) = (sides("specification"), sides("monitor"));
+        let mut marks = Vec::new();
+        let mut work = self.new_work();
+        let mut cells = start.to_vec();
+        for (n, inputs) in cycles.iter().enumerate() {
+            work.inputs.copy_from_slice(inputs);
+            if self.step(&mut work, &mut cells).is_err() {
+                break;
+            }
+            for k in 0..names.len() {
+                let ty = self.compared[k].1;
+                table[k].values.push(Some(system.show(ty, work.table[k])));
+                monitor[k].values.push(Some(system.show(ty, work.monitor[k])));
+                if work.table[k] != work.monitor[k] {
+                    let (a, b) = (system.show(ty, work.table[k]), system.show(ty, work.monitor[k]));
+                    marks.push((n + 1, format!("{}: specification {a}, monitor {b}", names[k])));
+                }
+            }
+        }
+        // Outputs that never differ and never change say nothing about the divergence.
+        for (a, b) in table.into_iter().zip(monitor) {
+            let quiet = a.values == b.values && a.values.iter().skip(1).all(|v| *v == a.values[1]);
+            if !quiet {
+                lanes.push(a);
+                lanes.push(b);
+            }
+        }
+        lanes.sort_by_key(|l| ["inputs", "specification", "monitor"].iter().position(|g| *g == l.group));
+        Diagram { lanes, columns: cycles.len() + 1, marks, loop_start: None }
+    }
+}
+
+impl Work {
+    /// Sets the inputs of the next step.
+    pub fn set_inputs(&mut self, inputs: &[i32]) {
+        self.inputs.copy_from_slice(inputs);
+    }
+}
+
+impl System for Product<'_> {
+    type Work = Work;
+
+    fn work(&self) -> Work {
+        self.new_work()
+    }
+
+    fn domains(&self) -> &[Domain] {
+        &self.domains
+    }
+
+    fn combinations(&self) -> u128 {
+        self.combinations
+    }
+
+    fn initial<C: Choices>(&self, _: &mut Work, choices: &mut C, state: &mut [i32]) {
+        let cells = self.start(&mut |k| {
+            let (lo, hi) = self.bound.states[k];
+            lo + choices.choose(k as u32, (hi - lo + 1) as u32) as i32
+        });
+        state.copy_from_slice(&cells);
+    }
+
+    fn next<C: Choices>(
+        &self,
+        work: &mut Work,
+        before: &[i32],
+        choices: &mut C,
+        after: &mut [i32],
+    ) -> Result<(), Fault> {
+        for (k, values) in self.values.iter().enumerate() {
+            let pick = if values.len() > 1 { choices.choose(k as u32, values.len() as u32) } else { 0 };
+            work.inputs[k] = values[pick as usize];
+        }
+        after.copy_from_slice(before);
+        self.step(work, after)
+    }
+
+    fn atom<C: Choices>(&self, work: &mut Work, _: usize, _: &mut C) -> Result<bool, Fault> {
+        Ok(self.agree(work))
+    }
+}

@@ -1,0 +1,40 @@
+//! Systems in the formats of other tools.
+//!
+//! [`promela`](fn@promela::promela) gives a model for SPIN, [`dot`](fn@dot::dot) the control-state graphs for Graphviz,
+//! [`json`](fn@json::json) the resolved system for anything else.
+
+pub mod dot;
+mod fold;
+mod known;
+pub mod json;
+mod names;
+pub mod promela;
+mod select;
+pub mod text;
+
+pub use select::select;
+
+use std::path::Path;
+
+/// Why a system cannot be expressed in a format: one sentence.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub struct Unsupported(pub String);
+
+/// Writes a file so that it is there in full or not at all: under a name of its own first, then renamed.
+///
+/// # Errors
+/// As of writing and renaming; nothing is left behind then.
+pub fn write_atomically(path: &Path, text: &str) -> std::io::Result<()> {
+    let name = path.file_name().ok_or_else(|| std::io::Error::other("this names no file"))?;
+    let mut own = std::ffi::OsString::from(".");
+    own.push(name);
+    own.push(format!(".{}.tmp", std::process::id()));
+    let temporary = path.with_file_name(own);
+    let done = std::fs::write(&temporary, text).and_then(|()| std::fs::rename(&temporary, path));
+    if done.is_err() {
+        // The first error is the one to tell.
+        let _ = std::fs::remove_file(&temporary);
+    }
+    done
+}
