@@ -72,6 +72,8 @@ pub fn check(
                 time: settings.time.map(|t| t.saturating_sub(start.elapsed())),
                 threads: settings.threads,
             },
+            // Witnesses are told by their length only; rebuilding their runs would take as long as the search.
+            witnesses: false,
             ..Options::default()
         };
         let outcome = engine::run(&task.bound, &options, settings.interpret, progress(task).as_mut())

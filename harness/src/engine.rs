@@ -65,24 +65,14 @@ pub fn run(
         let ir::Form::Independent { observe, of, condition } = &property.form else {
             continue;
         };
-        let system = Interpreted::new(bound);
-        let size = |k: usize| (i64::from(bound.inputs[k].1) - i64::from(bound.inputs[k].0) + 1) as u32;
-        let listed = of.iter().map(|k| (*k as u32, size(*k))).collect();
-        let twin = Twin::new(&system, listed, *condition, observe.clone());
-        type Of<'a> = Twin<'a, Interpreted<'a>>;
-        let form = Form::Always { when: Some(Of::BOTH), then: Of::AGREE };
-        let claim = [Property { id: label(property), form }];
-        let mut outcome = explore(&twin, &claim, options, &mut ())?;
+        let claim = Claim { bound, observe, of, condition: *condition, id: label(property), options };
+        let (outcome, pair) = match if interpret { None } else { Generated::find(bound) } {
+            Some(system) => claim.explore(&system)?,
+            None => claim.explore(&Interpreted::new(bound))?,
+        };
         report.complete &= outcome.complete;
-        let mut pair = Pair { states: outcome.states, second: None };
-        judged[k] = outcome.properties.pop().map(|mut j| {
-            if let Some(trace) = &j.trace {
-                let [first, second] = twin.split(trace);
-                pair.second = Some(second);
-                j.trace = Some(first);
-            }
-            j
-        });
+        report.seconds += outcome.seconds;
+        judged[k] = outcome.properties.into_iter().next();
         pairs.insert(k, pair);
     }
     report.properties = judged
@@ -99,6 +89,37 @@ pub fn run(
         })
         .collect();
     Ok(Outcome { report, evaluator, pairs })
+}
+
+/// A claim about pairs of runs that differ in some inputs only.
+struct Claim<'a> {
+    bound: &'a Bound,
+    observe: &'a [usize],
+    of: &'a [usize],
+    condition: Option<usize>,
+    id: String,
+    options: &'a Options,
+}
+
+impl Claim<'_> {
+    /// Explores all such pairs; a counterexample's first run stays in the judgement.
+    fn explore<S: System>(self, system: &S) -> Result<(Report, Pair), Error> {
+        let inputs = &self.bound.inputs;
+        let size = |k: usize| u32::try_from(i64::from(inputs[k].1) - i64::from(inputs[k].0) + 1).unwrap_or(u32::MAX);
+        let listed = self.of.iter().map(|k| (*k as u32, size(*k))).collect();
+        let twin = Twin::new(system, listed, self.condition, self.observe.to_vec());
+        let form = Form::Always { when: Some(Twin::<S>::BOTH), then: Twin::<S>::AGREE };
+        let mut report = explore(&twin, &[Property { id: self.id, form }], self.options, &mut ())?;
+        let mut pair = Pair { states: report.states, second: None };
+        for judgement in &mut report.properties {
+            if let Some(trace) = judgement.trace.take() {
+                let [first, second] = twin.split(&trace);
+                pair.second = Some(second);
+                judgement.trace = Some(first);
+            }
+        }
+        Ok((report, pair))
+    }
 }
 
 /// Id of a property with the index of its copy.

@@ -86,6 +86,7 @@ pub fn compare(
                         time: settings.time,
                         threads: settings.threads,
                     },
+                    witnesses: false,
                     ..Options::default()
                 };
                 let title = format!("{id}={option}: {}", task.title);

@@ -8,7 +8,7 @@ use stillpoint_model::{Storage, Trace, Verdict};
 use stillpoint_spec::bind::Bound;
 
 use crate::check::{Checked, Summary, Unfired, exit_status, violations};
-use crate::engine::{Evaluator, label, replay};
+use crate::engine::{Evaluator, replay};
 use crate::subject::{Subject, Task};
 use crate::timing::Diagram;
 
@@ -88,10 +88,42 @@ pub fn text(subject: &Subject, checked: &[Checked], summaries: &[Summary]) -> St
         }
         out.push('\n');
     }
-    for (task, done) in subject.tasks.iter().zip(checked) {
-        run(&mut out, task, done);
+    properties(&mut out, subject, checked, summaries);
+    for (n, (task, done)) in subject.tasks.iter().zip(checked).enumerate() {
+        run(&mut out, n + 1, task, done);
     }
     out
+}
+
+/// Every property once, with the runs in which it was judged; what differs between runs is told.
+fn properties(out: &mut String, subject: &Subject, checked: &[Checked], summaries: &[Summary]) {
+    let width = summaries.iter().map(|s| s.id.chars().count()).max().unwrap_or(0);
+    for summary in summaries {
+        let mut text = String::new();
+        let mut seen: Vec<(String, Vec<usize>)> = Vec::new();
+        for (n, (task, done)) in subject.tasks.iter().zip(checked).enumerate() {
+            let both = task.bound.system.properties.iter().zip(&done.outcome.report.properties);
+            for (property, judged) in both.filter(|(p, _)| p.id == summary.id) {
+                text.clone_from(&property.text);
+                let verdict = match judged.verdict {
+                    v if v == summary.verdict => String::new(),
+                    v => format!("{} ", verdict_name(v)),
+                };
+                let bound = judged.bound.map_or(String::new(), |k| format!("at most {k} cycles "));
+                let what = format!("{verdict}{bound}");
+                match seen.iter_mut().find(|(w, _)| *w == what) {
+                    Some((_, runs)) if runs.last() == Some(&(n + 1)) => {}
+                    Some((_, runs)) => runs.push(n + 1),
+                    None => seen.push((what, vec![n + 1])),
+                }
+            }
+        }
+        let list = |runs: &[usize]| runs.iter().map(usize::to_string).collect::<Vec<_>>().join(" ");
+        let runs: Vec<String> = seen.iter().map(|(what, runs)| format!("{what}in run {}", list(runs))).collect();
+        let head = format!("  {:<12} {:<width$}", verdict_name(summary.verdict), summary.id);
+        wrapped(out, &head, &format!("{text} [{}]", runs.join("; ")));
+    }
+    out.push('\n');
 }
 
 fn headline(out: &mut String, subject: &Subject, checked: &[Checked], summaries: &[Summary]) {
@@ -137,9 +169,9 @@ fn headline(out: &mut String, subject: &Subject, checked: &[Checked], summaries:
     out.push('\n');
 }
 
-fn run(out: &mut String, task: &Task, done: &Checked) {
+fn run(out: &mut String, n: usize, task: &Task, done: &Checked) {
     let report = &done.outcome.report;
-    let _ = writeln!(out, "{}", task.title);
+    let _ = writeln!(out, "Run {n}: {}", task.title);
     let _ = writeln!(out, "  system {}", task.bound.system.name);
     let params: Vec<String> = params(&task.bound).iter().map(|(n, v)| format!("{n} = {v}")).collect();
     if !params.is_empty() {
@@ -166,15 +198,6 @@ fn run(out: &mut String, task: &Task, done: &Checked) {
         grouped(u128::from(report.absorbing)),
         report.seconds,
     );
-    for (property, judged) in task.bound.system.properties.iter().zip(&report.properties) {
-        let length = judged.length.map_or(String::new(), |n| match judged.verdict {
-            Verdict::Violated => format!(" after {n} cycles"),
-            _ => format!(", seen in cycle {n}"),
-        });
-        let bound = judged.bound.map_or(String::new(), |n| format!(", tightest bound {n} cycles"));
-        let head = format!("  {:<12} {:<16}", verdict_name(judged.verdict), label(property));
-        wrapped(out, &head, &format!("{}{length}{bound}", property.text));
-    }
     unfired(out, done);
     for warning in &task.bound.system.warnings {
         wrapped(out, "  warning: ", warning);
@@ -206,7 +229,7 @@ fn unfired(out: &mut String, done: &Checked) {
 }
 
 fn wrapped(out: &mut String, head: &str, text: &str) {
-    let indent = head.chars().count().min(32);
+    let indent = head.chars().count().min(40);
     let mut line = head.to_owned();
     let mut used = line.chars().count();
     for word in text.split_whitespace() {

@@ -111,6 +111,8 @@ pub(crate) enum Evidence<'a, K> {
     Run(Request<'a, K>, Option<Tail<'a, K>>),
     /// A run found already.
     Trace(Trace),
+    /// The number of cycles of a run nobody asked to see.
+    Length(u64),
 }
 
 /// A verdict with what shows it.
@@ -218,6 +220,7 @@ impl<K: Key> Finish<'_, K> {
             let mut tail = None;
             match decision.evidence {
                 Evidence::None => (),
+                Evidence::Length(length) => judgement.length = Some(length),
                 Evidence::Trace(trace) => {
                     judgement.length = Some(trace.steps.len() as u64);
                     judgement.trace = Some(trace);
@@ -393,7 +396,10 @@ fn decide<'a, K: Key>(
         let pending = &found.pending[number];
         let witness = match options.witnesses {
             true => seen(form, signs.first, |s| s.first),
-            false => Evidence::None,
+            false => match signs.first {
+                Some((depth, _)) => Evidence::Length(u64::from(depth) + 1),
+                None => Evidence::None,
+            },
         };
         let decision = |verdict, evidence| Decision {
             verdict,

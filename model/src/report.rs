@@ -18,7 +18,7 @@ pub struct Limits {
 pub struct Options {
     /// When to give up.
     pub limits: Limits,
-    /// Whether properties that hold get a witness trace.
+    /// Whether properties that hold get a witness trace; without it they get its length alone.
     pub witnesses: bool,
     /// Whether the search stops when it has decided every property (`complete` is then false if states were left).
     pub stop_when_decided: bool,

@@ -1,7 +1,7 @@
 //! A system with its parameter values put in: constants folded, small named expressions inlined, ranges known.
 
 use stillpoint_spec::bind::Bound;
-use stillpoint_spec::ir::{BinaryOp, Node, Space, Stmt};
+use stillpoint_spec::ir::{BinaryOp, Form, Node, Space, Stmt};
 
 use super::Unsupported;
 
@@ -59,6 +59,17 @@ impl<'a> Folded<'a> {
         let mut folded = Self { bound, rules, lazies, ranges: Vec::new(), atoms };
         folded.ranges = folded.check()?;
         Ok(folded)
+    }
+
+    /// The atoms of the properties that speak of single cycles.
+    pub fn claims(&self) -> Vec<usize> {
+        let mut out = Vec::new();
+        for property in &self.bound.system.properties {
+            if let Form::Always { when, then } = &property.form {
+                out.extend(when.iter().chain([then]));
+            }
+        }
+        out
     }
 
     /// Ranges of the named expressions, after a look at every expression there is.

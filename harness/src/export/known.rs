@@ -1,5 +1,7 @@
 //! What is known at a place of the generated step: which inputs are chosen, which named expressions have their value.
 
+use std::collections::BTreeSet;
+
 use stillpoint_spec::ir::{Node, Space};
 
 use super::fold::Folded;
@@ -80,4 +82,34 @@ fn free(folded: &Folded, k: usize, memo: &mut Vec<Option<bool>>) -> bool {
     let all = free_here && used.into_iter().all(|j| free(folded, j, memo));
     memo[k] = Some(all);
     all
+}
+
+/// The inputs that rules and properties of single cycles can read, directly or through named expressions.
+pub fn read_anywhere(folded: &Folded) -> BTreeSet<usize> {
+    let mut inputs = BTreeSet::new();
+    let mut lazies = BTreeSet::new();
+    let mut open = Vec::new();
+    let mut see = |node: &Node, open: &mut Vec<usize>| {
+        node.visit(&mut |n| match n {
+            Node::Cell(Space::Input, k) => {
+                inputs.insert(*k as usize);
+            }
+            Node::Element { space: Space::Input, base, len, .. } => {
+                inputs.extend(*base as usize..(*base + *len) as usize);
+            }
+            Node::Lazy(k) => open.push(*k as usize),
+            _ => {}
+        });
+    };
+    for (_, rule) in folded.rules.iter().flatten() {
+        see(&rule.when, &mut open);
+        rule.then.iter().for_each(|s| s.expressions(&mut |n| see(n, &mut open)));
+    }
+    folded.claims().into_iter().for_each(|k| see(&folded.atoms[k], &mut open));
+    while let Some(k) = open.pop() {
+        if lazies.insert(k) {
+            see(&folded.lazies[k], &mut open);
+        }
+    }
+    inputs
 }

@@ -1,7 +1,7 @@
 //! A system as a Promela model for SPIN.
 //!
-//! One process makes one cycle as one `atomic` sequence, from state vector to state vector. Inputs are chosen where the
-//! cycle first needs them, as the explorer does it, so that SPIN does not enumerate what decides nothing. Everything that
+//! One process makes one cycle as one `atomic` sequence, from state vector to state vector. Where there are many, inputs
+//! are chosen where the cycle first needs them, so that SPIN does not enumerate what decides nothing. Everything that
 //! is no state of the system has its least value between two cycles, and the process always stands at the same place
 //! there. So the states SPIN stores are the reachable states of the system, and one more where the initial state is
 //! chosen: the state before that choice ([`Promela::extra_states`]).
@@ -17,11 +17,16 @@ use stillpoint_spec::ir::{BinaryOp, Form, Node, Space, Stmt, Ty, Var};
 
 use super::Unsupported;
 use super::fold::{Folded, size};
-use super::known::{Known, Status, without_inputs};
+use super::known::{Known, Status, read_anywhere, without_inputs};
 use super::names::Names;
 
 /// Operands of at most so many nodes may be written twice.
 const SMALL: usize = 3;
+/// With at most so many combinations of inputs all are chosen at once and the rest of the cycle is one step: SPIN's stack,
+/// whose depth counts each statement, stays short. With more of them it is worth to choose only what is needed.
+const FEW: u128 = 64;
+/// Name of the variable for a combination of inputs.
+const COMBINATION: &str = "inputs";
 /// Ranges of at most so many values are written out as alternatives.
 const ALTERNATIVES: i64 = 16;
 
@@ -113,12 +118,15 @@ fn checked(list: &[Stmt]) -> bool {
 /// Which variables the cycle needs.
 #[derive(Debug, Default)]
 struct Used {
+    /// States that guards, values and properties read.
+    read: BTreeSet<usize>,
     before: BTreeSet<usize>,
     inputs: BTreeSet<usize>,
     chosen: BTreeSet<usize>,
     lazies: BTreeSet<usize>,
     evaluated: BTreeSet<usize>,
     scratch: usize,
+    combination: bool,
 }
 
 fn type_of((lo, hi): (i64, i64)) -> &'static str {
@@ -205,6 +213,9 @@ fn declarations(out: &mut String, shared: &Shared, used: &Used) {
         let range = wide(bound.inputs[k]);
         declare(out, range, range.0, &shared.inputs[k], &meaning(folded, &bound.system.inputs[k]));
     }
+    if used.combination {
+        declare(out, (0, 255), 0, COMBINATION, "the inputs as one number");
+    }
     for k in used.chosen.iter().copied() {
         declare(out, (0, 1), 0, &shared.chosen[k], "");
     }
@@ -268,6 +279,8 @@ struct Emitter<'a> {
     labels: Vec<Option<Known>>,
     /// Whether a label stands right before.
     labelled: bool,
+    /// Whether all of the rest is inside one `d_step`.
+    inside: bool,
     /// The instance that steps, and whether its effect has begun.
     at: (usize, bool),
     scratch: usize,
@@ -285,10 +298,14 @@ impl<'a> Emitter<'a> {
             known: Known::nothing(folded),
             labels: Vec::new(),
             labelled: false,
+            inside: false,
             at: (0, false),
             scratch: 0,
         };
         e.found.before = if shared.faults { (0..shared.states.len()).collect() } else { BTreeSet::new() };
+        if folded.bound.combinations() <= FEW {
+            e.all_inputs();
+        }
         e.copies();
         for (k, instance) in folded.bound.system.instances.iter().enumerate() {
             e.at = (k, false);
@@ -309,6 +326,10 @@ impl<'a> Emitter<'a> {
             e.properties();
         }
         e.reset();
+        if e.inside {
+            e.depth -= 1;
+            e.line("}");
+        }
         e
     }
 
@@ -330,6 +351,7 @@ impl<'a> Emitter<'a> {
         match lines {
             [] => {}
             [one] => self.line(one),
+            _ if self.inside => lines.iter().for_each(|l| self.line(l)),
             _ => {
                 self.line("d_step {");
                 self.depth += 1;
@@ -415,10 +437,49 @@ impl<'a> Emitter<'a> {
         }
     }
 
+    /// Chooses all inputs at once, as one number, and begins the step that makes the rest of the cycle.
+    fn all_inputs(&mut self) {
+        let shared = self.shared;
+        let bounds = &shared.folded.bound.inputs;
+        let read: Vec<usize> = read_anywhere(shared.folded).into_iter().collect();
+        let count = read.iter().map(|k| i64::from(bounds[*k].1) - i64::from(bounds[*k].0) + 1).product::<i64>();
+        if count > 1 {
+            let list: Vec<String> = (0..count).map(|n| format!(":: {COMBINATION} = {n}")).collect();
+            self.line("/* any combination of the inputs */");
+            self.line(&format!("if {} fi;", list.join(" ")));
+            self.found.combination = true;
+        }
+        self.line("d_step {");
+        self.depth += 1;
+        self.inside = true;
+        let mut weight = 1;
+        for k in read {
+            let (lo, hi) = wide(bounds[k]);
+            let size = hi - lo + 1;
+            let digit = match (weight, weight * size == count) {
+                (1, true) => COMBINATION.to_owned(),
+                (1, false) => format!("{COMBINATION} % {size}"),
+                (_, true) => format!("{COMBINATION} / {weight}"),
+                (_, false) => format!("{COMBINATION} / {weight} % {size}"),
+            };
+            let text = if lo == 0 { digit } else { format!("{lo} + {digit}") };
+            self.line(&format!("{} = {text};", shared.inputs[k]));
+            self.found.inputs.insert(k);
+            self.known.inputs[k] = Status::Yes;
+            weight *= size;
+        }
+    }
+
     /// The states at the start of the cycle, where something reads them after a rule has changed them.
     fn copies(&mut self) {
         let copy = |k: &usize| format!("{} = {};", self.shared.before[*k], self.shared.states[*k]);
-        let lines: Vec<String> = self.used.before.iter().map(copy).collect();
+        let mut lines: Vec<String> = self.used.before.iter().map(copy).collect();
+        // SPIN leaves variables that nothing reads out of its state vector, and two states would be one.
+        for (k, name) in self.shared.states.iter().enumerate() {
+            if !self.used.read.contains(&k) && !self.used.before.contains(&k) {
+                lines.push(format!("{name} = {name};"));
+            }
+        }
         self.step(&lines);
     }
 
@@ -440,6 +501,9 @@ impl<'a> Emitter<'a> {
         used.evaluated.iter().for_each(|k| set(&shared.evaluated[*k], 0));
         used.before.iter().for_each(|k| set(&shared.before[*k], i64::from(bound.states[*k].0)));
         (0..used.scratch).for_each(|k| set(&scratch(k), 0));
+        if used.combination {
+            set(COMBINATION, 0);
+        }
         if shared.faults {
             set("fault", 0);
         }
@@ -480,7 +544,7 @@ impl<'a> Emitter<'a> {
         let mut ready = true;
         list.iter().for_each(|s| s.expressions(&mut |n| ready &= self.known.satisfies(n)));
         let several = list.len() > 1 || matches!(list, [Stmt::If(..)]);
-        if ready && several {
+        if ready && several && !self.inside {
             self.line("d_step {");
             self.depth += 1;
             self.statements(list);
@@ -747,6 +811,9 @@ impl<'a> Emitter<'a> {
 
     fn cell(&mut self, space: Space, k: usize) -> String {
         let shared = self.shared;
+        if matches!(space, Space::Before | Space::Now) {
+            self.found.read.insert(k);
+        }
         match space {
             // Folded where the index is constant.
             Space::Param => shared.folded.bound.values[k].to_string(),
