@@ -88,7 +88,7 @@ pub fn text(subject: &Subject, checked: &[Checked], summaries: &[Summary]) -> St
         }
         out.push('\n');
     }
-    properties(&mut out, subject, checked, summaries);
+    properties(&mut out, subject, checked);
     for (n, (task, done)) in subject.tasks.iter().zip(checked).enumerate() {
         run(&mut out, n + 1, task, done);
     }
@@ -96,34 +96,67 @@ pub fn text(subject: &Subject, checked: &[Checked], summaries: &[Summary]) -> St
 }
 
 /// Every property once, with the runs in which it was judged; what differs between runs is told.
-fn properties(out: &mut String, subject: &Subject, checked: &[Checked], summaries: &[Summary]) {
-    let width = summaries.iter().map(|s| s.id.chars().count()).max().unwrap_or(0);
-    for summary in summaries {
-        let mut text = String::new();
-        let mut seen: Vec<(String, Vec<usize>)> = Vec::new();
-        for (n, (task, done)) in subject.tasks.iter().zip(checked).enumerate() {
-            let both = task.bound.system.properties.iter().zip(&done.outcome.report.properties);
-            for (property, judged) in both.filter(|(p, _)| p.id == summary.id) {
-                text.clone_from(&property.text);
-                let verdict = match judged.verdict {
-                    v if v == summary.verdict => String::new(),
-                    v => format!("{} ", verdict_name(v)),
-                };
-                let bound = judged.bound.map_or(String::new(), |k| format!("at most {k} cycles "));
-                let what = format!("{verdict}{bound}");
-                match seen.iter_mut().find(|(w, _)| *w == what) {
-                    Some((_, runs)) if runs.last() == Some(&(n + 1)) => {}
-                    Some((_, runs)) => runs.push(n + 1),
-                    None => seen.push((what, vec![n + 1])),
+fn properties(out: &mut String, subject: &Subject, checked: &[Checked]) {
+    // The same id may be stated differently in different systems: those are rows of their own.
+    let mut rows: Vec<Row> = Vec::new();
+    for (n, (task, done)) in subject.tasks.iter().zip(checked).enumerate() {
+        let both = task.bound.system.properties.iter().zip(&done.outcome.report.properties);
+        for (property, judged) in both {
+            let known = rows.iter_mut().find(|r| {
+                r.id == property.id && r.text == property.text && r.verdict == judged.verdict
+            });
+            let row = match known {
+                Some(row) => row,
+                None => {
+                    rows.push(Row {
+                        id: &property.id,
+                        text: &property.text,
+                        verdict: judged.verdict,
+                        runs: Vec::new(),
+                    });
+                    let last = rows.len() - 1;
+                    &mut rows[last]
                 }
+            };
+            let bound = judged.bound;
+            match row.runs.iter_mut().find(|(b, _)| *b == bound) {
+                Some((_, runs)) if runs.last() == Some(&(n + 1)) => {} // another copy of an index
+                Some((_, runs)) => runs.push(n + 1),
+                None => row.runs.push((bound, vec![n + 1])),
             }
         }
-        let list = |runs: &[usize]| runs.iter().map(usize::to_string).collect::<Vec<_>>().join(" ");
-        let runs: Vec<String> = seen.iter().map(|(what, runs)| format!("{what}in run {}", list(runs))).collect();
-        let head = format!("  {:<12} {:<width$}", verdict_name(summary.verdict), summary.id);
-        wrapped(out, &head, &format!("{text} [{}]", runs.join("; ")));
+    }
+    rows.sort_by_key(|r| !matches!(r.verdict, Verdict::Violated | Verdict::Unreachable | Verdict::Inconclusive));
+    let width = rows.iter().map(|r| r.id.chars().count()).max().unwrap_or(0);
+    let several = subject.tasks.len() > 1;
+    for row in &rows {
+        let told: Vec<String> = row
+            .runs
+            .iter()
+            .map(|(bound, runs)| {
+                let list = runs.iter().map(usize::to_string).collect::<Vec<_>>().join(", ");
+                let runs = if several { format!("run {list}") } else { String::new() };
+                match bound {
+                    Some(k) => format!("within {k} cycles {runs}").trim_end().to_owned(),
+                    None => runs,
+                }
+            })
+            .filter(|t| !t.is_empty())
+            .collect();
+        let told = if told.is_empty() { String::new() } else { format!(" [{}]", told.join("; ")) };
+        let head = format!("  {:<12} {:<width$}", verdict_name(row.verdict), row.id);
+        wrapped(out, &head, &format!("{}{told}", row.text));
     }
     out.push('\n');
+}
+
+/// Copies of one property with one verdict.
+struct Row<'a> {
+    id: &'a str,
+    text: &'a str,
+    verdict: Verdict,
+    /// The runs (from 1) with the same tightest bound.
+    runs: Vec<(Option<u64>, Vec<usize>)>,
 }
 
 fn headline(out: &mut String, subject: &Subject, checked: &[Checked], summaries: &[Summary]) {

@@ -1,1 +1,45 @@
-//! End-to-end tests of the stillpoint binary.
+//! What the end-to-end tests share: where the files of the project are.
+
+use std::path::{Path, PathBuf};
+
+/// The root of the workspace.
+pub fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+/// The files with this extension in a folder of the workspace, in the order of their names.
+///
+/// # Panics
+/// If there is no such folder or no such file in it: a test over no files would show nothing.
+pub fn files(folder: &str, extension: &str) -> Vec<PathBuf> {
+    let dir = root().join(folder);
+    let mut found: Vec<PathBuf> = std::fs::read_dir(&dir)
+        .unwrap_or_else(|e| panic!("{}: {e}", dir.display()))
+        .map(|entry| entry.expect("an entry").path())
+        .filter(|path| path.extension().is_some_and(|e| e == extension))
+        .collect();
+    found.sort();
+    assert!(!found.is_empty(), "no .{extension} in {}", dir.display());
+    found
+}
+
+/// The specification files that ship with the project: those of the folders for which code is generated.
+pub fn specification_files() -> Vec<PathBuf> {
+    let folders = std::fs::read_dir(root().join("spec")).expect("the folder spec");
+    let mut found = Vec::new();
+    for folder in folders {
+        let folder = folder.expect("an entry").path();
+        if !folder.is_dir() || folder.ends_with("tests") {
+            continue;
+        }
+        for entry in std::fs::read_dir(&folder).expect("a folder") {
+            let path = entry.expect("an entry").path();
+            let is_toml = path.extension().is_some_and(|e| e == "toml");
+            if is_toml && std::fs::read_to_string(&path).is_ok_and(|t| t.lines().any(|l| l.starts_with("spec "))) {
+                found.push(path);
+            }
+        }
+    }
+    found.sort();
+    found
+}

@@ -72,7 +72,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
                     time: arguments.time.map(|t| t.saturating_sub(start.elapsed())),
                     threads: arguments.threads,
                 };
-                let options = Options { limits, witnesses: false, ..Options::default() };
+                let options = Options { limits, ..Options::default() };
                 exhaustive(pairing, mutant, &options, &mut Line::new(&pairing.machine))
             }
         };

@@ -4,6 +4,7 @@ mod check;
 mod diff;
 mod export;
 mod progress;
+mod trace;
 mod values;
 
 use std::path::PathBuf;
@@ -39,6 +40,9 @@ enum Command {
     /// Write a system in the format of another tool
     #[command(after_help = "Examples:\n  stillpoint export spec/bench/two-axis.toml --to promela --output two-axis.pml\n  stillpoint export spec/sinumerik-840d/axis.toml --system stop --to dot | dot -Tsvg")]
     Export(export::Arguments),
+    /// The requirement matrix: which rules, monitors, proofs and tests carry each requirement
+    #[command(after_help = "Exit status: 0; 1 if a family declared complete has open core requirements or an id is in no catalogue; 2 bad input.\n\nExample: stillpoint trace --html matrix.html")]
+    Trace(trace::Arguments),
     /// Check whether a machine file is plausible, without exploring anything
     #[command(after_help = "Example: stillpoint validate spec/machines/milling-840d.toml")]
     Validate {
@@ -59,6 +63,7 @@ pub fn main() -> ExitCode {
         Command::Check(arguments) => check::run(&arguments),
         Command::Diff(arguments) => diff::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),
+        Command::Trace(arguments) => trace::run(&arguments),
         Command::Validate { file } => validate(&file),
     };
     ExitCode::from(status.unwrap_or_else(|failure| failure.show()))

@@ -133,7 +133,9 @@ pub fn exhaustive(
         id: pairing.machine.clone(),
         form: Form::Always { when: None, then: Product::AGREE },
     }];
-    let report = explore(&product, &claim, options, progress)
+    // Once the sides have parted they wander through pairs that mean nothing.
+    let options = Options { stop_when_decided: true, witnesses: false, ..options.clone() };
+    let report = explore(&product, &claim, &options, progress)
         .map_err(|e| DiffError::Explore(pairing.machine.clone(), e))?;
     let judged = &report.properties[0];
     let divergence = match (&judged.trace, report.faults.first().and_then(|f| f.trace.as_ref())) {

@@ -16,6 +16,39 @@ enum Source {
     Lazy(usize),
 }
 
+/// The values an input can have at the interface of a monitor.
+#[derive(Debug, Clone, Copy)]
+pub enum Values {
+    /// These.
+    List(&'static [i32]),
+    /// All from the first to the second.
+    Range(i32, i32),
+}
+
+impl Values {
+    /// How many there are.
+    pub fn count(self) -> u64 {
+        match self {
+            Values::List(list) => list.len() as u64,
+            Values::Range(lo, hi) => (i64::from(hi) - i64::from(lo) + 1).unsigned_abs(),
+        }
+    }
+
+    /// Value number `k`, counted from 0; beyond the last one, the last.
+    pub fn get(self, k: u64) -> i32 {
+        match self {
+            Values::List(list) => {
+                let k = usize::try_from(k).unwrap_or(usize::MAX).min(list.len().saturating_sub(1));
+                list.get(k).copied().unwrap_or(0)
+            }
+            Values::Range(lo, hi) => {
+                let value = i64::from(lo).saturating_add(i64::try_from(k).unwrap_or(i64::MAX));
+                i32::try_from(value).unwrap_or(hi).min(hi)
+            }
+        }
+    }
+}
+
 /// A table machine on its own, and its monitor.
 pub struct Product<'a> {
     bound: &'a Bound,
@@ -24,7 +57,7 @@ pub struct Product<'a> {
     peer: &'a dyn Peer,
     domains: Vec<Domain>,
     /// For each table input: its values at this interface.
-    values: Vec<Vec<i32>>,
+    values: Vec<Values>,
     /// For each input of the monitor: the table input.
     feeds: Vec<usize>,
     compared: Vec<(Source, Ty)>,
@@ -58,10 +91,10 @@ impl<'a> Product<'a> {
             let port = feeds.iter().position(|f| *f == k);
             values.push(match port {
                 // An input that the monitor does not have keeps its least value: its readings are not the recommended ones.
-                None => vec![*lo],
+                None => Values::Range(*lo, *lo),
                 Some(port) => match peer.allowed(port) {
-                    Some(list) => list.to_vec(),
-                    None => (*lo..=*hi).collect(),
+                    Some(list) => Values::List(list),
+                    None => Values::Range(*lo, *hi),
                 },
             });
         }
@@ -80,7 +113,7 @@ impl<'a> Product<'a> {
         let mut domains: Vec<Domain> =
             bound.states.iter().map(|(lo, hi)| Domain { lo: *lo, hi: *hi }).collect();
         domains.extend(peer.domains());
-        let combinations = values.iter().map(|v| v.len() as u128).product();
+        let combinations = values.iter().map(|v| u128::from(v.count())).product();
         let table = Table::find(&system.name, system.fingerprint());
         Ok(Self { bound, table, peer, domains, values, feeds, compared, combinations })
     }
@@ -155,8 +188,8 @@ impl<'a> Product<'a> {
     }
 
     /// The values input `k` of the table can have.
-    pub fn values(&self, k: usize) -> &[i32] {
-        &self.values[k]
+    pub fn values(&self, k: usize) -> Values {
+        self.values[k]
     }
 
     /// Both initial states; `any` gives a state variable of the table that may start with any value.
@@ -180,14 +213,14 @@ impl<'a> Product<'a> {
     /// Input vectors of an explored run: the initial state and the inputs of each cycle.
     pub fn inputs_of(&self, trace: &Trace) -> (Vec<i32>, Vec<Vec<i32>>) {
         let chosen = |step: &[(u32, u32)], k: usize| {
-            step.iter().find(|(i, _)| *i as usize == k).map_or(0, |(_, v)| *v as usize)
+            step.iter().find(|(i, _)| *i as usize == k).map_or(0, |(_, v)| *v)
         };
         let start =
             self.start(&mut |k| self.bound.states[k].0 + chosen(&trace.initial, k) as i32);
         let cycles = trace
             .steps
             .iter()
-            .map(|step| (0..self.values.len()).map(|k| self.values[k][chosen(step, k)]).collect())
+            .map(|step| (0..self.values.len()).map(|k| self.values[k].get(u64::from(chosen(step, k)))).collect())
             .collect();
         (start, cycles)
     }
@@ -287,8 +320,9 @@ impl System for Product<'_> {
         after: &mut [i32],
     ) -> Result<(), Fault> {
         for (k, values) in self.values.iter().enumerate() {
-            let pick = if values.len() > 1 { choices.choose(k as u32, values.len() as u32) } else { 0 };
-            work.inputs[k] = values[pick as usize];
+            let count = u32::try_from(values.count()).unwrap_or(u32::MAX);
+            let pick = if count > 1 { choices.choose(k as u32, count) } else { 0 };
+            work.inputs[k] = values.get(u64::from(pick));
         }
         after.copy_from_slice(before);
         self.step(work, after)

@@ -1,6 +1,6 @@
 //! Random runs of table and monitor at full width. A test, not a proof.
 
-use super::product::Product;
+use super::product::{Product, Values};
 
 /// SplitMix64: small, and the same numbers on every machine.
 pub struct Random(u64);
@@ -37,6 +37,22 @@ pub struct Divergence {
     pub cycles: Vec<Vec<i32>>,
 }
 
+/// A value of the range: of a wide one often an end, or the neighbour of an end.
+fn any(values: Values, random: &mut Random) -> i32 {
+    let count = values.count();
+    let last = count - 1;
+    if count <= 16 {
+        return values.get(random.next() % count);
+    }
+    match random.below(8) {
+        0 => values.get(0),
+        1 => values.get(1),
+        2 => values.get(last - 1),
+        3 => values.get(last),
+        _ => values.get(random.next() % count),
+    }
+}
+
 /// Drives both sides for one run. Inputs keep their value for a while, so that timers expire and sequences complete;
 /// how long differs from run to run.
 pub fn run(product: &Product, inputs: usize, random: &mut Random, length: u64) -> Option<Divergence> {
@@ -44,21 +60,21 @@ pub fn run(product: &Product, inputs: usize, random: &mut Random, length: u64) -
         let domain = stillpoint_model::System::domains(product)[k];
         domain.lo + random.below(domain.size() as usize) as i32
     });
-    // In one run of two inputs change rarely, in the other often.
+    // In one run inputs change rarely, in another often.
     let restless = 1 + random.below(16);
-    let favourites: Vec<usize> = (0..inputs).map(|k| random.below(product.values(k).len())).collect();
-    let mut now: Vec<i32> =
-        (0..inputs).map(|k| product.values(k)[random.below(product.values(k).len())]).collect();
+    let mut now: Vec<i32> = (0..inputs).map(|k| any(product.values(k), random)).collect();
+    let favourites = now.clone();
     let mut work = product.new_work();
     let mut cells = start.clone();
     let mut cycles = Vec::new();
     for _ in 0..length {
         for (k, cell) in now.iter_mut().enumerate() {
             if random.below(16) < restless {
-                let values = product.values(k);
                 // The favourite value comes often: a run with power-on in every second cycle would see nothing.
-                let pick = if random.below(4) > 0 { favourites[k] } else { random.below(values.len()) };
-                *cell = values[pick];
+                *cell = match random.below(4) {
+                    0 => any(product.values(k), random),
+                    _ => favourites[k],
+                };
             }
         }
         work.set_inputs(&now);
@@ -104,7 +120,7 @@ pub fn shrink(product: &Product, found: Divergence) -> Divergence {
     }
     for n in 0..best.cycles.len() {
         for k in 0..best.cycles[n].len() {
-            let calm = if n > 0 { best.cycles[n - 1][k] } else { product.values(k)[0] };
+            let calm = if n > 0 { best.cycles[n - 1][k] } else { product.values(k).get(0) };
             if best.cycles[n][k] != calm {
                 let mut other = best.cycles.clone();
                 other[n][k] = calm;

@@ -1,0 +1,195 @@
+//! Exported systems in SPIN: the same number of states, and the same broken properties.
+//!
+//! A user without SPIN or gcc sees that the tests were skipped; where the environment has `CI`, they fail then.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use stillpoint::check::{Checked, Settings, check};
+use stillpoint::export::promela::{Promela, promela};
+use stillpoint::subject::{self, Readings, Subject};
+use stillpoint_model::Verdict;
+use stillpoint_spec::ir::Form;
+use stillpoint_tests::{files, root, specification_files};
+
+/// Whether the tools are there.
+fn tools() -> bool {
+    for tool in ["spin", "gcc"] {
+        if Command::new(tool).arg("--version").output().is_err() {
+            let message = format!("SKIPPED: {tool} is not installed");
+            assert!(std::env::var_os("CI").is_none(), "{message}");
+            eprintln!("{message}");
+            return false;
+        }
+    }
+    true
+}
+
+/// A folder that goes away with the value.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(name: &str) -> Self {
+        let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("spin-{name}-{}", std::process::id()));
+        std::fs::create_dir_all(&path).expect("a folder of one's own");
+        Self(path)
+    }
+
+    fn run(&self, program: &str, arguments: &[&str]) -> String {
+        let output = Command::new(program).args(arguments).current_dir(&self.0).output().expect("runs");
+        let text = String::from_utf8_lossy(&output.stdout).into_owned();
+        let errors = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "{program} {arguments:?}: {text}{errors}");
+        text
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
+/// What a run of SPIN's verifier found.
+struct Found {
+    states: u64,
+    errors: u64,
+}
+
+fn number(text: &str, before: &str, after: &str) -> Option<u64> {
+    let end = text.find(after)?;
+    let start = text[..end].rfind(before)? + before.len();
+    text[start..end].trim().parse().ok()
+}
+
+impl Found {
+    fn of(text: &str) -> Self {
+        assert!(!text.contains("max search depth too small"), "{text}");
+        assert!(!text.contains("Search not completed\n") || text.contains("errors: 1"), "{text}");
+        let states = number(text, "\n", "states, stored").unwrap_or_else(|| panic!("{text}"));
+        let errors = text.split("errors: ").nth(1).and_then(|t| t.split_whitespace().next()?.parse().ok());
+        Found { states, errors: errors.unwrap_or_else(|| panic!("{text}")) }
+    }
+}
+
+/// The verifier of a model, built in a folder; `optimise` is worth it for large models only.
+fn verifier(name: &str, model: &Promela, optimise: &str) -> Folder {
+    let folder = Folder::new(name);
+    std::fs::write(folder.0.join("model.pml"), &model.text).expect("written");
+    folder.run("spin", &["-a", "model.pml"]);
+    folder.run("gcc", &[optimise, "-w", "-DSAFETY", "-DNOREDUCE", "-DMEMLIM=3000", "-o", "pan", "pan.c"]);
+    folder
+}
+
+fn load(path: &Path) -> Subject {
+    subject::load(path, &Readings::new()).unwrap_or_else(|e| panic!("{e}"))
+}
+
+fn explored(subject: &Subject) -> Vec<Checked> {
+    check(subject, &Settings::default(), &mut |_| Box::new(())).unwrap_or_else(|(t, e)| panic!("{t}: {e}"))
+}
+
+/// Compares every system of a file; the answer is how many have a broken assertion.
+fn compare(path: &Path) -> usize {
+    let subject = load(path);
+    let mut broken = 0;
+    for (n, (task, done)) in subject.tasks.iter().zip(explored(&subject)).enumerate() {
+        let name = &task.bound.system.name;
+        let report = &done.outcome.report;
+        assert!(report.complete, "{name}");
+        let model = promela(&task.bound, &task.title).unwrap_or_else(|e| panic!("{name}: {e}"));
+        let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+        let folder = verifier(&format!("{stem}-{n}"), &model, "-O1");
+        // With -A the assertions are not looked at and every state is visited.
+        let all = Found::of(&folder.run("./pan", &["-A", "-m1000000"]));
+        assert_eq!(all.states, report.states + model.extra_states, "{name}: states");
+        let violated = task.bound.system.properties.iter().zip(&report.properties).any(|(p, j)| {
+            matches!(p.form, Form::Always { .. }) && j.verdict == Verdict::Violated
+        });
+        let judged = Found::of(&folder.run("./pan", &["-m1000000"]));
+        assert_eq!(judged.errors > 0, violated || !report.faults.is_empty(), "{name}: assertions");
+        broken += usize::from(judged.errors > 0);
+        eprintln!("{name}: {} states in SPIN and here", report.states);
+    }
+    broken
+}
+
+#[test]
+fn the_yardstick_has_its_states() {
+    if !tools() {
+        return;
+    }
+    let subject = load(&root().join("spec/bench/two-axis.toml"));
+    let model = promela(&subject.tasks[0].bound, "yardstick").unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!(model.extra_states, 0, "its initial state is fixed, SPIN's figure is the figure");
+    let folder = verifier("yardstick", &model, "-O3");
+    let found = Found::of(&folder.run("./pan", &["-m100000"]));
+    assert_eq!((found.states, found.errors), (4_024_036, 0));
+}
+
+#[test]
+fn shipped_systems_have_the_same_states() {
+    if !tools() {
+        return;
+    }
+    for path in specification_files() {
+        // The yardstick has a test of its own; files that only others use have no system.
+        let has_system = std::fs::read_to_string(&path).expect("readable").contains("\n[system.");
+        if has_system && !path.ends_with("bench/two-axis.toml") {
+            assert_eq!(compare(&path), 0, "{}", path.display());
+        }
+    }
+}
+
+#[test]
+fn seeded_errors_break_assertions() {
+    if !tools() {
+        return;
+    }
+    let broken: usize = files("tests/must-fail", "toml").iter().map(|path| compare(path)).sum();
+    assert!(broken >= 2, "assertions are broken in {broken} systems only: the comparison shows too little");
+}
+
+#[test]
+fn what_a_model_must_not_hide() {
+    if !tools() {
+        return;
+    }
+    // A counter that leaves its range, a state that nothing reads, and an array with a computed index.
+    let text = r#"
+spec  = "test/spin"
+title = "what a model must not hide"
+[machine.m]
+text = "a counter, a write-only state, an array"
+otherwise = "stay"
+order = "priority"
+[machine.m.input]
+go = "BOOL"
+at = "INT(0..2)"
+big = "INT(-40000..-39960)"
+[machine.m.state]
+count = { type = "INT(0..3)", init = 1 }
+shadow = { type = "INT(-2..2)", init = "ANY" }
+cells = { type = "ARRAY[0..2] OF BOOL", init = false }
+[[machine.m.rule]]
+name = "go"
+note = "test"
+when = "go AND NOT cells[at]"
+then = "count := count + at; shadow := at - 1; cells[MIN(at, count)] := TRUE;"
+[[machine.m.rule]]
+name = "back"
+note = "test"
+when = "big < -39990 AND count > MAX(at, 1, count MOD 2)"
+then = "count := ABS(at - count); IF at = 1 THEN shadow := -2; ELSIF cells[2] THEN cells[2] := FALSE; END_IF;"
+[system.s]
+text = "one"
+[system.s.instance]
+m = { machine = "m" }
+[system.s.free]
+ports = ["m.go", "m.at", "m.big"]
+"#;
+    let folder = Folder::new("text");
+    let path = folder.0.join("hidden.toml");
+    std::fs::write(&path, text).expect("written");
+    assert_eq!(compare(&path), 1, "the counter leaves its range");
+}
