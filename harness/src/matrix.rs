@@ -96,11 +96,22 @@ pub struct Matrix {
 impl Matrix {
     /// Puts the matrix together.
     pub fn new(sources: &Sources) -> Self {
-        let exceptions: BTreeMap<&str, &str> =
-            sources.exceptions.iter().map(|(_, id, reason)| (id.as_str(), reason.as_str())).collect();
-        let rows: Vec<Row> = sources.catalogue.requirements.iter().map(|r| row(sources, &exceptions, r)).collect();
+        let exceptions: BTreeMap<&str, &str> = sources
+            .exceptions
+            .iter()
+            .map(|(_, id, reason)| (id.as_str(), reason.as_str()))
+            .collect();
+        let rows: Vec<Row> = sources
+            .catalogue
+            .requirements
+            .iter()
+            .map(|r| row(sources, &exceptions, r))
+            .collect();
         let known: BTreeSet<&str> = rows.iter().map(|r| r.requirement.id.as_str()).collect();
-        let excepted = sources.exceptions.iter().map(|(family, id, _)| (id, format!("{family}/exceptions.toml")));
+        let excepted = sources
+            .exceptions
+            .iter()
+            .map(|(family, id, _)| (id, format!("{family}/exceptions.toml")));
         let unknown = [&sources.rules, &sources.monitors]
             .into_iter()
             .flatten()
@@ -109,24 +120,35 @@ impl Matrix {
             .filter(|(id, _)| !known.contains(id.as_str()))
             .map(|(id, place)| (id.clone(), place))
             .collect();
-        Self { rows, unknown, complete: sources.complete.clone() }
+        Self {
+            rows,
+            unknown,
+            complete: sources.complete.clone(),
+        }
     }
 
     /// The open requirements of scope core.
     pub fn open_core(&self) -> impl Iterator<Item = &Row> {
-        self.rows.iter().filter(|r| r.status == Status::Open && r.requirement.scope == Scope::Core)
+        self.rows
+            .iter()
+            .filter(|r| r.status == Status::Open && r.requirement.scope == Scope::Core)
     }
 
     /// Exit status: 1 if an id is unknown or a family declared complete has an open core requirement, else 0.
     pub fn exit_status(&self) -> u8 {
-        let unfinished = self.open_core().any(|r| self.complete.contains(&r.requirement.family));
+        let unfinished = self
+            .open_core()
+            .any(|r| self.complete.contains(&r.requirement.family));
         u8::from(unfinished || !self.unknown.is_empty())
     }
 }
 
 fn row(sources: &Sources, exceptions: &BTreeMap<&str, &str>, requirement: &Requirement) -> Row {
     let places = |named: &Named| -> Vec<String> {
-        named.get(&requirement.id).map(|p| p.iter().cloned().collect()).unwrap_or_default()
+        named
+            .get(&requirement.id)
+            .map(|p| p.iter().cloned().collect())
+            .unwrap_or_default()
     };
     let (rules, monitors) = (places(&sources.rules), places(&sources.monitors));
     let (proofs, tests) = (places(&sources.proofs), places(&sources.tests));
@@ -136,15 +158,27 @@ fn row(sources: &Sources, exceptions: &BTreeMap<&str, &str>, requirement: &Requi
     let reason = match (&requirement.merged_into, requirement.scope) {
         _ if covered => None,
         (Some(carrier), _) => Some(format!("its content is carried by {carrier}")),
-        (None, Scope::Hardware) => Some("a property of hardware: traced, never implemented here".to_owned()),
-        _ => exceptions.get(requirement.id.as_str()).map(|r| (*r).to_owned()),
+        (None, Scope::Hardware) => {
+            Some("a property of hardware: traced, never implemented here".to_owned())
+        }
+        _ => exceptions
+            .get(requirement.id.as_str())
+            .map(|r| (*r).to_owned()),
     };
     let status = match (covered, &reason) {
         (true, _) => Status::Covered,
         (false, Some(_)) => Status::Excepted,
         (false, None) => Status::Open,
     };
-    Row { requirement: requirement.clone(), status, rules, monitors, proofs, tests, reason }
+    Row {
+        requirement: requirement.clone(),
+        status,
+        rules,
+        monitors,
+        proofs,
+        tests,
+        reason,
+    }
 }
 
 /// Whether a requirement is about the behaviour of a monitor.
@@ -157,7 +191,11 @@ fn about_monitors(requirement: &Requirement) -> bool {
         | Kind::Test
         | Kind::Timing
         | Kind::Transition => true,
-        Kind::Architecture | Kind::Commissioning | Kind::Constraint | Kind::Diagnostic | Kind::Parameter => false,
+        Kind::Architecture
+        | Kind::Commissioning
+        | Kind::Constraint
+        | Kind::Diagnostic
+        | Kind::Parameter => false,
     };
     behaviour && requirement.scope == Scope::Core
 }
@@ -197,7 +235,10 @@ mod tests {
             proofs: named("F-STOP-001", "proofs/src/stop.rs"),
             ..Sources::default()
         };
-        sources.catalogue.requirements.push(requirement("F-STOP-001", Kind::Function, Scope::Core));
+        sources
+            .catalogue
+            .requirements
+            .push(requirement("F-STOP-001", Kind::Function, Scope::Core));
         sources
     }
 
@@ -208,16 +249,41 @@ mod tests {
     #[test]
     fn every_kind_of_evidence_is_needed() {
         assert_eq!(status(&full()), Status::Covered);
-        assert_eq!(status(&Sources { rules: Named::new(), ..full() }), Status::Open);
-        assert_eq!(status(&Sources { monitors: Named::new(), ..full() }), Status::Open);
-        assert_eq!(status(&Sources { proofs: Named::new(), ..full() }), Status::Open);
-        let tested = Sources { proofs: Named::new(), tests: named("F-STOP-001", "tests/stop.rs"), ..full() };
+        assert_eq!(
+            status(&Sources {
+                rules: Named::new(),
+                ..full()
+            }),
+            Status::Open
+        );
+        assert_eq!(
+            status(&Sources {
+                monitors: Named::new(),
+                ..full()
+            }),
+            Status::Open
+        );
+        assert_eq!(
+            status(&Sources {
+                proofs: Named::new(),
+                ..full()
+            }),
+            Status::Open
+        );
+        let tested = Sources {
+            proofs: Named::new(),
+            tests: named("F-STOP-001", "tests/stop.rs"),
+            ..full()
+        };
         assert_eq!(status(&tested), Status::Covered);
     }
 
     #[test]
     fn parameters_and_support_need_no_monitor() {
-        let mut sources = Sources { monitors: Named::new(), ..full() };
+        let mut sources = Sources {
+            monitors: Named::new(),
+            ..full()
+        };
         sources.catalogue.requirements[0].kind = Kind::Parameter;
         assert_eq!(status(&sources), Status::Covered);
         sources.catalogue.requirements[0].kind = Kind::Function;
@@ -230,10 +296,20 @@ mod tests {
 
     #[test]
     fn exceptions_need_a_reason() {
-        let mut sources = Sources { monitors: Named::new(), ..full() };
-        sources.exceptions.push(("f".to_owned(), "F-STOP-001".to_owned(), "because".to_owned()));
+        let mut sources = Sources {
+            monitors: Named::new(),
+            ..full()
+        };
+        sources.exceptions.push((
+            "f".to_owned(),
+            "F-STOP-001".to_owned(),
+            "because".to_owned(),
+        ));
         let matrix = Matrix::new(&sources);
-        assert_eq!((matrix.rows[0].status, matrix.rows[0].reason.as_deref()), (Status::Excepted, Some("because")));
+        assert_eq!(
+            (matrix.rows[0].status, matrix.rows[0].reason.as_deref()),
+            (Status::Excepted, Some("because"))
+        );
         sources.exceptions.clear();
         sources.catalogue.requirements[0].scope = Scope::Hardware;
         sources.rules.clear();
@@ -243,38 +319,65 @@ mod tests {
         assert_eq!(status(&sources), Status::Excepted);
         // Evidence counts more than an excuse.
         let mut sources = full();
-        sources.exceptions.push(("f".to_owned(), "F-STOP-001".to_owned(), "because".to_owned()));
+        sources.exceptions.push((
+            "f".to_owned(),
+            "F-STOP-001".to_owned(),
+            "because".to_owned(),
+        ));
         assert_eq!(status(&sources), Status::Covered);
     }
 
     #[test]
     fn exit_status_tells_open_complete_families_and_unknown_ids() {
         assert_eq!(Matrix::new(&full()).exit_status(), 0);
-        let mut open = Sources { monitors: Named::new(), ..full() };
+        let mut open = Sources {
+            monitors: Named::new(),
+            ..full()
+        };
         assert_eq!(Matrix::new(&open).exit_status(), 0, "not declared complete");
         open.complete.insert("f".to_owned());
         assert_eq!(Matrix::new(&open).exit_status(), 1);
         open.catalogue.requirements[0].scope = Scope::Support;
         assert_eq!(Matrix::new(&open).exit_status(), 0);
         for sources in [
-            Sources { rules: named("F-STOP-009", "stop.rise"), ..full() },
-            Sources { monitors: named("F-STOP-009", "impl/src/stop.rs"), ..full() },
-            Sources { exceptions: vec![("f".to_owned(), "F-STOP-009".to_owned(), "x".to_owned())], ..full() },
+            Sources {
+                rules: named("F-STOP-009", "stop.rise"),
+                ..full()
+            },
+            Sources {
+                monitors: named("F-STOP-009", "impl/src/stop.rs"),
+                ..full()
+            },
+            Sources {
+                exceptions: vec![("f".to_owned(), "F-STOP-009".to_owned(), "x".to_owned())],
+                ..full()
+            },
         ] {
             let matrix = Matrix::new(&sources);
-            assert_eq!((matrix.unknown[0].0.as_str(), matrix.exit_status()), ("F-STOP-009", 1));
+            assert_eq!(
+                (matrix.unknown[0].0.as_str(), matrix.exit_status()),
+                ("F-STOP-009", 1)
+            );
         }
     }
 
     #[test]
     fn shown_in_all_formats() {
-        let matrix = Matrix::new(&Sources { monitors: Named::new(), ..full() });
+        let matrix = Matrix::new(&Sources {
+            monitors: Named::new(),
+            ..full()
+        });
         assert!(text(&matrix).contains("F-STOP-001"));
         assert!(html(&matrix).contains("&lt;title&gt;"));
         let json = to_json(&matrix);
         let row = &json["requirements"][0];
-        assert_eq!((&row["status"], &row["rules"][0]), (&"open".into(), &"stop.rise".into()));
-        for key in ["id", "family", "scope", "status", "rules", "monitors", "proofs", "tests", "reason"] {
+        assert_eq!(
+            (&row["status"], &row["rules"][0]),
+            (&"open".into(), &"stop.rise".into())
+        );
+        for key in [
+            "id", "family", "scope", "status", "rules", "monitors", "proofs", "tests", "reason",
+        ] {
             assert!(row.get(key).is_some(), "{key}");
         }
     }

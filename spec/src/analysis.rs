@@ -9,7 +9,7 @@ use crate::ir::{Lazy, LazyKind, Node, Space, Stmt};
 use crate::spec::Spec;
 
 /// Evaluations after which the analysis of one machine gives up and says so.
-const BUDGET: u64 = 4_000_000;
+const BUDGET: u64 = 1_000_000;
 
 /// What the analysis found.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -54,7 +54,7 @@ impl Spec {
                     true
                 }
             };
-            let found = Guards::new(bound, k).examine(exclusive);
+            let found = Guards::new(bound, k).examine(exclusive, stays);
             match found {
                 None => out.skipped.push(instance.name.clone()),
                 Some(found) => {
@@ -138,7 +138,7 @@ impl<'a> Guards<'a> {
         }
     }
 
-    fn examine(&self, exclusive: bool) -> Option<Found> {
+    fn examine(&self, exclusive: bool, stays: bool) -> Option<Found> {
         let mut found = Found {
             fires: vec![false; self.whens.len()],
             uncovered: None,
@@ -182,6 +182,10 @@ impl<'a> Guards<'a> {
                 Some(n) => found.fires[n] = true,
                 None if found.uncovered.is_none() => found.uncovered = Some(self.case(&frame)),
                 None => {}
+            }
+            // Where the first rule wins and no rule is needed, there is nothing more to find.
+            if !exclusive && (stays || found.uncovered.is_some()) && found.fires.iter().all(|f| *f) {
+                return Some(found);
             }
             reads.truncate(at);
             loop {

@@ -37,10 +37,17 @@ enum Format {
 pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let subject = subject::load(&arguments.file, &subject::Readings::new())?;
     let task = select(&subject, arguments.system.as_deref()).map_err(Failure::Other)?;
-    let fail = |e: &dyn std::fmt::Display| Failure::Other(format!("{}: {e}", task.bound.system.name));
+    let fail =
+        |e: &dyn std::fmt::Display| Failure::Other(format!("{}: {e}", task.bound.system.name));
     let text = match arguments.to {
-        Format::Promela => promela::promela(&task.bound, &task.title).map_err(|e| fail(&e))?.text,
-        Format::Dot => dot::dot(&task.bound, &task.title, &Options::default()).map_err(|e| fail(&e))?,
+        Format::Promela => {
+            promela::promela(&task.bound, &task.title)
+                .map_err(|e| fail(&e))?
+                .text
+        }
+        Format::Dot => {
+            dot::dot(&task.bound, &task.title, &Options::default()).map_err(|e| fail(&e))?
+        }
         Format::Json => format!("{:#}\n", json::json(&task.bound)),
     };
     match &arguments.output {

@@ -21,7 +21,10 @@ pub fn dot(bound: &Bound, title: &str, options: &Options) -> Result<String, Erro
     let system = &bound.system;
     let mut out = String::new();
     let _ = writeln!(out, "// {}", title.replace('\n', " "));
-    let _ = writeln!(out, "// Edges are labelled with numbers of transitions; those that stay in a node are not drawn.");
+    let _ = writeln!(
+        out,
+        "// Edges are labelled with numbers of transitions; those that stay in a node are not drawn."
+    );
     let _ = writeln!(out, "digraph {} {{", quoted(&system.name));
     out.push_str("  node [shape=box, style=rounded];\n");
     for (n, instance) in system.instances.iter().enumerate() {
@@ -52,8 +55,15 @@ fn cluster(
     graph: &ControlGraph<Vec<i32>>,
 ) {
     let system = &bound.system;
-    let names: Vec<&str> = cells.iter().map(|k| system.states[*k].var.name.as_str()).collect();
-    let limits = if graph.complete { "" } else { " (INCOMPLETE: a limit was reached)" };
+    let names: Vec<&str> = cells
+        .iter()
+        .map(|k| system.states[*k].var.name.as_str())
+        .collect();
+    let limits = if graph.complete {
+        ""
+    } else {
+        " (INCOMPLETE: a limit was reached)"
+    };
     let _ = writeln!(out, "  subgraph cluster_{n} {{");
     let label = format!("{}: {}{limits}", instance.name, names.join(", "));
     let _ = writeln!(out, "    label={};", quoted(&label));
@@ -63,8 +73,17 @@ fn cluster(
             .zip(&graph.graph[node])
             .map(|(k, v)| system.show(system.states[*k].var.ty, i64::from(*v)))
             .collect();
-        let start = if graph.initial.contains(&node) { ", penwidth=2.5" } else { "" };
-        let _ = writeln!(out, "    m{n}_{} [label={}{start}];", node.index(), quoted(&values.join("\n")));
+        let start = if graph.initial.contains(&node) {
+            ", penwidth=2.5"
+        } else {
+            ""
+        };
+        let _ = writeln!(
+            out,
+            "    m{n}_{} [label={}{start}];",
+            node.index(),
+            quoted(&values.join("\n"))
+        );
     }
     for edge in graph.graph.edge_indices() {
         let Some((from, to)) = graph.graph.edge_endpoints(edge) else {
@@ -72,12 +91,22 @@ fn cluster(
         };
         if from != to {
             let count = quoted(&grouped(graph.graph[edge]));
-            let _ = writeln!(out, "    m{n}_{} -> m{n}_{} [label={count}];", from.index(), to.index());
+            let _ = writeln!(
+                out,
+                "    m{n}_{} -> m{n}_{} [label={count}];",
+                from.index(),
+                to.index()
+            );
         }
     }
     out.push_str("  }\n");
 }
 
 fn quoted(text: &str) -> String {
-    format!("\"{}\"", text.replace('\\', "\\\\").replace('"', "\\\"").replace('\n', "\\n"))
+    format!(
+        "\"{}\"",
+        text.replace('\\', "\\\\")
+            .replace('"', "\\\"")
+            .replace('\n', "\\n")
+    )
 }

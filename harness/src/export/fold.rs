@@ -37,7 +37,10 @@ impl<'a> Folded<'a> {
     /// An expression whose possible values leave 32 bits, which the target's integers have.
     pub fn new(bound: &'a Bound) -> Result<Self, Unsupported> {
         let system = &bound.system;
-        let mut folder = Folder { bound, done: vec![None; system.lazies.len()] };
+        let mut folder = Folder {
+            bound,
+            done: vec![None; system.lazies.len()],
+        };
         let lazies: Vec<Node> = (0..system.lazies.len()).map(|k| folder.lazy(k)).collect();
         let mut rules = Vec::new();
         for instance in &system.instances {
@@ -48,7 +51,13 @@ impl<'a> Folded<'a> {
                     continue;
                 }
                 let last = matches!(when, Node::Const(_));
-                list.push((n, Rule { when, then: folder.statements(&rule.then) }));
+                list.push((
+                    n,
+                    Rule {
+                        when,
+                        then: folder.statements(&rule.then),
+                    },
+                ));
                 if last {
                     break;
                 }
@@ -56,7 +65,13 @@ impl<'a> Folded<'a> {
             rules.push(list);
         }
         let atoms = system.atoms.iter().map(|n| folder.node(n)).collect();
-        let mut folded = Self { bound, rules, lazies, ranges: Vec::new(), atoms };
+        let mut folded = Self {
+            bound,
+            rules,
+            lazies,
+            ranges: Vec::new(),
+            atoms,
+        };
         folded.ranges = folded.check()?;
         Ok(folded)
     }
@@ -74,7 +89,10 @@ impl<'a> Folded<'a> {
 
     /// Ranges of the named expressions, after a look at every expression there is.
     fn check(&self) -> Result<Vec<(i64, i64)>, Unsupported> {
-        let mut ranges = Ranges { folded: self, lazies: vec![None; self.lazies.len()] };
+        let mut ranges = Ranges {
+            folded: self,
+            lazies: vec![None; self.lazies.len()],
+        };
         for rule in self.rules.iter().flatten() {
             ranges.of(&rule.1.when)?;
             let mut found = Ok(());
@@ -90,7 +108,9 @@ impl<'a> Folded<'a> {
         for node in &self.atoms {
             ranges.of(node)?;
         }
-        (0..self.lazies.len()).map(|k| ranges.of(&Node::Lazy(k as u32))).collect()
+        (0..self.lazies.len())
+            .map(|k| ranges.of(&Node::Lazy(k as u32)))
+            .collect()
     }
 }
 
@@ -121,7 +141,13 @@ impl Folder<'_> {
         let mut out = Vec::new();
         for statement in list {
             match statement {
-                Stmt::Assign { base, index, value, checked, site } => out.push(Stmt::Assign {
+                Stmt::Assign {
+                    base,
+                    index,
+                    value,
+                    checked,
+                    site,
+                } => out.push(Stmt::Assign {
                     base: *base,
                     index: index.as_ref().map(|(n, lo, len)| (self.node(n), *lo, *len)),
                     value: self.node(value),
@@ -156,11 +182,17 @@ impl Folder<'_> {
     fn node(&mut self, node: &Node) -> Node {
         match node {
             Node::Cell(Space::Param, k) => Node::Const(i64::from(self.bound.values[*k as usize])),
-            Node::Cell(Space::Before | Space::Now, k) => fixed(node, self.bound.states[*k as usize]),
+            Node::Cell(Space::Before | Space::Now, k) => {
+                fixed(node, self.bound.states[*k as usize])
+            }
             Node::Cell(Space::Input, k) => fixed(node, self.bound.inputs[*k as usize]),
             Node::Lazy(k) => {
                 let value = self.lazy(*k as usize);
-                if size(&value) <= INLINE { value } else { node.clone() }
+                if size(&value) <= INLINE {
+                    value
+                } else {
+                    node.clone()
+                }
             }
             _ => {
                 let node = node.map(&mut |n| self.node(n));
@@ -172,15 +204,31 @@ impl Folder<'_> {
 
 /// A cell whose range has one value is that value.
 fn fixed(node: &Node, (lo, hi): (i32, i32)) -> Node {
-    if lo == hi { Node::Const(i64::from(lo)) } else { node.clone() }
+    if lo == hi {
+        Node::Const(i64::from(lo))
+    } else {
+        node.clone()
+    }
 }
 
 /// What an expression becomes when parts of it are constants; none if they change nothing.
 fn simplify(node: &Node, params: &[i32]) -> Option<Node> {
-    let constant = |n: &Node| if let Node::Const(v) = n { Some(*v) } else { None };
+    let constant = |n: &Node| {
+        if let Node::Const(v) = n {
+            Some(*v)
+        } else {
+            None
+        }
+    };
     let constants = |values: &[Node]| values.iter().map(constant).collect::<Option<Vec<i64>>>();
     match node {
-        Node::Element { space, base, lo, index, .. } => {
+        Node::Element {
+            space,
+            base,
+            lo,
+            index,
+            ..
+        } => {
             let cell = *base as usize + usize::try_from(constant(index)? - lo).ok()?;
             match space {
                 Space::Param => params.get(cell).map(|v| Node::Const(i64::from(*v))),
@@ -269,7 +317,13 @@ impl Ranges<'_, '_> {
                     }
                 }
             }
-            Node::Element { space, base, len, index, .. } => {
+            Node::Element {
+                space,
+                base,
+                len,
+                index,
+                ..
+            } => {
                 self.of(index)?;
                 let base = *base as usize;
                 hull((base..base + *len as usize).map(|k| cell(*space, k)))
@@ -284,7 +338,11 @@ impl Ranges<'_, '_> {
             }
             Node::Abs(a) => {
                 let (lo, hi) = self.of(a)?;
-                let least = if lo <= 0 && hi >= 0 { 0 } else { lo.abs().min(hi.abs()) };
+                let least = if lo <= 0 && hi >= 0 {
+                    0
+                } else {
+                    lo.abs().min(hi.abs())
+                };
                 (least, lo.abs().max(hi.abs()))
             }
             Node::Binary(op, a, b) => {
@@ -301,7 +359,10 @@ impl Ranges<'_, '_> {
             }
             Node::Min(values) => {
                 let all = self.all(values)?;
-                (least(all.iter().map(|r| r.0)), least(all.iter().map(|r| r.1)))
+                (
+                    least(all.iter().map(|r| r.0)),
+                    least(all.iter().map(|r| r.1)),
+                )
             }
             Node::Max(values) => {
                 let all = self.all(values)?;
@@ -324,18 +385,30 @@ fn most(values: impl Iterator<Item = i64>) -> i64 {
 }
 
 fn hull(ranges: impl Iterator<Item = Range> + Clone) -> Range {
-    (least(ranges.clone().map(|r| r.0)), most(ranges.map(|r| r.1)))
+    (
+        least(ranges.clone().map(|r| r.0)),
+        most(ranges.map(|r| r.1)),
+    )
 }
 
 /// Operands are within 32 bits, so that 64 bits hold every result.
 fn arithmetic(op: BinaryOp, (a, b): Range, (c, d): Range) -> Range {
-    let corners = |f: fn(i64, i64) -> i64| hull([f(a, c), f(a, d), f(b, c), f(b, d)].map(|v| (v, v)).into_iter());
+    let corners = |f: fn(i64, i64) -> i64| {
+        hull(
+            [f(a, c), f(a, d), f(b, c), f(b, d)]
+                .map(|v| (v, v))
+                .into_iter(),
+        )
+    };
     match op {
         BinaryOp::Add => (a + c, b + d),
         BinaryOp::Sub => (a - d, b - c),
         BinaryOp::Mul => corners(|x, y| x * y),
         // The quotient is never further from zero than the dividend.
-        BinaryOp::Div => (-most([a.abs(), b.abs()].into_iter()), most([a.abs(), b.abs()].into_iter())),
+        BinaryOp::Div => (
+            -most([a.abs(), b.abs()].into_iter()),
+            most([a.abs(), b.abs()].into_iter()),
+        ),
         BinaryOp::Mod => {
             let most = most([c.abs(), d.abs()].into_iter()).max(1) - 1;
             (if a < 0 { -most } else { 0 }, if b > 0 { most } else { 0 })

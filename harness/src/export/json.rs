@@ -30,23 +30,41 @@ pub fn json(bound: &Bound) -> Value {
         .map(|(k, s)| {
             let initial = bound.initial[k].map(|v| system.show(s.var.ty, i64::from(v)));
             // Null: any value of the range.
-            with(cell(&s.var, Some(bound.states[k])), "initial", json!(initial))
+            with(
+                cell(&s.var, Some(bound.states[k])),
+                "initial",
+                json!(initial),
+            )
         })
         .collect();
-    let inputs: Vec<Value> = system.inputs.iter().zip(&bound.inputs).map(|(v, r)| cell(v, Some(*r))).collect();
+    let inputs: Vec<Value> = system
+        .inputs
+        .iter()
+        .zip(&bound.inputs)
+        .map(|(v, r)| cell(v, Some(*r)))
+        .collect();
     let params: Vec<Value> = system
         .params
         .iter()
         .zip(&bound.values)
         .filter(|(p, _)| p.reading.is_none())
-        .map(|(p, v)| with(cell(&p.var, None), "value", json!(system.show(p.var.ty, i64::from(*v)))))
+        .map(|(p, v)| {
+            with(
+                cell(&p.var, None),
+                "value",
+                json!(system.show(p.var.ty, i64::from(*v))),
+            )
+        })
         .collect();
     let chosen = bound.readings();
     let readings: Vec<Value> = system
         .readings
         .iter()
         .map(|r| {
-            let option = chosen.iter().find(|(id, _)| *id == r.id).map(|(_, option)| option);
+            let option = chosen
+                .iter()
+                .find(|(id, _)| *id == r.id)
+                .map(|(_, option)| option);
             json!({ "id": r.id, "text": r.text, "options": r.options, "chosen": option })
         })
         .collect();
@@ -106,14 +124,20 @@ fn type_name(bound: &Bound, ty: Ty) -> String {
     match ty {
         Ty::Bool => "BOOL".to_owned(),
         Ty::Int => "INT".to_owned(),
-        Ty::Enum(e) => bound.system.enums.get(e).map_or("INT".to_owned(), |e| e.name.clone()),
+        Ty::Enum(e) => bound
+            .system
+            .enums
+            .get(e)
+            .map_or("INT".to_owned(), |e| e.name.clone()),
     }
 }
 
 fn form_name(form: &Form) -> &'static str {
     match form {
         Form::Always { .. } => "always",
-        Form::LeadsTo { within: Some(_), .. } => "bounded response",
+        Form::LeadsTo {
+            within: Some(_), ..
+        } => "bounded response",
         Form::LeadsTo { .. } => "response",
         Form::Unless { .. } => "weak until",
         Form::CanAlwaysReach { .. } => "recoverable",

@@ -37,7 +37,11 @@ impl Known {
 
     /// Where two ways meet.
     pub fn join(&mut self, other: &Known) {
-        let pairs = self.inputs.iter_mut().zip(&other.inputs).chain(self.lazies.iter_mut().zip(&other.lazies));
+        let pairs = self
+            .inputs
+            .iter_mut()
+            .zip(&other.inputs)
+            .chain(self.lazies.iter_mut().zip(&other.lazies));
         for (a, b) in pairs {
             if a != b {
                 *a = Status::Maybe;
@@ -52,9 +56,12 @@ impl Known {
             all &= match n {
                 Node::Cell(Space::Input, k) => self.inputs[*k as usize] == Status::Yes,
                 Node::Lazy(k) => self.lazies[*k as usize] == Status::Yes,
-                Node::Element { space: Space::Input, base, len, .. } => {
-                    (*base..base + len).all(|k| self.inputs[k as usize] == Status::Yes)
-                }
+                Node::Element {
+                    space: Space::Input,
+                    base,
+                    len,
+                    ..
+                } => (*base..base + len).all(|k| self.inputs[k as usize] == Status::Yes),
                 _ => true,
             };
         });
@@ -65,7 +72,9 @@ impl Known {
 /// For each named expression whether its value depends on no input, also not through others.
 pub fn without_inputs(folded: &Folded) -> Vec<bool> {
     let mut memo = vec![None; folded.lazies.len()];
-    (0..folded.lazies.len()).map(|k| free(folded, k, &mut memo)).collect()
+    (0..folded.lazies.len())
+        .map(|k| free(folded, k, &mut memo))
+        .collect()
 }
 
 fn free(folded: &Folded, k: usize, memo: &mut Vec<Option<bool>>) -> bool {
@@ -75,7 +84,11 @@ fn free(folded: &Folded, k: usize, memo: &mut Vec<Option<bool>>) -> bool {
     let mut used = Vec::new();
     let mut free_here = true;
     folded.lazies[k].visit(&mut |n| match n {
-        Node::Cell(Space::Input, _) | Node::Element { space: Space::Input, .. } => free_here = false,
+        Node::Cell(Space::Input, _)
+        | Node::Element {
+            space: Space::Input,
+            ..
+        } => free_here = false,
         Node::Lazy(j) => used.push(*j as usize),
         _ => {}
     });
@@ -94,7 +107,12 @@ pub fn read_anywhere(folded: &Folded) -> BTreeSet<usize> {
             Node::Cell(Space::Input, k) => {
                 inputs.insert(*k as usize);
             }
-            Node::Element { space: Space::Input, base, len, .. } => {
+            Node::Element {
+                space: Space::Input,
+                base,
+                len,
+                ..
+            } => {
                 inputs.extend(*base as usize..(*base + *len) as usize);
             }
             Node::Lazy(k) => open.push(*k as usize),
@@ -103,9 +121,14 @@ pub fn read_anywhere(folded: &Folded) -> BTreeSet<usize> {
     };
     for (_, rule) in folded.rules.iter().flatten() {
         see(&rule.when, &mut open);
-        rule.then.iter().for_each(|s| s.expressions(&mut |n| see(n, &mut open)));
+        rule.then
+            .iter()
+            .for_each(|s| s.expressions(&mut |n| see(n, &mut open)));
     }
-    folded.claims().into_iter().for_each(|k| see(&folded.atoms[k], &mut open));
+    folded
+        .claims()
+        .into_iter()
+        .for_each(|k| see(&folded.atoms[k], &mut open));
     while let Some(k) = open.pop() {
         if lazies.insert(k) {
             see(&folded.lazies[k], &mut open);

@@ -5,8 +5,8 @@
 
 pub mod dot;
 mod fold;
-mod known;
 pub mod json;
+mod known;
 mod names;
 pub mod promela;
 mod select;
@@ -26,7 +26,9 @@ pub struct Unsupported(pub String);
 /// # Errors
 /// As of writing and renaming; nothing is left behind then.
 pub fn write_atomically(path: &Path, text: &str) -> std::io::Result<()> {
-    let name = path.file_name().ok_or_else(|| std::io::Error::other("this names no file"))?;
+    let name = path
+        .file_name()
+        .ok_or_else(|| std::io::Error::other("this names no file"))?;
     let mut own = std::ffi::OsString::from(".");
     own.push(name);
     own.push(format!(".{}.tmp", std::process::id()));

@@ -11,7 +11,9 @@ pub fn select<'a>(subject: &'a Subject, wanted: Option<&str>) -> Result<&'a Task
     let matches: Vec<&Task> = match wanted {
         None => subject.tasks.iter().collect(),
         Some(wanted) => {
-            let (name, axis) = wanted.split_once(':').map_or((wanted, None), |(n, a)| (n, Some(a)));
+            let (name, axis) = wanted
+                .split_once(':')
+                .map_or((wanted, None), |(n, a)| (n, Some(a)));
             let named = |t: &&Task| {
                 let full = t.bound.system.name.as_str();
                 full == name || short(full) == name
@@ -27,7 +29,10 @@ pub fn select<'a>(subject: &'a Subject, wanted: Option<&str>) -> Result<&'a Task
             wanted.unwrap_or_default(),
             list(&subject.tasks.iter().collect::<Vec<_>>())
         )),
-        several => Err(format!("say which system is meant with --system: {}", list(several))),
+        several => Err(format!(
+            "say which system is meant with --system: {}",
+            list(several)
+        )),
     }
 }
 
@@ -39,7 +44,11 @@ fn short(name: &str) -> &str {
 fn list(tasks: &[&Task]) -> String {
     let name = |t: &Task| {
         let name = short(&t.bound.system.name).to_owned();
-        let shared = tasks.iter().filter(|o| o.bound.system.name == t.bound.system.name).count() > 1;
+        let shared = tasks
+            .iter()
+            .filter(|o| o.bound.system.name == t.bound.system.name)
+            .count()
+            > 1;
         match t.axes.first() {
             Some(axis) if shared => format!("{name}:{axis}"),
             _ => name,

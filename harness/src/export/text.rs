@@ -57,7 +57,9 @@ impl Printer<'_> {
     fn type_of(&self, node: &Node) -> Option<Ty> {
         match node {
             Node::Const(_) => None,
-            Node::Cell(space, k) | Node::Element { space, base: k, .. } => self.cell(*space, *k).map(|(_, ty)| ty),
+            Node::Cell(space, k) | Node::Element { space, base: k, .. } => {
+                self.cell(*space, *k).map(|(_, ty)| ty)
+            }
             Node::Lazy(k) => self.system.lazies.get(*k as usize).map(|l| l.ty),
             Node::Not(_) => Some(Ty::Bool),
             Node::Neg(_) | Node::Abs(_) => Some(Ty::Int),
@@ -79,7 +81,11 @@ impl Printer<'_> {
     }
 
     fn name(&self, space: Space, name: &str) -> String {
-        if space == Space::Before { format!("PREV({name})") } else { name.to_owned() }
+        if space == Space::Before {
+            format!("PREV({name})")
+        } else {
+            name.to_owned()
+        }
     }
 
     fn call(&self, name: &str, values: &[&Node], ty: Option<Ty>) -> String {
@@ -96,8 +102,14 @@ impl Printer<'_> {
                 let name = self.cell(*space, *k).map_or("?", |(n, _)| n);
                 self.name(*space, name)
             }
-            Node::Lazy(k) => self.system.lazies.get(*k as usize).map_or("?".to_owned(), |l| l.name.clone()),
-            Node::Element { space, base, index, .. } => {
+            Node::Lazy(k) => self
+                .system
+                .lazies
+                .get(*k as usize)
+                .map_or("?".to_owned(), |l| l.name.clone()),
+            Node::Element {
+                space, base, index, ..
+            } => {
                 let name = self.cell(*space, *base).map_or("?", |(n, _)| n);
                 let array = name.rsplit_once('[').map_or(name, |(array, _)| array);
                 self.name(*space, &format!("{array}[{}]", self.show(index, None, 0)))
@@ -112,16 +124,30 @@ impl Printer<'_> {
                     3 | 4 => self.type_of(a).or_else(|| self.type_of(b)),
                     _ => None,
                 };
-                let text = format!("{} {} {}", self.show(a, both, s), symbol(*op), self.show(b, both, s + 1));
-                if s < around { format!("({text})") } else { text }
+                let text = format!(
+                    "{} {} {}",
+                    self.show(a, both, s),
+                    symbol(*op),
+                    self.show(b, both, s + 1)
+                );
+                if s < around {
+                    format!("({text})")
+                } else {
+                    text
+                }
             }
             Node::Sel(g, a, b) => {
-                let (g, a, b) = (self.show(g, Some(Ty::Bool), 0), self.show(a, ty, 0), self.show(b, ty, 0));
+                let (g, a, b) = (
+                    self.show(g, Some(Ty::Bool), 0),
+                    self.show(a, ty, 0),
+                    self.show(b, ty, 0),
+                );
                 format!("SEL({g}, {a}, {b})")
             }
             Node::Mux(k, values) => {
-                let list: Vec<String> =
-                    std::iter::once(self.show(k, None, 0)).chain(values.iter().map(|v| self.show(v, ty, 0))).collect();
+                let list: Vec<String> = std::iter::once(self.show(k, None, 0))
+                    .chain(values.iter().map(|v| self.show(v, ty, 0)))
+                    .collect();
                 format!("MUX({})", list.join(", "))
             }
             Node::Min(values) => self.call("MIN", &values.iter().collect::<Vec<_>>(), ty),
@@ -132,7 +158,9 @@ impl Printer<'_> {
     fn statements(&self, list: &[Stmt], out: &mut String) {
         for statement in list {
             match statement {
-                Stmt::Assign { base, index, value, .. } => {
+                Stmt::Assign {
+                    base, index, value, ..
+                } => {
                     let (name, ty) = self.cell(Space::Now, *base).unwrap_or(("?", Ty::Int));
                     let target = match index {
                         None => name.to_owned(),
@@ -146,7 +174,10 @@ impl Printer<'_> {
                 Stmt::If(branches, rest) => {
                     for (n, (guard, body)) in branches.iter().enumerate() {
                         let head = if n == 0 { "IF" } else { "ELSIF" };
-                        out.push_str(&format!("{head} {} THEN ", self.show(guard, Some(Ty::Bool), 0)));
+                        out.push_str(&format!(
+                            "{head} {} THEN ",
+                            self.show(guard, Some(Ty::Bool), 0)
+                        ));
                         self.statements(body, out);
                     }
                     if !rest.is_empty() {

@@ -31,7 +31,9 @@ impl From<Diagnostics> for ReadError {
 /// The nearest folder at or above `start` that has a `Cargo.toml` and a folder `impl`.
 pub fn find_root(start: &Path) -> Option<PathBuf> {
     let here = start.canonicalize().ok()?;
-    let found = here.ancestors().find(|dir| dir.join("Cargo.toml").is_file() && dir.join("impl").is_dir())?;
+    let found = here
+        .ancestors()
+        .find(|dir| dir.join("Cargo.toml").is_file() && dir.join("impl").is_dir())?;
     Some(found.to_owned())
 }
 
@@ -46,22 +48,41 @@ pub fn find_root(start: &Path) -> Option<PathBuf> {
 pub fn read(root: &Path) -> Result<Sources, ReadError> {
     for folder in ["spec", "impl/src", "proofs/src"] {
         if !root.join(folder).is_dir() {
-            let message = format!("{} has no folder {folder}; name the repository with --root", root.display());
+            let message = format!(
+                "{} has no folder {folder}; name the repository with --root",
+                root.display()
+            );
             return Err(ReadError::Other(message));
         }
     }
-    let mut sources = Sources { catalogue: catalogue::load(&root.join("spec"))?, ..Sources::default() };
-    let families: BTreeSet<String> = sources.catalogue.requirements.iter().map(|r| r.family.clone()).collect();
+    let mut sources = Sources {
+        catalogue: catalogue::load(&root.join("spec"))?,
+        ..Sources::default()
+    };
+    let families: BTreeSet<String> = sources
+        .catalogue
+        .requirements
+        .iter()
+        .map(|r| r.family.clone())
+        .collect();
     for family in &families {
         tables(&root.join("spec").join(family), family, &mut sources)?;
     }
-    let prefixes: BTreeSet<String> =
-        sources.catalogue.requirements.iter().filter_map(|r| r.id.split('-').next().map(str::to_owned)).collect();
+    let prefixes: BTreeSet<String> = sources
+        .catalogue
+        .requirements
+        .iter()
+        .filter_map(|r| r.id.split('-').next().map(str::to_owned))
+        .collect();
     let proofs = texts(root, &root.join("proofs/src"))?;
     for (place, text) in texts(root, &root.join("impl/src"))? {
         let contract = format!("{}_contract", module(&place));
         let proved = proofs.iter().any(|(_, text)| text.contains(&contract));
-        for line in text.lines().map(str::trim_start).take_while(|l| !l.starts_with("#[cfg(test)]")) {
+        for line in text
+            .lines()
+            .map(str::trim_start)
+            .take_while(|l| !l.starts_with("#[cfg(test)]"))
+        {
             let documents = line.starts_with("///") || line.starts_with("//!");
             if line.starts_with("//") && !documents {
                 continue;
@@ -75,22 +96,32 @@ pub fn read(root: &Path) -> Result<Sources, ReadError> {
         }
     }
     for (place, text) in &proofs {
-        ids(text, &prefixes).into_iter().for_each(|id| add(&mut sources.proofs, id, place));
+        ids(text, &prefixes)
+            .into_iter()
+            .for_each(|id| add(&mut sources.proofs, id, place));
     }
     for folder in test_folders(root)? {
         for (place, text) in texts(root, &folder)? {
-            ids(&text, &prefixes).into_iter().for_each(|id| add(&mut sources.tests, id, &place));
+            ids(&text, &prefixes)
+                .into_iter()
+                .for_each(|id| add(&mut sources.tests, id, &place));
         }
     }
     Ok(sources)
 }
 
 fn add(named: &mut Named, id: &str, place: &str) {
-    named.entry(id.to_owned()).or_default().insert(place.to_owned());
+    named
+        .entry(id.to_owned())
+        .or_default()
+        .insert(place.to_owned());
 }
 
 fn module(place: &str) -> &str {
-    Path::new(place).file_stem().and_then(|s| s.to_str()).unwrap_or(place)
+    Path::new(place)
+        .file_stem()
+        .and_then(|s| s.to_str())
+        .unwrap_or(place)
 }
 
 /// The requirement ids in a text: `PREFIX-AREA-123`, with a prefix of the catalogues and exactly three digits.
@@ -107,14 +138,20 @@ fn is_id(word: &str, prefixes: &BTreeSet<String>) -> bool {
     };
     prefixes.contains(*prefix)
         && area.starts_with(|c: char| c.is_ascii_uppercase())
-        && area.chars().all(|c| c.is_ascii_uppercase() || c.is_ascii_digit())
+        && area
+            .chars()
+            .all(|c| c.is_ascii_uppercase() || c.is_ascii_digit())
         && number.len() == 3
         && number.chars().all(|c| c.is_ascii_digit())
 }
 
 /// `tests` at the root, and in each folder beside it.
 fn test_folders(root: &Path) -> Result<Vec<PathBuf>, ReadError> {
-    let mut out: Vec<PathBuf> = entries(root)?.iter().filter(|p| !hidden(p)).map(|p| p.join("tests")).collect();
+    let mut out: Vec<PathBuf> = entries(root)?
+        .iter()
+        .filter(|p| !hidden(p))
+        .map(|p| p.join("tests"))
+        .collect();
     out.push(root.join("tests"));
     out.retain(|p| p.is_dir());
     // The tests of the crate `tests` are below the folder at the root.
@@ -129,7 +166,8 @@ fn hidden(path: &Path) -> bool {
 }
 
 fn entries(folder: &Path) -> Result<Vec<PathBuf>, ReadError> {
-    let fail = |e: std::io::Error| ReadError::Other(format!("{} cannot be listed: {e}", folder.display()));
+    let fail =
+        |e: std::io::Error| ReadError::Other(format!("{} cannot be listed: {e}", folder.display()));
     let mut out = Vec::new();
     for entry in std::fs::read_dir(folder).map_err(fail)? {
         out.push(entry.map_err(fail)?.path());
@@ -147,7 +185,10 @@ fn texts(root: &Path, folder: &Path) -> Result<Vec<(String, String)>, ReadError>
         }
         if path.is_dir() {
             out.extend(texts(root, &path)?);
-        } else if path.extension().is_some_and(|e| e == "rs" || e == "toml" || e == "txt") {
+        } else if path
+            .extension()
+            .is_some_and(|e| e == "rs" || e == "toml" || e == "txt")
+        {
             let bytes = std::fs::read(&path)
                 .map_err(|e| ReadError::Other(format!("{} cannot be read: {e}", path.display())))?;
             // Inputs that are bad on purpose need not be UTF-8; they name no requirement.
@@ -181,21 +222,31 @@ struct Declared {
 
 fn parsed<T: serde::de::DeserializeOwned>(path: &Path) -> Result<T, ReadError> {
     let text = read_text(path, "file of a family")?;
-    toml::from_str(&text).map_err(|e| ReadError::Other(format!("{}: {}", path.display(), e.to_string().trim())))
+    toml::from_str(&text)
+        .map_err(|e| ReadError::Other(format!("{}: {}", path.display(), e.to_string().trim())))
 }
 
 /// The specification files, family data, exceptions and status of one family.
 fn tables(folder: &Path, family: &str, sources: &mut Sources) -> Result<(), ReadError> {
     let mut specs: Vec<Table> = Vec::new();
-    for path in entries(folder)?.into_iter().filter(|p| p.extension().is_some_and(|e| e == "toml")) {
+    for path in entries(folder)?
+        .into_iter()
+        .filter(|p| p.extension().is_some_and(|e| e == "toml"))
+    {
         match path.file_name().and_then(|n| n.to_str()).unwrap_or("") {
             "exceptions.toml" => {
                 let Exceptions { exception } = parsed(&path)?;
                 for Exception { id, reason } in exception {
                     if reason.trim().is_empty() {
-                        return Err(ReadError::Other(format!("{}: an exception without reason", path.display())));
+                        return Err(ReadError::Other(format!(
+                            "{}: an exception without reason",
+                            path.display()
+                        )));
                     }
-                    sources.exceptions.extend(id.into_iter().map(|id| (family.to_owned(), id, reason.clone())));
+                    sources.exceptions.extend(
+                        id.into_iter()
+                            .map(|id| (family.to_owned(), id, reason.clone())),
+                    );
                 }
             }
             "status.toml" => {
@@ -230,13 +281,21 @@ fn tables(folder: &Path, family: &str, sources: &mut Sources) -> Result<(), Read
 }
 
 fn children<'a>(table: &'a Table, key: &str) -> impl Iterator<Item = (&'a String, &'a Value)> {
-    table.get(key).and_then(Value::as_table).into_iter().flatten()
+    table
+        .get(key)
+        .and_then(Value::as_table)
+        .into_iter()
+        .flatten()
 }
 
 fn used_machines(specs: &[Table]) -> BTreeSet<String> {
     let mut used = BTreeSet::new();
     for (_, system) in specs.iter().flat_map(|spec| children(spec, "system")) {
-        let instances = system.get("instance").and_then(Value::as_table).into_iter().flatten();
+        let instances = system
+            .get("instance")
+            .and_then(Value::as_table)
+            .into_iter()
+            .flatten();
         used.extend(instances.filter_map(|(_, i)| i.get("machine")?.as_str().map(str::to_owned)));
     }
     used
@@ -244,20 +303,27 @@ fn used_machines(specs: &[Table]) -> BTreeSet<String> {
 
 /// Every table below `value` that names requirements by `id` (a list) or `req`. `owner` is the machine, system or file.
 fn data(owner: &str, value: &Value, rules: &mut Named) {
-    let mut open: BTreeMap<usize, (String, &Value)> = BTreeMap::from([(0, (owner.to_owned(), value))]);
+    let mut open: BTreeMap<usize, (String, &Value)> =
+        BTreeMap::from([(0, (owner.to_owned(), value))]);
     let mut next = 1;
     while let Some((_, (place, value))) = open.pop_first() {
         match value {
             Value::Table(table) => {
                 for (key, inner) in table {
                     if let ("id" | "req", Some(list)) = (key.as_str(), inner.as_array()) {
-                        list.iter().filter_map(Value::as_str).for_each(|id| add(rules, id, &place));
+                        list.iter()
+                            .filter_map(Value::as_str)
+                            .for_each(|id| add(rules, id, &place));
                     } else {
                         let grouping = matches!(
                             key.as_str(),
                             "rule" | "property" | "let" | "output" | "state" | "input" | "param"
                         );
-                        let inner_place = if grouping { place.clone() } else { format!("{place}.{key}") };
+                        let inner_place = if grouping {
+                            place.clone()
+                        } else {
+                            format!("{place}.{key}")
+                        };
                         open.insert(next, (inner_place, inner));
                         next += 1;
                     }
@@ -265,7 +331,9 @@ fn data(owner: &str, value: &Value, rules: &mut Named) {
             }
             Value::Array(list) => {
                 for inner in list {
-                    let name = ["name", "id", "variable"].iter().find_map(|k| inner.get(k)?.as_str());
+                    let name = ["name", "id", "variable"]
+                        .iter()
+                        .find_map(|k| inner.get(k)?.as_str());
                     let inner_place = name.map_or(place.clone(), |n| format!("{place}.{n}"));
                     open.insert(next, (inner_place, inner));
                     next += 1;
@@ -284,7 +352,10 @@ mod tests {
     fn ids_are_whole_words_of_known_prefixes() {
         let prefixes = BTreeSet::from(["F".to_owned()]);
         let text = "(F-STOP-001), `F-A2-123`: F-P-05 F-STOP-0012 X-STOP-001 F-STOP-001-X aF-STOP-001 F-STOP-002.";
-        assert_eq!(ids(text, &prefixes), ["F-STOP-001", "F-A2-123", "F-STOP-002"]);
+        assert_eq!(
+            ids(text, &prefixes),
+            ["F-STOP-001", "F-A2-123", "F-STOP-002"]
+        );
     }
 
     #[test]
@@ -313,9 +384,18 @@ mod tests {
         let mut sources = Sources::default();
         tables(&folder, "f", &mut sources).expect("readable");
         let rules = &sources.rules;
-        assert_eq!(rules["F-STOP-001"], BTreeSet::from(["stop.rise".to_owned(), "one.P-01".to_owned()]));
-        assert_eq!(rules["F-STOP-002"], BTreeSet::from(["stop.wanted".to_owned()]));
-        assert!(!rules.contains_key("F-STOP-003"), "no system has the machine");
+        assert_eq!(
+            rules["F-STOP-001"],
+            BTreeSet::from(["stop.rise".to_owned(), "one.P-01".to_owned()])
+        );
+        assert_eq!(
+            rules["F-STOP-002"],
+            BTreeSet::from(["stop.wanted".to_owned()])
+        );
+        assert!(
+            !rules.contains_key("F-STOP-003"),
+            "no system has the machine"
+        );
         assert_eq!(sources.exceptions.len(), 1);
         assert!(sources.complete.contains("f"));
         std::fs::write(folder.join("status.toml"), "family_complet = true\n").expect("written");

@@ -32,7 +32,8 @@ impl Count {
             Status::Excepted => self.excepted += 1,
             Status::Open => self.open += 1,
         }
-        self.open_core += usize::from(row.status == Status::Open && row.requirement.scope == Scope::Core);
+        self.open_core +=
+            usize::from(row.status == Status::Open && row.requirement.scope == Scope::Core);
     }
 }
 
@@ -54,13 +55,21 @@ pub fn text(matrix: &Matrix) -> String {
         let (a, b, open, core) = (c.covered, c.excepted, c.open, c.open_core);
         let _ = writeln!(out, "{name:<24}{a:>8}{b:>10}{open:>8}{core:>12}");
     };
-    let _ = writeln!(out, "{:<24}{:>8}{:>10}{:>8}{:>12}", "", "covered", "excepted", "open", "of it core");
+    let _ = writeln!(
+        out,
+        "{:<24}{:>8}{:>10}{:>8}{:>12}",
+        "", "covered", "excepted", "open", "of it core"
+    );
     for (family, (all, areas)) in counts(matrix) {
         line(&mut out, family, all);
         for (area, count) in areas {
             line(&mut out, &format!("  {area}"), count);
         }
-        let declared = if matrix.complete.contains(family) { "declared complete" } else { "not declared complete" };
+        let declared = if matrix.complete.contains(family) {
+            "declared complete"
+        } else {
+            "not declared complete"
+        };
         let _ = writeln!(out, "  ({declared})");
     }
     for (id, place) in &matrix.unknown {
@@ -68,7 +77,13 @@ pub fn text(matrix: &Matrix) -> String {
     }
     out.push_str("\nOpen core requirements and what is missing\n");
     for row in matrix.open_core() {
-        let _ = writeln!(out, "  {:<20}{} [{}]", row.requirement.id, row.requirement.title, missing(row));
+        let _ = writeln!(
+            out,
+            "  {:<20}{} [{}]",
+            row.requirement.id,
+            row.requirement.title,
+            missing(row)
+        );
     }
     out
 }
@@ -101,12 +116,19 @@ pub fn to_json(matrix: &Matrix) -> Value {
             })
         })
         .collect();
-    let unknown: Vec<Value> = matrix.unknown.iter().map(|(id, by)| json!({ "id": id, "named_by": by })).collect();
+    let unknown: Vec<Value> = matrix
+        .unknown
+        .iter()
+        .map(|(id, by)| json!({ "id": id, "named_by": by }))
+        .collect();
     json!({ "requirements": rows, "unknown": unknown, "complete": matrix.complete })
 }
 
 fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+    text.replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;")
+        .replace('"', "&quot;")
 }
 
 /// The matrix as one HTML page without anything from outside.

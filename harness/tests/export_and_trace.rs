@@ -1,0 +1,145 @@
+//! `stillpoint export` and `stillpoint trace` as commands: what they print, write and answer.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+fn stillpoint(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_stillpoint"))
+        .args(arguments)
+        .current_dir(root())
+        .output()
+        .expect("runs")
+}
+
+fn stdout(output: &Output) -> String {
+    String::from_utf8(output.stdout.clone()).expect("UTF-8")
+}
+
+/// A file that goes away with the value.
+struct File(PathBuf);
+
+impl File {
+    fn new(name: &str) -> Self {
+        Self(Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{}-{name}", std::process::id())))
+    }
+
+    fn name(&self) -> &str {
+        self.0.to_str().expect("UTF-8")
+    }
+
+    fn text(&self) -> String {
+        std::fs::read_to_string(&self.0).expect("was written")
+    }
+}
+
+impl Drop for File {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_file(&self.0);
+    }
+}
+
+#[test]
+fn every_format_is_written() {
+    let file = File::new("two-axis.pml");
+    let output = stillpoint(&[
+        "export",
+        "spec/bench/two-axis.toml",
+        "--to",
+        "promela",
+        "--output",
+        file.name(),
+    ]);
+    assert_eq!(
+        (output.status.code(), stdout(&output).as_str()),
+        (Some(0), "")
+    );
+    assert!(
+        file.text().contains("short s_axis_1_timer;"),
+        "{}",
+        file.text()
+    );
+    let printed = stillpoint(&["export", "spec/bench/two-axis.toml", "--to", "promela"]);
+    assert_eq!(stdout(&printed), file.text());
+
+    let must_fail = "tests/must-fail/lower-stop-displaces-higher.toml";
+    let dot = stdout(&stillpoint(&["export", must_fail, "--to", "dot"]));
+    assert!(
+        dot.starts_with("// ") && dot.contains("digraph") && dot.contains("->"),
+        "{dot}"
+    );
+
+    let json = stillpoint(&[
+        "export",
+        "spec/machines/milling-840d.toml",
+        "--system",
+        "stop:X",
+        "--to",
+        "json",
+    ]);
+    let value: serde_json::Value = serde_json::from_slice(&json.stdout).expect("JSON");
+    assert_eq!(value["system"], "sinumerik-840d/axis/stop");
+    let mut rules = value["instances"]
+        .as_array()
+        .expect("a list")
+        .iter()
+        .flat_map(|i| i["rules"].as_array().expect("a list"));
+    let rule = rules
+        .find(|r| r["name"] == "stop.stop_b_goes_on")
+        .expect("the rule");
+    assert_eq!(rule["requirements"][0], "S840D-STOP-021");
+    assert!(
+        rule["when"].as_str().is_some_and(|t| t.contains("= B")),
+        "{rule}"
+    );
+}
+
+#[test]
+fn wrong_arguments_are_named() {
+    let error = |arguments: &[&str]| {
+        let output = stillpoint(arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        String::from_utf8(output.stderr).expect("UTF-8")
+    };
+    let axis = "spec/sinumerik-840d/axis.toml";
+    assert!(error(&["export", axis, "--to", "murphi"]).contains("promela, dot, json"));
+    assert!(error(&["export", axis, "--to", "json"]).contains("stop, stop_pair"));
+    assert!(
+        error(&["export", axis, "--to", "json", "--system", "stopp"]).contains("no system `stopp`")
+    );
+    let nowhere = [
+        "export",
+        axis,
+        "--to",
+        "json",
+        "--system",
+        "stop",
+        "--output",
+        "no/such/folder/x.json",
+    ];
+    assert!(error(&nowhere).contains("cannot be written"));
+    assert!(error(&["trace", "--root", "spec"]).contains("has no folder spec"));
+}
+
+#[test]
+fn the_matrix_is_printed_and_written() {
+    let file = File::new("matrix.html");
+    let output = stillpoint(&["trace", "--json", "--html", file.name()]);
+    assert_eq!(
+        output.status.code(),
+        Some(0),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    let value: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    let rows = value["requirements"].as_array().expect("a list");
+    let html = file.text();
+    assert!(rows.len() > 1000);
+    for row in rows {
+        assert!(html.contains(row["id"].as_str().expect("a text")), "{row}");
+    }
+    assert!(stdout(&stillpoint(&["trace"])).contains("sinumerik-840d"));
+}
