@@ -76,8 +76,13 @@ pub fn check(
             witnesses: false,
             ..Options::default()
         };
-        let outcome = engine::run(&task.bound, &options, settings.interpret, progress(task).as_mut())
-            .map_err(|e| (task.title.clone(), e))?;
+        let outcome = engine::run(
+            &task.bound,
+            &options,
+            settings.interpret,
+            progress(task).as_mut(),
+        )
+        .map_err(|e| (task.title.clone(), e))?;
         let unfired = unfired(task, &outcome);
         out.push(Checked { outcome, unfired });
     }
@@ -95,7 +100,10 @@ fn unfired(task: &Task, outcome: &Outcome) -> Vec<(String, Unfired)> {
             (Some(a), Some(b)) => format!("{}{}", &rule.name[..a], &rule.name[b + 1..]),
             _ => rule.name.clone(),
         };
-        let reason = system.unreached.iter().find(|(n, _)| *n == rule.name || *n == general);
+        let reason = system
+            .unreached
+            .iter()
+            .find(|(n, _)| *n == rule.name || *n == general);
         let why = if task.analysis.dead.contains(&k) {
             Unfired::Parameters
         } else if let Some((_, reason)) = reason {
@@ -126,7 +134,13 @@ pub fn summarise(subject: &Subject, checked: &[Checked]) -> Vec<Summary> {
     let mut order: Vec<String> = Vec::new();
     let mut best: BTreeMap<String, Summary> = BTreeMap::new();
     for (task, done) in subject.tasks.iter().zip(checked) {
-        for (property, judged) in task.bound.system.properties.iter().zip(&done.outcome.report.properties) {
+        for (property, judged) in task
+            .bound
+            .system
+            .properties
+            .iter()
+            .zip(&done.outcome.report.properties)
+        {
             let new = Summary {
                 id: property.id.clone(),
                 verdict: judged.verdict,
@@ -150,11 +164,21 @@ pub fn summarise(subject: &Subject, checked: &[Checked]) -> Vec<Summary> {
             let id = "range".to_owned();
             if !best.contains_key(&id) {
                 order.push(id.clone());
-                best.insert(id.clone(), Summary { id, verdict: Verdict::Violated, length: fault.length });
+                best.insert(
+                    id.clone(),
+                    Summary {
+                        id,
+                        verdict: Verdict::Violated,
+                        length: fault.length,
+                    },
+                );
             }
         }
     }
-    order.into_iter().filter_map(|id| best.remove(&id)).collect()
+    order
+        .into_iter()
+        .filter_map(|id| best.remove(&id))
+        .collect()
 }
 
 /// Exit status for the verdicts: 1 violated (or a witness that must exist does not), 3 inconclusive, 0 otherwise.
@@ -187,7 +211,12 @@ pub struct Violation<'a> {
 pub fn violations<'a>(subject: &'a Subject, checked: &'a [Checked]) -> Vec<Violation<'a>> {
     let mut out = Vec::new();
     for (task, done) in subject.tasks.iter().zip(checked) {
-        let judged = task.bound.system.properties.iter().zip(&done.outcome.report.properties);
+        let judged = task
+            .bound
+            .system
+            .properties
+            .iter()
+            .zip(&done.outcome.report.properties);
         for (k, (property, judged)) in judged.enumerate() {
             if judged.verdict == Verdict::Violated {
                 out.push(Violation {

@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 
 use stillpoint_model::table::{Generated, Interpreted, properties};
 use stillpoint_model::{
-    Error, Form, Judgement, Options, Progress, Property, Report, Replay, System, Trace, Twin, Verdict, explore,
+    Error, Form, Judgement, Options, Progress, Property, Replay, Report, System, Trace, Twin,
+    Verdict, explore,
 };
 use stillpoint_spec::bind::Bound;
 use stillpoint_spec::eval::{Frame, UNSET};
@@ -51,10 +52,20 @@ pub fn run(
 ) -> Result<Outcome, Error> {
     let listed = properties(bound);
     let single: Vec<Property> = listed.iter().map(|(_, p)| p.clone()).collect();
-    let generated = if interpret { None } else { Generated::find(bound) };
+    let generated = if interpret {
+        None
+    } else {
+        Generated::find(bound)
+    };
     let (mut report, evaluator) = match generated {
-        Some(system) => (explore(&system, &single, options, progress)?, Evaluator::Generated),
-        None => (explore(&Interpreted::new(bound), &single, options, progress)?, Evaluator::Interpreter),
+        Some(system) => (
+            explore(&system, &single, options, progress)?,
+            Evaluator::Generated,
+        ),
+        None => (
+            explore(&Interpreted::new(bound), &single, options, progress)?,
+            Evaluator::Interpreter,
+        ),
     };
     let mut judged: Vec<Option<Judgement>> = vec![None; bound.system.properties.len()];
     for ((k, _), judgement) in listed.iter().zip(std::mem::take(&mut report.properties)) {
@@ -62,11 +73,27 @@ pub fn run(
     }
     let mut pairs = BTreeMap::new();
     for (k, property) in bound.system.properties.iter().enumerate() {
-        let ir::Form::Independent { observe, of, condition } = &property.form else {
+        let ir::Form::Independent {
+            observe,
+            of,
+            condition,
+        } = &property.form
+        else {
             continue;
         };
-        let claim = Claim { bound, observe, of, condition: *condition, id: label(property), options };
-        let (outcome, pair) = match if interpret { None } else { Generated::find(bound) } {
+        let claim = Claim {
+            bound,
+            observe,
+            of,
+            condition: *condition,
+            id: label(property),
+            options,
+        };
+        let (outcome, pair) = match if interpret {
+            None
+        } else {
+            Generated::find(bound)
+        } {
             Some(system) => claim.explore(&system)?,
             None => claim.explore(&Interpreted::new(bound))?,
         };
@@ -88,7 +115,11 @@ pub fn run(
             })
         })
         .collect();
-    Ok(Outcome { report, evaluator, pairs })
+    Ok(Outcome {
+        report,
+        evaluator,
+        pairs,
+    })
 }
 
 /// A claim about pairs of runs that differ in some inputs only.
@@ -105,12 +136,25 @@ impl Claim<'_> {
     /// Explores all such pairs; a counterexample's first run stays in the judgement.
     fn explore<S: System>(self, system: &S) -> Result<(Report, Pair), Error> {
         let inputs = &self.bound.inputs;
-        let size = |k: usize| u32::try_from(i64::from(inputs[k].1) - i64::from(inputs[k].0) + 1).unwrap_or(u32::MAX);
+        let size = |k: usize| {
+            u32::try_from(i64::from(inputs[k].1) - i64::from(inputs[k].0) + 1).unwrap_or(u32::MAX)
+        };
         let listed = self.of.iter().map(|k| (*k as u32, size(*k))).collect();
         let twin = Twin::new(system, listed, self.condition, self.observe.to_vec());
-        let form = Form::Always { when: Some(Twin::<S>::BOTH), then: Twin::<S>::AGREE };
-        let mut report = explore(&twin, &[Property { id: self.id, form }], self.options, &mut ())?;
-        let mut pair = Pair { states: report.states, second: None };
+        let form = Form::Always {
+            when: Some(Twin::<S>::BOTH),
+            then: Twin::<S>::AGREE,
+        };
+        let mut report = explore(
+            &twin,
+            &[Property { id: self.id, form }],
+            self.options,
+            &mut (),
+        )?;
+        let mut pair = Pair {
+            states: report.states,
+            second: None,
+        };
         for judgement in &mut report.properties {
             if let Some(trace) = judgement.trace.take() {
                 let [first, second] = twin.split(&trace);
@@ -124,7 +168,9 @@ impl Claim<'_> {
 
 /// Id of a property with the index of its copy.
 pub fn label(property: &ir::Property) -> String {
-    property.index.map_or(property.id.clone(), |i| format!("{}[{i}]", property.id))
+    property
+        .index
+        .map_or(property.id.clone(), |i| format!("{}[{i}]", property.id))
 }
 
 /// One cycle of a replayed run.
@@ -145,7 +191,9 @@ pub fn replay(bound: &Bound, trace: &Trace) -> Vec<Cycle> {
     let mut cycles = Vec::new();
     for step in &trace.steps {
         let mut after = state.clone();
-        let fault = system.next(&mut frame, &state, &mut Replay::new(step), &mut after).is_err();
+        let fault = system
+            .next(&mut frame, &state, &mut Replay::new(step), &mut after)
+            .is_err();
         for k in 0..bound.system.atoms.len() {
             // Atoms may have read inputs the step did not need; they belong to the cycle as well.
             let read = step.iter().map(|(i, _)| *i as usize).collect::<Vec<_>>();
@@ -153,13 +201,20 @@ pub fn replay(bound: &Bound, trace: &Trace) -> Vec<Cycle> {
             let mut extra = false;
             bound.atom(k, &mut probe, &mut |i| {
                 extra |= !read.contains(&i);
-                bound.inputs[i].0 + step.iter().find(|(n, _)| *n as usize == i).map_or(0, |(_, v)| *v as i32)
+                bound.inputs[i].0
+                    + step
+                        .iter()
+                        .find(|(n, _)| *n as usize == i)
+                        .map_or(0, |(_, v)| *v as i32)
             });
             if !extra {
                 frame = probe;
             }
         }
-        cycles.push(Cycle { frame: frame.clone(), choices: step.clone() });
+        cycles.push(Cycle {
+            frame: frame.clone(),
+            choices: step.clone(),
+        });
         if fault {
             break;
         }

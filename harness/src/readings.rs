@@ -57,12 +57,20 @@ pub fn compare(
     for task in &main.tasks {
         for reading in &task.bound.system.readings {
             if !ids.iter().any(|(id, ..)| *id == reading.id) {
-                ids.push((reading.id.clone(), reading.text.clone(), reading.options.clone()));
+                ids.push((
+                    reading.id.clone(),
+                    reading.text.clone(),
+                    reading.options.clone(),
+                ));
             }
         }
     }
     for (id, text, options) in ids {
-        let against = chosen.get(&id).or(options.first()).cloned().unwrap_or_default();
+        let against = chosen
+            .get(&id)
+            .or(options.first())
+            .cloned()
+            .unwrap_or_default();
         for option in options.iter().filter(|o| **o != against) {
             let mut readings = chosen.clone();
             readings.insert(id.clone(), option.clone());
@@ -90,12 +98,21 @@ pub fn compare(
                     ..Options::default()
                 };
                 let title = format!("{id}={option}: {}", task.title);
-                let outcome =
-                    engine::run(&task.bound, &options, settings.interpret, progress(&title).as_mut())
-                        .map_err(|e| Failed::Explore(title, e))?;
+                let outcome = engine::run(
+                    &task.bound,
+                    &options,
+                    settings.interpret,
+                    progress(&title).as_mut(),
+                )
+                .map_err(|e| Failed::Explore(title, e))?;
                 compared.tasks += 1;
                 compared.complete &= outcome.report.complete;
-                let results = done.outcome.report.properties.iter().zip(&outcome.report.properties);
+                let results = done
+                    .outcome
+                    .report
+                    .properties
+                    .iter()
+                    .zip(&outcome.report.properties);
                 for (property, (a, b)) in task.bound.system.properties.iter().zip(results) {
                     let (a, b) = (shown(a.verdict, a.bound), shown(b.verdict, b.bound));
                     if a != b {
@@ -132,11 +149,19 @@ fn uses(bound: &Bound, id: &str) -> bool {
 pub fn text(compared: &[Compared]) -> String {
     let mut out = String::from("Readings of the manual\n");
     for c in compared {
-        let _ = writeln!(out, "  {} {} instead of {} ({})", c.reading, c.option, c.against, c.text);
+        let _ = writeln!(
+            out,
+            "  {} {} instead of {} ({})",
+            c.reading, c.option, c.against, c.text
+        );
         if c.tasks == 0 {
             out.push_str("    no system of this file uses it\n");
         } else if c.changes.is_empty() {
-            let _ = writeln!(out, "    no verdict depends on it ({} explorations)", c.tasks);
+            let _ = writeln!(
+                out,
+                "    no verdict depends on it ({} explorations)",
+                c.tasks
+            );
         }
         for (id, a, b) in &c.changes {
             let _ = writeln!(out, "    {id}: {a} -> {b}");
@@ -153,8 +178,11 @@ pub fn to_json(compared: &[Compared]) -> Value {
     compared
         .iter()
         .map(|c| {
-            let changes: Vec<Value> =
-                c.changes.iter().map(|(id, a, b)| json!({ "id": id, "main": a, "other": b })).collect();
+            let changes: Vec<Value> = c
+                .changes
+                .iter()
+                .map(|(id, a, b)| json!({ "id": id, "main": a, "other": b }))
+                .collect();
             json!({
                 "id": c.reading, "option": c.option, "against": c.against,
                 "explorations": c.tasks, "complete": c.complete, "changes": changes,

@@ -65,7 +65,11 @@ pub fn text(subject: &Subject, checked: &[Checked], summaries: &[Summary]) -> St
             .filter(|a| !machine.groups.iter().any(|g| g.iter().any(|m| m == a)))
             .collect();
         if !alone.is_empty() {
-            let _ = writeln!(out, "On its own, explored separately: {}.", alone.join(", "));
+            let _ = writeln!(
+                out,
+                "On its own, explored separately: {}.",
+                alone.join(", ")
+            );
         }
         for item in &machine.not_explored {
             let _ = writeln!(out, "Not explored: {item}");
@@ -100,7 +104,12 @@ fn properties(out: &mut String, subject: &Subject, checked: &[Checked]) {
     // The same id may be stated differently in different systems: those are rows of their own.
     let mut rows: Vec<Row> = Vec::new();
     for (n, (task, done)) in subject.tasks.iter().zip(checked).enumerate() {
-        let both = task.bound.system.properties.iter().zip(&done.outcome.report.properties);
+        let both = task
+            .bound
+            .system
+            .properties
+            .iter()
+            .zip(&done.outcome.report.properties);
         for (property, judged) in both {
             let known = rows.iter_mut().find(|r| {
                 r.id == property.id && r.text == property.text && r.verdict == judged.verdict
@@ -126,7 +135,12 @@ fn properties(out: &mut String, subject: &Subject, checked: &[Checked]) {
             }
         }
     }
-    rows.sort_by_key(|r| !matches!(r.verdict, Verdict::Violated | Verdict::Unreachable | Verdict::Inconclusive));
+    rows.sort_by_key(|r| {
+        !matches!(
+            r.verdict,
+            Verdict::Violated | Verdict::Unreachable | Verdict::Inconclusive
+        )
+    });
     let width = rows.iter().map(|r| r.id.chars().count()).max().unwrap_or(0);
     let several = subject.tasks.len() > 1;
     for row in &rows {
@@ -134,8 +148,16 @@ fn properties(out: &mut String, subject: &Subject, checked: &[Checked]) {
             .runs
             .iter()
             .map(|(bound, runs)| {
-                let list = runs.iter().map(usize::to_string).collect::<Vec<_>>().join(", ");
-                let runs = if several { format!("run {list}") } else { String::new() };
+                let list = runs
+                    .iter()
+                    .map(usize::to_string)
+                    .collect::<Vec<_>>()
+                    .join(", ");
+                let runs = if several {
+                    format!("run {list}")
+                } else {
+                    String::new()
+                };
                 match bound {
                     Some(k) => format!("within {k} cycles {runs}").trim_end().to_owned(),
                     None => runs,
@@ -143,7 +165,11 @@ fn properties(out: &mut String, subject: &Subject, checked: &[Checked]) {
             })
             .filter(|t| !t.is_empty())
             .collect();
-        let told = if told.is_empty() { String::new() } else { format!(" [{}]", told.join("; ")) };
+        let told = if told.is_empty() {
+            String::new()
+        } else {
+            format!(" [{}]", told.join("; "))
+        };
         let head = format!("  {:<12} {:<width$}", verdict_name(row.verdict), row.id);
         wrapped(out, &head, &format!("{}{told}", row.text));
     }
@@ -167,7 +193,10 @@ fn headline(out: &mut String, subject: &Subject, checked: &[Checked], summaries:
         1 => "VIOLATED",
         _ => "INCONCLUSIVE: a limit was reached first",
     };
-    let states: u128 = checked.iter().map(|c| u128::from(c.outcome.report.states)).sum();
+    let states: u128 = checked
+        .iter()
+        .map(|c| u128::from(c.outcome.report.states))
+        .sum();
     let transitions: u128 = checked.iter().map(|c| c.outcome.report.transitions).sum();
     let seconds: f64 = checked.iter().map(|c| c.outcome.report.seconds).sum();
     let _ = writeln!(out, "{}: {verdict}", subject.name);
@@ -195,9 +224,16 @@ fn headline(out: &mut String, subject: &Subject, checked: &[Checked], summaries:
         grouped(transitions),
         if complete { "complete" } else { "NOT complete" },
     );
-    let findings = checked.iter().flat_map(|c| &c.unfired).filter(|(_, u)| *u == Unfired::Unexplained).count();
+    let findings = checked
+        .iter()
+        .flat_map(|c| &c.unfired)
+        .filter(|(_, u)| *u == Unfired::Unexplained)
+        .count();
     if findings > 0 {
-        let _ = writeln!(out, "FINDING: {findings} rules never fire and nothing says why; see below.");
+        let _ = writeln!(
+            out,
+            "FINDING: {findings} rules never fire and nothing says why; see below."
+        );
     }
     out.push('\n');
 }
@@ -206,7 +242,10 @@ fn run(out: &mut String, n: usize, task: &Task, done: &Checked) {
     let report = &done.outcome.report;
     let _ = writeln!(out, "Run {n}: {}", task.title);
     let _ = writeln!(out, "  system {}", task.bound.system.name);
-    let params: Vec<String> = params(&task.bound).iter().map(|(n, v)| format!("{n} = {v}")).collect();
+    let params: Vec<String> = params(&task.bound)
+        .iter()
+        .map(|(n, v)| format!("{n} = {v}"))
+        .collect();
     if !params.is_empty() {
         wrapped(out, "  with ", &params.join(", "));
     }
@@ -236,7 +275,11 @@ fn run(out: &mut String, n: usize, task: &Task, done: &Checked) {
         wrapped(out, "  warning: ", warning);
     }
     for skipped in &task.analysis.skipped {
-        wrapped(out, "  not analysed: ", &format!("guards of {skipped} read too many values"));
+        wrapped(
+            out,
+            "  not analysed: ",
+            &format!("guards of {skipped} read too many values"),
+        );
     }
     out.push('\n');
 }
@@ -257,7 +300,11 @@ fn unfired(out: &mut String, done: &Checked) {
         }
     }
     for (why, rules) in reasons {
-        wrapped(out, "  rules not fired: ", &format!("{} ({why})", rules.join(", ")));
+        wrapped(
+            out,
+            "  rules not fired: ",
+            &format!("{} ({why})", rules.join(", ")),
+        );
     }
 }
 
@@ -286,7 +333,12 @@ fn wrapped(out: &mut String, head: &str, text: &str) {
 pub fn params(bound: &Bound) -> Vec<(String, String)> {
     let all = bound.system.params.iter().zip(&bound.values);
     all.filter(|(p, _)| p.reading.is_none())
-        .map(|(p, v)| (p.var.name.clone(), bound.system.show(p.var.ty, i64::from(*v))))
+        .map(|(p, v)| {
+            (
+                p.var.name.clone(),
+                bound.system.show(p.var.ty, i64::from(*v)),
+            )
+        })
         .collect()
 }
 
@@ -296,7 +348,10 @@ fn steps(trace: &Trace, bound: &Bound) -> Value {
             .filter_map(|(k, v)| {
                 let input = bound.system.inputs.get(*k as usize)?;
                 let (lo, _) = bound.inputs[*k as usize];
-                Some((input.name.clone(), json!(bound.system.show(input.ty, i64::from(lo) + i64::from(*v)))))
+                Some((
+                    input.name.clone(),
+                    json!(bound.system.show(input.ty, i64::from(lo) + i64::from(*v))),
+                ))
             })
             .collect::<serde_json::Map<_, _>>()
             .into()

@@ -61,7 +61,10 @@ fn has_key(text: &str, key: &str) -> bool {
     text.lines()
         .map(str::trim_start)
         .take_while(|l| !l.starts_with('['))
-        .any(|l| l.strip_prefix(key).is_some_and(|rest| rest.trim_start().starts_with('=')))
+        .any(|l| {
+            l.strip_prefix(key)
+                .is_some_and(|rest| rest.trim_start().starts_with('='))
+        })
 }
 
 fn of_spec(path: &Path, text: Arc<str>, readings: &Readings) -> Result<Subject> {
@@ -94,9 +97,11 @@ fn of_spec(path: &Path, text: Arc<str>, readings: &Readings) -> Result<Subject> 
     }
     if tasks.is_empty() {
         let file = path.display().to_string();
-        return Err(Diagnostic::new(&file, &text, None, "declares no system to check")
-            .help("add [system.NAME] with instances, or check a file that uses this one")
-            .into());
+        return Err(
+            Diagnostic::new(&file, &text, None, "declares no system to check")
+                .help("add [system.NAME] with instances, or check a file that uses this one")
+                .into(),
+        );
     }
     Ok(Subject {
         path: path.to_owned(),
@@ -146,8 +151,11 @@ fn bind(
     readings: &Readings,
 ) -> Result<Bound> {
     Bound::new(system, params, readings).map_err(|e: BindError| {
-        let help = "give the parameter a value of its range, or correct the mapping in the family's file";
-        Diagnostic::new(&path.display().to_string(), source, None, e.to_string()).help(help).into()
+        let help =
+            "give the parameter a value of its range, or correct the mapping in the family's file";
+        Diagnostic::new(&path.display().to_string(), source, None, e.to_string())
+            .help(help)
+            .into()
     })
 }
 
@@ -155,8 +163,11 @@ fn bind(
 pub fn families(path: &Path) -> PathBuf {
     let absolute = path.canonicalize().unwrap_or_else(|_| path.to_owned());
     let has_families = |dir: &Path| {
-        std::fs::read_dir(dir)
-            .is_ok_and(|entries| entries.flatten().any(|e| e.path().join("family.toml").is_file()))
+        std::fs::read_dir(dir).is_ok_and(|entries| {
+            entries
+                .flatten()
+                .any(|e| e.path().join("family.toml").is_file())
+        })
     };
     for dir in absolute.ancestors().skip(1) {
         for candidate in [dir.to_owned(), dir.join("spec")] {

@@ -56,7 +56,9 @@ impl Diagram {
         }
         lanes.retain(|l| l.values.iter().any(Option::is_some));
         for (k, state) in system.states.iter().enumerate() {
-            let first = cycles.first().and_then(|c| show(state.var.ty, c.frame.before[k]));
+            let first = cycles
+                .first()
+                .and_then(|c| show(state.var.ty, c.frame.before[k]));
             let values = cycles.iter().map(|c| show(state.var.ty, c.frame.now[k]));
             lanes.push(Lane {
                 group: "state",
@@ -69,7 +71,9 @@ impl Diagram {
             if output.kind != LazyKind::Output {
                 continue;
             }
-            let values = cycles.iter().map(|c| lazy(bound, c, k).map(|v| system.show(output.ty, v)));
+            let values = cycles
+                .iter()
+                .map(|c| lazy(bound, c, k).map(|v| system.show(output.ty, v)));
             lanes.push(Lane {
                 group: "outputs",
                 name: output.name.clone(),
@@ -78,13 +82,24 @@ impl Diagram {
             });
         }
         lanes.retain(|l| l.group == "inputs" || l.changes());
-        Self { lanes, columns: cycles.len() + 1, marks: Vec::new(), loop_start: None }
+        Self {
+            lanes,
+            columns: cycles.len() + 1,
+            marks: Vec::new(),
+            loop_start: None,
+        }
     }
 
     /// The diagram as text.
     pub fn text(&self) -> String {
         let columns = self.folded();
-        let name_width = self.lanes.iter().map(|l| l.name.chars().count()).max().unwrap_or(4).max(5);
+        let name_width = self
+            .lanes
+            .iter()
+            .map(|l| l.name.chars().count())
+            .max()
+            .unwrap_or(4)
+            .max(5);
         let cell = self
             .lanes
             .iter()
@@ -124,7 +139,13 @@ impl Diagram {
             }
             for (k, mark) in &self.marks {
                 if let Some(at) = page.iter().position(|c| *c == Column::Cycle(*k)) {
-                    let _ = writeln!(out, "  {:name_width$} {:at$}^ {mark}", "", "", at = at * cell);
+                    let _ = writeln!(
+                        out,
+                        "  {:name_width$} {:at$}^ {mark}",
+                        "",
+                        "",
+                        at = at * cell
+                    );
                 }
             }
         }
@@ -136,11 +157,17 @@ impl Diagram {
 
     /// The columns drawn: stretches in which nothing changes are folded into one.
     fn folded(&self) -> Vec<Column> {
-        let same = |a: usize, b: usize| self.lanes.iter().all(|l| l.values.get(a) == l.values.get(b));
-        let marked = |k: usize| self.marks.iter().any(|(m, _)| *m == k) || self.loop_start == Some(k);
+        let same = |a: usize, b: usize| {
+            self.lanes
+                .iter()
+                .all(|l| l.values.get(a) == l.values.get(b))
+        };
+        let marked =
+            |k: usize| self.marks.iter().any(|(m, _)| *m == k) || self.loop_start == Some(k);
         let mut out: Vec<Column> = Vec::new();
         for k in 0..self.columns {
-            let idle = k > 1 && k + 1 < self.columns && !marked(k) && same(k, k - 1) && same(k, k + 1);
+            let idle =
+                k > 1 && k + 1 < self.columns && !marked(k) && same(k, k - 1) && same(k, k + 1);
             match (idle, out.last_mut()) {
                 (true, Some(Column::Idle(n))) => *n += 1,
                 (true, _) => out.push(Column::Idle(1)),
@@ -187,7 +214,9 @@ impl Lane {
             let line = if value == "TRUE" { "▔" } else { "▁" };
             return line.repeat(width);
         }
-        let fresh = *k == 0 || self.values.get(k - 1) != self.values.get(*k) || page.first() == Some(column);
+        let fresh = *k == 0
+            || self.values.get(k - 1) != self.values.get(*k)
+            || page.first() == Some(column);
         if fresh {
             let cut: String = value.chars().take(width - 1).collect();
             format!("{cut:<width$}")
@@ -206,14 +235,20 @@ mod tests {
             group: "state",
             name: name.to_owned(),
             level,
-            values: values.iter().map(|v| (*v != "?").then(|| (*v).to_owned())).collect(),
+            values: values
+                .iter()
+                .map(|v| (*v != "?").then(|| (*v).to_owned()))
+                .collect(),
         }
     }
 
     #[test]
     fn draws_levels_values_and_marks() {
         let diagram = Diagram {
-            lanes: vec![lane("on", true, &["?", "FALSE", "TRUE"]), lane("stop", false, &["NONE", "B", "B"])],
+            lanes: vec![
+                lane("on", true, &["?", "FALSE", "TRUE"]),
+                lane("stop", false, &["NONE", "B", "B"]),
+            ],
             columns: 3,
             marks: vec![(2, "here".to_owned())],
             loop_start: None,
@@ -227,7 +262,9 @@ mod tests {
 
     #[test]
     fn folds_idle_stretches() {
-        let values: Vec<&str> = std::iter::once("0").chain(std::iter::repeat_n("1", 100)).collect();
+        let values: Vec<&str> = std::iter::once("0")
+            .chain(std::iter::repeat_n("1", 100))
+            .collect();
         let diagram = Diagram {
             lanes: vec![lane("x", false, &values)],
             columns: values.len(),

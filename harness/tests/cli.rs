@@ -40,7 +40,13 @@ fn status(output: &Output) -> i32 {
 fn files(folder: &str) -> Vec<String> {
     let mut found: Vec<String> = std::fs::read_dir(root().join(folder))
         .expect("the folder")
-        .map(|entry| entry.expect("an entry").file_name().into_string().expect("a plain name"))
+        .map(|entry| {
+            entry
+                .expect("an entry")
+                .file_name()
+                .into_string()
+                .expect("a plain name")
+        })
         .filter(|name| name.ends_with(".toml"))
         .map(|name| format!("{folder}/{name}"))
         .collect();
@@ -56,12 +62,16 @@ fn expectation(file: &str) -> (String, u64) {
     let found: Vec<&str> = lines.filter_map(|l| l.strip_prefix("# expect: ")).collect();
     let parsed = match found[..] {
         [one] => one.split_once(" violated, ").and_then(|(id, rest)| {
-            let number = rest.strip_suffix(" cycles").or(rest.strip_suffix(" cycle"))?;
+            let number = rest
+                .strip_suffix(" cycles")
+                .or(rest.strip_suffix(" cycle"))?;
             Some((id.to_owned(), number.parse().ok()?))
         }),
         _ => None,
     };
-    parsed.unwrap_or_else(|| panic!("{file}: write `# expect: ID violated, N cycles` at its top, not {found:?}"))
+    parsed.unwrap_or_else(|| {
+        panic!("{file}: write `# expect: ID violated, N cycles` at its top, not {found:?}")
+    })
 }
 
 #[test]
@@ -79,23 +89,57 @@ fn seeded_errors_are_found_with_the_shortest_run() {
             .filter(|p| p["verdict"] == "violated")
             .collect();
         assert_eq!(violated.len(), 1, "{file}: {violated:?}");
-        assert_eq!((&violated[0]["id"], &violated[0]["length"]), (&Value::from(id.as_str()), &length.into()), "{file}");
+        assert_eq!(
+            (&violated[0]["id"], &violated[0]["length"]),
+            (&Value::from(id.as_str()), &length.into()),
+            "{file}"
+        );
 
         let text = stillpoint(&["check", &file]);
         assert_eq!(status(&text), 1, "{file}");
         let text = stdout(&text);
-        assert!(text.starts_with("must-fail/") && text.contains(": VIOLATED\n"), "{file}: {text}");
-        assert!(text.contains(&format!("VIOLATED  {id}  ")), "{file}: {text}");
-        assert!(text.contains(&format!("shortest run, {length} cycles:")), "{file}: {text}");
+        assert!(
+            text.starts_with("must-fail/") && text.contains(": VIOLATED\n"),
+            "{file}: {text}"
+        );
+        assert!(
+            text.contains(&format!("VIOLATED  {id}  ")),
+            "{file}: {text}"
+        );
+        assert!(
+            text.contains(&format!("shortest run, {length} cycles:")),
+            "{file}: {text}"
+        );
         // The diagram: a line of cycle numbers, the inputs, the state, and the mark under the last cycle.
-        let mark = text.lines().position(|l| l.trim_end().ends_with("^ violated here")).expect("the mark");
-        let head = text.lines().position(|l| l.trim_start().starts_with("cycle ")).expect("the cycles");
+        let mark = text
+            .lines()
+            .position(|l| l.trim_end().ends_with("^ violated here"))
+            .expect("the mark");
+        let head = text
+            .lines()
+            .position(|l| l.trim_start().starts_with("cycle "))
+            .expect("the cycles");
         assert!(head < mark, "{file}");
         let cycles = text.lines().nth(head).expect("the line");
-        let last = cycles.split_whitespace().next_back().expect("the last cycle");
-        assert_eq!(last.trim_end_matches('>'), length.to_string(), "{file}: {cycles}");
-        let between: Vec<&str> = text.lines().skip(head).take(mark - head).map(str::trim).collect();
-        assert!(between.contains(&"inputs") && between.contains(&"state"), "{file}: {text}");
+        let last = cycles
+            .split_whitespace()
+            .next_back()
+            .expect("the last cycle");
+        assert_eq!(
+            last.trim_end_matches('>'),
+            length.to_string(),
+            "{file}: {cycles}"
+        );
+        let between: Vec<&str> = text
+            .lines()
+            .skip(head)
+            .take(mark - head)
+            .map(str::trim)
+            .collect();
+        assert!(
+            between.contains(&"inputs") && between.contains(&"state"),
+            "{file}: {text}"
+        );
     }
 }
 
@@ -104,7 +148,11 @@ fn refused(arguments: &[&str]) -> String {
     let output = stillpoint(arguments);
     let message = stderr(&output);
     assert_eq!(status(&output), 2, "{arguments:?}: {message}");
-    assert!(output.stdout.is_empty(), "{arguments:?}: {}", stdout(&output));
+    assert!(
+        output.stdout.is_empty(),
+        "{arguments:?}: {}",
+        stdout(&output)
+    );
     for word in ["panicked", "RUST_BACKTRACE", "unwrap"] {
         assert!(!message.contains(word), "{arguments:?}: {message}");
     }
@@ -115,7 +163,12 @@ fn refused(arguments: &[&str]) -> String {
 #[test]
 fn bad_machine_files_are_refused_by_every_command() {
     for file in files("tests/bad-input") {
-        for command in [&["check"][..], &["validate"], &["diff", "--exhaustive"], &["check", "--json"]] {
+        for command in [
+            &["check"][..],
+            &["validate"],
+            &["diff", "--exhaustive"],
+            &["check", "--json"],
+        ] {
             let mut arguments = command.to_vec();
             arguments.push(&file);
             let message = refused(&arguments);
@@ -128,27 +181,54 @@ fn bad_machine_files_are_refused_by_every_command() {
 #[test]
 fn messages_name_place_and_fix() {
     let cases = [
-        ("misspelt-parameter", ":7:1]", "STANDSTIL_TOL", "did you mean `STANDSTILL_TOL`?"),
+        (
+            "misspelt-parameter",
+            ":7:1]",
+            "STANDSTIL_TOL",
+            "did you mean 'STANDSTILL_TOL'?",
+        ),
         ("wrong-unit", ":7:18]", "2 s", "help: "),
         ("negative-time", ":7:22]", "-100 ms", "help: "),
         ("enum-value", ":7:17]", "STOP F", "help: "),
-        ("not-utf8", ":3:11]", "not UTF-8", "save the file as UTF-8"),
-        ("axis-twice", ":8:", "axis", "help: "),
-        ("unknown-family", ":2:10]", "sinumerik-840", "sinumerik-840d"),
+        ("not-utf8", ":3:12]", "not UTF-8", "save the file as UTF-8"),
+        (
+            "axis-twice",
+            ":8:7]",
+            "stands twice",
+            "under a name of its own",
+        ),
+        (
+            "unknown-family",
+            ":2:10]",
+            "sinumerik-840",
+            "sinumerik-840d",
+        ),
     ];
     for (name, place, what, fix) in cases {
         let file = format!("tests/bad-input/{name}.toml");
         let message = refused(&["check", &file]);
         for part in [place, what, fix] {
-            assert!(message.contains(part), "{name}: `{part}` is missing in\n{message}");
+            assert!(
+                message.contains(part),
+                "{name}: `{part}` is missing in\n{message}"
+            );
         }
     }
     let empty = refused(&["check", "tests/bad-input/empty.toml"]);
-    assert!(empty.contains("is empty") && empty.contains("family ="), "{empty}");
+    assert!(
+        empty.contains("is empty") && empty.contains("family ="),
+        "{empty}"
+    );
     let folder = refused(&["check", "tests/bad-input"]);
-    assert!(folder.contains("this is a directory, not a machine"), "{folder}");
+    assert!(
+        folder.contains("this is a directory, not a machine"),
+        "{folder}"
+    );
     let none = refused(&["check", "tests/bad-input/no-such-file.toml"]);
-    assert!(none.contains("no such file") && none.contains("check the path"), "{none}");
+    assert!(
+        none.contains("no such file") && none.contains("check the path"),
+        "{none}"
+    );
     if cfg!(unix) {
         let device = refused(&["check", "/dev/null"]);
         assert!(device.contains("this is a device or pipe"), "{device}");
@@ -160,20 +240,36 @@ fn bad_specification_files_are_refused_with_place_and_fix() {
     let dir = std::env::temp_dir().join(format!("stillpoint-cli-{}", std::process::id()));
     std::fs::create_dir_all(&dir).expect("a folder");
     let base = "spec = \"t\"\n[machine.m]\ntext = \"m\"\notherwise = \"stay\"\n[machine.m.state]\nx = { type = \"BOOL\", init = false }\n";
-    let rule = "[[machine.m.rule]]\nname = \"r\"\nnote = \"n\"\nwhen = \"y\"\nthen = \"x := TRUE;\"\n";
+    let rule =
+        "[[machine.m.rule]]\nname = \"r\"\nnote = \"n\"\nwhen = \"y\"\nthen = \"x := TRUE;\"\n";
     let system = "[system.s]\ntext = \"s\"\n[system.s.instance]\nm = { machine = \"m\" }\n";
     let cases: [(&str, String, &[&str]); 4] = [
-        ("unknown-name.toml", format!("{base}{rule}{system}"), &[":10:9]", "`y` is not known here", "help: "]),
-        ("no-system.toml", base.to_owned(), &["declares no system to check", "add [system.NAME]"]),
+        (
+            "unknown-name.toml",
+            format!("{base}{rule}{system}"),
+            &[":10:9]", "`y` is not known here", "help: "],
+        ),
+        (
+            "no-system.toml",
+            base.to_owned(),
+            &["declares no system to check", "add [system.NAME]"],
+        ),
         ("not-toml.toml", format!("{base}x ="), &[":7:", "help: "]),
-        ("unknown-key.toml", format!("{base}{system}wires = 1\n"), &["wires", "help: "]),
+        (
+            "unknown-key.toml",
+            format!("{base}{system}wires = 1\n"),
+            &["wires", "help: "],
+        ),
     ];
     for (name, text, parts) in cases {
         let path = dir.join(name);
         std::fs::write(&path, text).expect("a file");
         let message = refused(&["check", path.to_str().expect("UTF-8")]);
         for part in parts {
-            assert!(message.contains(part), "{name}: `{part}` is missing in\n{message}");
+            assert!(
+                message.contains(part),
+                "{name}: `{part}` is missing in\n{message}"
+            );
         }
     }
     std::fs::remove_dir_all(&dir).expect("the folder goes");
@@ -184,23 +280,47 @@ fn bad_options_are_refused() {
     let file = "spec/bench/two-axis.toml";
     let axis = "spec/sinumerik-840d/axis.toml";
     let cases: [(&[&str], &str); 13] = [
-        (&["check", file, "--memory", "much"], "is not a size; write for example 512MiB"),
+        (
+            &["check", file, "--memory", "much"],
+            "is not a size; write for example 512MiB",
+        ),
         (&["check", file, "--memory", "0"], "is not a size"),
         (&["check", file, "--time", "-5s"], "--time"),
-        (&["check", file, "--time", "5 fortnights"], "is not a duration; write for example 90s"),
+        (
+            &["check", file, "--time", "5 fortnights"],
+            "is not a duration; write for example 90s",
+        ),
         (&["check", file, "--threads", "many"], "--threads"),
-        (&["check", file, "--readings", "A-25"], "write `all` or ID=OPTION"),
-        (&["check", axis, "--readings", "FOO=BAR"], "there is no reading `FOO`; this file has A-"),
-        (&["check", axis, "--readings", "A-25=NEVER"], "reading A-25 has no option `NEVER`; its options are RESET_"),
+        (
+            &["check", file, "--readings", "A-25"],
+            "write `all` or ID=OPTION",
+        ),
+        (
+            &["check", axis, "--readings", "FOO=BAR"],
+            "there is no reading `FOO`; this file has A-",
+        ),
+        (
+            &["check", axis, "--readings", "A-25=NEVER"],
+            "reading A-25 has no option `NEVER`; its options are RESET_",
+        ),
         (&["check"], "Usage"),
         (&["chekc", file], "chekc"),
-        (&["diff", axis, "--mutant", "no-such-mutant"], "no-such-mutant"),
-        (&["diff", axis, "--exhaustive", "--random", "10"], "--random"),
+        (
+            &["diff", axis, "--mutant", "no-such-mutant"],
+            "no-such-mutant",
+        ),
+        (
+            &["diff", axis, "--exhaustive", "--random", "10"],
+            "--random",
+        ),
         (&["diff", axis, "--seed", "3"], "--random"),
     ];
     for (arguments, part) in cases {
         let message = refused(arguments);
-        assert!(message.contains(part), "{arguments:?}: `{part}` is missing in\n{message}");
+        assert!(
+            message.contains(part),
+            "{arguments:?}: `{part}` is missing in\n{message}"
+        );
     }
 }
 
@@ -222,9 +342,18 @@ fn limited(file: &str, limit: &[&str]) -> Value {
     let report = json(&output);
     assert_eq!(report["complete"], false, "{arguments:?}");
     let properties = report["properties"].as_array().expect("properties");
-    let verdicts: Vec<&str> = properties.iter().filter_map(|p| p["verdict"].as_str()).collect();
-    assert!(verdicts.contains(&"inconclusive"), "{arguments:?}: {verdicts:?}");
-    assert!(!verdicts.contains(&"violated") && !verdicts.contains(&"unreachable"), "{arguments:?}: {verdicts:?}");
+    let verdicts: Vec<&str> = properties
+        .iter()
+        .filter_map(|p| p["verdict"].as_str())
+        .collect();
+    assert!(
+        verdicts.contains(&"inconclusive"),
+        "{arguments:?}: {verdicts:?}"
+    );
+    assert!(
+        !verdicts.contains(&"violated") && !verdicts.contains(&"unreachable"),
+        "{arguments:?}: {verdicts:?}"
+    );
     let mut text = vec!["check", file];
     text.extend(limit);
     let text = stillpoint(&text);
@@ -236,9 +365,13 @@ fn limited(file: &str, limit: &[&str]) -> Value {
 /// Two counters that no rule couples: 512 million states in an index space far larger, as many as no MiB holds.
 fn sparse() -> PathBuf {
     let path = std::env::temp_dir().join(format!("stillpoint-sparse-{}.toml", std::process::id()));
-    let mut text = String::from("spec = \"sparse\"\n[machine.m]\ntext = \"m\"\n[machine.m.input]\nstep = \"BOOL\"\n[machine.m.state]\n");
+    let mut text = String::from(
+        "spec = \"sparse\"\n[machine.m]\ntext = \"m\"\n[machine.m.input]\nstep = \"BOOL\"\n[machine.m.state]\n",
+    );
     for k in 0..3 {
-        text.push_str(&format!("x{k} = {{ type = \"INT(0..2000000000)\", init = 0 }}\n"));
+        text.push_str(&format!(
+            "x{k} = {{ type = \"INT(0..2000000000)\", init = 0 }}\n"
+        ));
     }
     text.push_str("[[machine.m.rule]]\nname = \"r\"\nnote = \"n\"\nwhen = \"TRUE\"\nthen = \"");
     text.push_str("IF step THEN x0 := (x0 + 1) MOD 800; ELSE x1 := (x1 + 1) MOD 800; x2 := (x2 + 7) MOD 800; END_IF;\"\n");
@@ -276,5 +409,9 @@ fn an_option_of_a_reading_changes_results() {
     };
     let main = results(&[]);
     assert_ne!(main, results(&["--readings", "A-25=RESET_AT_ONCE"]));
-    assert_eq!(main, results(&["--readings", "A-25=RESET_AFTER_END"]), "the recommended option is the default");
+    assert_eq!(
+        main,
+        results(&["--readings", "A-25=RESET_AFTER_END"]),
+        "the recommended option is the default"
+    );
 }

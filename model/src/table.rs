@@ -26,11 +26,20 @@ impl Shape {
             rules += instance.rules.len();
         }
         Self {
-            domains: bound.states.iter().map(|(lo, hi)| Domain { lo: *lo, hi: *hi }).collect(),
+            domains: bound
+                .states
+                .iter()
+                .map(|(lo, hi)| Domain { lo: *lo, hi: *hi })
+                .collect(),
             inputs: bound
                 .inputs
                 .iter()
-                .map(|(lo, hi)| (*lo, u32::try_from(i64::from(*hi) - i64::from(*lo) + 1).unwrap_or(u32::MAX)))
+                .map(|(lo, hi)| {
+                    (
+                        *lo,
+                        u32::try_from(i64::from(*hi) - i64::from(*lo) + 1).unwrap_or(u32::MAX),
+                    )
+                })
                 .collect(),
             first_rule,
             rules,
@@ -52,7 +61,9 @@ impl Shape {
                 None => {
                     let domain = self.domains[k];
                     let size = u32::try_from(domain.size()).unwrap_or(u32::MAX);
-                    domain.lo.wrapping_add(choices.choose(k as u32, size) as i32)
+                    domain
+                        .lo
+                        .wrapping_add(choices.choose(k as u32, size) as i32)
                 }
             };
         }
@@ -76,7 +87,10 @@ pub struct Interpreted<'a> {
 impl<'a> Interpreted<'a> {
     /// A system over `bound`.
     pub fn new(bound: &'a Bound) -> Self {
-        Self { bound, shape: Shape::new(bound) }
+        Self {
+            bound,
+            shape: Shape::new(bound),
+        }
     }
 
     /// The table and its parameter values.
@@ -113,13 +127,22 @@ impl System for Interpreted<'_> {
     ) -> Result<(), Fault> {
         work.start(before);
         let mut read = |k| self.shape.read(choices, k);
-        self.bound.step(work, &mut read).map_err(|code| Fault { code })?;
+        self.bound
+            .step(work, &mut read)
+            .map_err(|code| Fault { code })?;
         after.copy_from_slice(&work.now);
         Ok(())
     }
 
-    fn atom<C: Choices>(&self, work: &mut Self::Work, atom: usize, choices: &mut C) -> Result<bool, Fault> {
-        Ok(self.bound.atom(atom, work, &mut |k| self.shape.read(choices, k)))
+    fn atom<C: Choices>(
+        &self,
+        work: &mut Self::Work,
+        atom: usize,
+        choices: &mut C,
+    ) -> Result<bool, Fault> {
+        Ok(self
+            .bound
+            .atom(atom, work, &mut |k| self.shape.read(choices, k)))
     }
 
     fn rules(&self) -> usize {
@@ -130,8 +153,15 @@ impl System for Interpreted<'_> {
         self.shape.fired(&work.fired, each);
     }
 
-    fn observe<C: Choices>(&self, work: &mut Self::Work, expression: usize, choices: &mut C) -> Result<i64, Fault> {
-        Ok(self.bound.observe(expression, work, &mut |k| self.shape.read(choices, k)))
+    fn observe<C: Choices>(
+        &self,
+        work: &mut Self::Work,
+        expression: usize,
+        choices: &mut C,
+    ) -> Result<i64, Fault> {
+        Ok(self
+            .bound
+            .observe(expression, work, &mut |k| self.shape.read(choices, k)))
     }
 }
 
@@ -146,7 +176,11 @@ impl<'a> Generated<'a> {
     /// A system over `bound`, if generated code belongs to exactly this specification.
     pub fn find(bound: &'a Bound) -> Option<Self> {
         let table = Table::find(&bound.system.name, bound.system.fingerprint())?;
-        Some(Self { bound, table, shape: Shape::new(bound) })
+        Some(Self {
+            bound,
+            table,
+            shape: Shape::new(bound),
+        })
     }
 }
 
@@ -177,17 +211,25 @@ impl System for Generated<'_> {
         choices: &mut C,
         after: &mut [i32],
     ) -> Result<(), Fault> {
-        self.table.start(work, before);
-        (self.table.step)(work, &self.bound.values, &mut |k| self.shape.read(choices, k))
-            .map_err(|code| Fault { code })?;
+        (self.table.step)(before, work, &self.bound.values, &mut |k| {
+            self.shape.read(choices, k)
+        })
+        .map_err(|code| Fault { code })?;
         after.copy_from_slice(&work[..after.len()]);
         Ok(())
     }
 
     #[inline]
-    fn atom<C: Choices>(&self, work: &mut Self::Work, atom: usize, choices: &mut C) -> Result<bool, Fault> {
-        (self.table.atom)(atom, work, &self.bound.values, &mut |k| self.shape.read(choices, k))
-            .map_err(|code| Fault { code })
+    fn atom<C: Choices>(
+        &self,
+        work: &mut Self::Work,
+        atom: usize,
+        choices: &mut C,
+    ) -> Result<bool, Fault> {
+        (self.table.atom)(atom, work, &self.bound.values, &mut |k| {
+            self.shape.read(choices, k)
+        })
+        .map_err(|code| Fault { code })
     }
 
     fn rules(&self) -> usize {
@@ -196,12 +238,20 @@ impl System for Generated<'_> {
 
     #[inline]
     fn fired(&self, work: &Self::Work, each: &mut impl FnMut(usize)) {
-        self.shape.fired(&work[self.table.cells - self.table.fired..], each);
+        self.shape
+            .fired(&work[self.table.cells - self.table.fired..], each);
     }
 
-    fn observe<C: Choices>(&self, work: &mut Self::Work, expression: usize, choices: &mut C) -> Result<i64, Fault> {
-        (self.table.observe)(expression, work, &self.bound.values, &mut |k| self.shape.read(choices, k))
-            .map_err(|code| Fault { code })
+    fn observe<C: Choices>(
+        &self,
+        work: &mut Self::Work,
+        expression: usize,
+        choices: &mut C,
+    ) -> Result<i64, Fault> {
+        (self.table.observe)(expression, work, &self.bound.values, &mut |k| {
+            self.shape.read(choices, k)
+        })
+        .map_err(|code| Fault { code })
     }
 }
 
@@ -211,23 +261,49 @@ pub fn properties(bound: &Bound) -> Vec<(usize, Property)> {
     let mut out = Vec::new();
     for (k, p) in bound.system.properties.iter().enumerate() {
         let form = match &p.form {
-            ir::Form::Always { when, then } => Form::Always { when: *when, then: *then },
-            ir::Form::LeadsTo { when, goal, within, fair, assuming } => Form::LeadsTo {
+            ir::Form::Always { when, then } => Form::Always {
+                when: *when,
+                then: *then,
+            },
+            ir::Form::LeadsTo {
+                when,
+                goal,
+                within,
+                fair,
+                assuming,
+            } => Form::LeadsTo {
                 when: *when,
                 goal: *goal,
-                within: within.as_ref().map(|n| u32::try_from(bound.constant(n).max(0)).unwrap_or(u32::MAX)),
+                within: within
+                    .as_ref()
+                    .map(|n| u32::try_from(bound.constant(n).max(0)).unwrap_or(u32::MAX)),
                 fair: fair.clone(),
                 assuming: *assuming,
             },
-            ir::Form::Unless { when, holds, unless } => {
-                Form::Unless { when: *when, holds: *holds, unless: *unless }
-            }
-            ir::Form::CanAlwaysReach { goal, using } => Form::CanAlwaysReach { goal: *goal, using: *using },
+            ir::Form::Unless {
+                when,
+                holds,
+                unless,
+            } => Form::Unless {
+                when: *when,
+                holds: *holds,
+                unless: *unless,
+            },
+            ir::Form::CanAlwaysReach { goal, using } => Form::CanAlwaysReach {
+                goal: *goal,
+                using: *using,
+            },
             ir::Form::Reachable { goal } => Form::Reachable { goal: *goal },
             ir::Form::Independent { .. } => continue,
         };
         let index = p.index.map_or(String::new(), |i| format!("[{i}]"));
-        out.push((k, Property { id: format!("{}{index}", p.id), form }));
+        out.push((
+            k,
+            Property {
+                id: format!("{}{index}", p.id),
+                form,
+            },
+        ));
     }
     out
 }

@@ -9,7 +9,7 @@ use crate::ir::{Lazy, LazyKind, Node, Space, Stmt};
 use crate::spec::Spec;
 
 /// Evaluations after which the analysis of one machine gives up and says so.
-const BUDGET: u64 = 1_000_000;
+const BUDGET: u64 = 250_000;
 
 /// What the analysis found.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -43,13 +43,21 @@ impl Spec {
                     true
                 }
             };
-            let stays = match machine.otherwise.as_ref().map(|t| (t, t.get_ref().as_str())) {
+            let stays = match machine
+                .otherwise
+                .as_ref()
+                .map(|t| (t, t.get_ref().as_str()))
+            {
                 None => false,
                 Some((_, "stay")) => true,
                 Some((t, other)) => {
                     errors.push(
-                        self.error(located.file, t.span(), format!("`otherwise` cannot be `{other}`"))
-                            .help("use \"stay\", or leave it out"),
+                        self.error(
+                            located.file,
+                            t.span(),
+                            format!("`otherwise` cannot be `{other}`"),
+                        )
+                        .help("use \"stay\", or leave it out"),
                     );
                     true
                 }
@@ -89,7 +97,11 @@ impl Spec {
         }
         // Instances of one machine repeat its findings.
         errors.dedup_by_key(|e| (e.file.clone(), e.message.clone()));
-        if errors.is_empty() { Ok(out) } else { Err(Diagnostics(errors)) }
+        if errors.is_empty() {
+            Ok(out)
+        } else {
+            Err(Diagnostics(errors))
+        }
     }
 }
 
@@ -127,12 +139,18 @@ impl<'a> Guards<'a> {
         let lazies = system
             .lazies
             .iter()
-            .map(|l| Lazy { value: free(&l.value), ..l.clone() })
+            .map(|l| Lazy {
+                value: free(&l.value),
+                ..l.clone()
+            })
             .collect();
         Self {
             bound,
             whens: rules.iter().map(|r| free(&r.when)).collect(),
-            effects: rules.iter().map(|r| r.then.iter().map(without_site).collect()).collect(),
+            effects: rules
+                .iter()
+                .map(|r| r.then.iter().map(without_site).collect())
+                .collect(),
             lazies,
             names,
         }
@@ -144,7 +162,10 @@ impl<'a> Guards<'a> {
             uncovered: None,
             overlap: None,
         };
-        let cells = Cells { params: &self.bound.values, lazies: &self.lazies };
+        let cells = Cells {
+            params: &self.bound.values,
+            lazies: &self.lazies,
+        };
         let mut frame = Frame::empty();
         frame.inputs = vec![UNSET; self.names.len()];
         frame.lazies = vec![UNSET; self.lazies.len()];
@@ -184,7 +205,8 @@ impl<'a> Guards<'a> {
                 None => {}
             }
             // Where the first rule wins and no rule is needed, there is nothing more to find.
-            if !exclusive && (stays || found.uncovered.is_some()) && found.fires.iter().all(|f| *f) {
+            if !exclusive && (stays || found.uncovered.is_some()) && found.fires.iter().all(|f| *f)
+            {
                 return Some(found);
             }
             reads.truncate(at);
@@ -205,14 +227,22 @@ impl<'a> Guards<'a> {
     }
 
     fn case(&self, frame: &Frame) -> String {
-        let set = frame.inputs.iter().zip(&self.names).filter(|(v, _)| **v != UNSET);
+        let set = frame
+            .inputs
+            .iter()
+            .zip(&self.names)
+            .filter(|(v, _)| **v != UNSET);
         let parts: Vec<String> = set
             .map(|(v, (name, ty, ..))| {
                 let short = name.rsplit('.').next().unwrap_or(name);
                 format!("{short} = {}", self.bound.system.show(*ty, i64::from(*v)))
             })
             .collect();
-        if parts.is_empty() { "any case".to_owned() } else { parts.join(", ") }
+        if parts.is_empty() {
+            "any case".to_owned()
+        } else {
+            parts.join(", ")
+        }
     }
 }
 
@@ -220,8 +250,16 @@ impl<'a> Guards<'a> {
 fn free(node: &Node, state: u32, wire: u32, lazies: &[Lazy]) -> Node {
     match node {
         Node::Cell(Space::Before | Space::Now, k) => Node::Cell(Space::Input, state + k),
-        Node::Lazy(k) if lazies[*k as usize].kind != LazyKind::Let => Node::Cell(Space::Input, wire + k),
-        Node::Element { space: Space::Before | Space::Now, base, lo, len, index } => Node::Element {
+        Node::Lazy(k) if lazies[*k as usize].kind != LazyKind::Let => {
+            Node::Cell(Space::Input, wire + k)
+        }
+        Node::Element {
+            space: Space::Before | Space::Now,
+            base,
+            lo,
+            len,
+            index,
+        } => Node::Element {
             space: Space::Input,
             base: state + base,
             lo: *lo,
@@ -235,7 +273,13 @@ fn free(node: &Node, state: u32, wire: u32, lazies: &[Lazy]) -> Node {
 /// A statement without the number of its place, to compare effects.
 fn without_site(s: &Stmt) -> Stmt {
     match s {
-        Stmt::Assign { base, index, value, checked, .. } => Stmt::Assign {
+        Stmt::Assign {
+            base,
+            index,
+            value,
+            checked,
+            ..
+        } => Stmt::Assign {
             base: *base,
             index: index.clone(),
             value: value.clone(),

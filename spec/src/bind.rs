@@ -143,12 +143,24 @@ impl Bound {
         let bounds = |var: &Var| -> Result<Bounds, BindError> {
             let (lo, hi) = range(var, &values);
             if lo > hi || lo <= i64::from(i32::MIN) || hi > i64::from(i32::MAX) {
-                return Err(BindError::Empty { name: var.name.clone(), lo, hi });
+                return Err(BindError::Empty {
+                    name: var.name.clone(),
+                    lo,
+                    hi,
+                });
             }
             Ok((lo as i32, hi as i32))
         };
-        let states = system.states.iter().map(|s| bounds(&s.var)).collect::<Result<Vec<_>, _>>()?;
-        let inputs = system.inputs.iter().map(bounds).collect::<Result<Vec<_>, _>>()?;
+        let states = system
+            .states
+            .iter()
+            .map(|s| bounds(&s.var))
+            .collect::<Result<Vec<_>, _>>()?;
+        let inputs = system
+            .inputs
+            .iter()
+            .map(bounds)
+            .collect::<Result<Vec<_>, _>>()?;
         let mut initial = Vec::new();
         for (state, (lo, hi)) in system.states.iter().zip(&states) {
             let value = state.init.as_ref().map(|n| evaluate(n, &values));
@@ -164,7 +176,13 @@ impl Bound {
             }
             initial.push(value.map(|v| v as i32));
         }
-        Ok(Self { system, values, states, inputs, initial })
+        Ok(Self {
+            system,
+            values,
+            states,
+            inputs,
+            initial,
+        })
     }
 
     /// Input combinations of one cycle.
@@ -182,7 +200,12 @@ impl Bound {
 
     /// The chosen option of each reading: (id, option).
     pub fn readings(&self) -> Vec<(String, String)> {
-        let chosen = self.system.params.iter().zip(&self.values).filter(|(_, v)| **v == 1);
+        let chosen = self
+            .system
+            .params
+            .iter()
+            .zip(&self.values)
+            .filter(|(_, v)| **v == 1);
         chosen
             .filter_map(|(p, _)| p.reading.clone().map(|id| (id, p.var.name.clone())))
             .collect()
@@ -206,7 +229,10 @@ fn range(var: &Var, values: &[i32]) -> (i64, i64) {
 fn evaluate(node: &Node, values: &[i32]) -> i64 {
     let mut never = |_: usize| 0;
     let mut frame = crate::eval::Frame::empty();
-    let cells = crate::eval::Cells { params: values, lazies: &[] };
+    let cells = crate::eval::Cells {
+        params: values,
+        lazies: &[],
+    };
     match node {
         Node::Const(v) => *v,
         Node::Cell(Space::Param, k) => values.get(*k as usize).copied().map_or(0, i64::from),

@@ -11,8 +11,15 @@ use crate::ir::{BinaryOp, Node, Space, Stmt, System};
 pub fn rust(system: &System, type_name: &str, table_name: &str) -> String {
     let layout = Layout::of(system);
     let head = "<R: FnMut(usize) -> i32 + ?Sized>";
-    let args = format!("f: &mut [i32; {}], p: &[i32; {}], r: &mut R", layout.cells, system.params.len());
-    let mut out = format!("/// `{}`.\npub struct {type_name};\nimpl {type_name} {{\n", system.name);
+    let args = format!(
+        "f: &mut [i32; {}], p: &[i32; {}], r: &mut R",
+        layout.cells,
+        system.params.len()
+    );
+    let mut out = format!(
+        "/// `{}`.\npub struct {type_name};\nimpl {type_name} {{\n",
+        system.name
+    );
     for (k, lazy) in system.lazies.iter().enumerate() {
         let cell = layout.lazies + k;
         out.push_str(&format!(
@@ -24,7 +31,10 @@ pub fn rust(system: &System, type_name: &str, table_name: &str) -> String {
     }
     for (k, instance) in system.instances.iter().enumerate() {
         let result = "Result<(), u32>";
-        out.push_str(&format!("// {}\nfn step_{k}{head}({args}) -> {result} {{\n", instance.name));
+        out.push_str(&format!(
+            "// {}\nfn step_{k}{head}({args}) -> {result} {{\n",
+            instance.name
+        ));
         for (n, rule) in instance.rules.iter().enumerate() {
             let cell = layout.fired + k;
             out.push_str(&format!(
@@ -38,22 +48,48 @@ pub fn rust(system: &System, type_name: &str, table_name: &str) -> String {
         }
         out.push_str("Ok(())\n}\n");
     }
-    let steps: String =
-        (0..system.instances.len()).map(|k| format!("Self::step_{k}(f, p, r)?;\n")).collect();
+    let steps: String = (0..system.instances.len())
+        .map(|k| format!("Self::step_{k}(f, p, r)?;\n"))
+        .collect();
+    let (states, end) = (system.states.len(), layout.fired);
     out.push_str(&format!(
-        "/// One step from the state in the frame.\n///\n/// # Errors\n/// The assignment whose value left its range.\n\
-         pub fn step{head}({args}) -> Result<(), u32> {{\n{steps}Ok(())\n}}\n"
+        "/// Starts a cycle in `before` and makes its step.\n///\n/// # Errors\n/// The assignment whose value left its range.\n\
+         pub fn step{head}(before: &[i32; {states}], {args}) -> Result<(), u32> {{\n\
+         for k in 0..{states} {{ f[k] = before[k]; f[{states} + k] = before[k]; }}\n\
+         for k in {inputs}..{end} {{ f[k] = UNSET; }}\nfor k in {end}..{cells} {{ f[k] = 0; }}\n{steps}Ok(())\n}}\n",
+        inputs = layout.inputs,
+        cells = layout.cells,
     ));
     let atoms = system.atoms.iter().map(|n| layout.truth(n)).collect();
-    chooser(&mut out, "Truth of an atom", &format!("atom{head}(k: usize, {args}) -> bool"), "false", atoms);
+    chooser(
+        &mut out,
+        "Truth of an atom",
+        &format!("atom{head}(k: usize, {args}) -> bool"),
+        "false",
+        atoms,
+    );
     let observed = system.observed.iter().map(|n| layout.int(n)).collect();
-    chooser(&mut out, "An observed expression", &format!("observe{head}(k: usize, {args}) -> i64"), "0", observed);
-    let lazies = (0..system.lazies.len()).map(|k| format!("Self::lazy_{k}(f, p, r)")).collect();
-    chooser(&mut out, "A named expression", &format!("lazy{head}(k: usize, {args}) -> i64"), "0", lazies);
+    chooser(
+        &mut out,
+        "An observed expression",
+        &format!("observe{head}(k: usize, {args}) -> i64"),
+        "0",
+        observed,
+    );
+    let lazies = (0..system.lazies.len())
+        .map(|k| format!("Self::lazy_{k}(f, p, r)"))
+        .collect();
+    chooser(
+        &mut out,
+        "A named expression",
+        &format!("lazy{head}(k: usize, {args}) -> i64"),
+        "0",
+        lazies,
+    );
     out.push_str(&format!(
         "}}\nconst {table_name}: Table = Table {{\n\
          name: {name:?}, fingerprint: {fingerprint}, cells: {cells}, states: {states}, inputs: {inputs}, lazies: {lazies}, fired: {fired},\n\
-         step: |f, p, r| {{ let (f, p) = fixed(f, p)?; {type_name}::step(f, p, r) }},\n\
+         step: |b, f, p, r| {{ let (f, p) = fixed(f, p)?; {type_name}::step(b.try_into().or(Err(WRONG_FRAME))?, f, p, r) }},\n\
          atom: |k, f, p, r| {{ let (f, p) = fixed(f, p)?; Ok({type_name}::atom(k, f, p, r)) }},\n\
          observe: |k, f, p, r| {{ let (f, p) = fixed(f, p)?; Ok({type_name}::observe(k, f, p, r)) }},\n\
          lazy: |k, f, p, r| {{ let (f, p) = fixed(f, p)?; Ok({type_name}::lazy(k, f, p, r)) }},\n}};\n",
@@ -69,7 +105,11 @@ pub fn rust(system: &System, type_name: &str, table_name: &str) -> String {
 }
 
 fn chooser(out: &mut String, text: &str, signature: &str, other: &str, arms: Vec<String>) {
-    let arms: String = arms.iter().enumerate().map(|(k, e)| format!("{k} => {{ {e} }}\n")).collect();
+    let arms: String = arms
+        .iter()
+        .enumerate()
+        .map(|(k, e)| format!("{k} => {{ {e} }}\n"))
+        .collect();
     out.push_str(&format!(
         "/// {text} in the cycle just made.\npub fn {signature} {{\nmatch k {{\n{arms}_ => {other},\n}}\n}}\n"
     ));
@@ -90,49 +130,68 @@ impl Layout {
         let inputs = 2 * before;
         let lazies = inputs + system.inputs.len();
         let fired = lazies + system.lazies.len();
-        Self { before, inputs, lazies, fired, cells: fired + system.instances.len() }
+        Self {
+            before,
+            inputs,
+            lazies,
+            fired,
+            cells: fired + system.instances.len(),
+        }
     }
 
-fn statements(&self, system: &System, list: &[Stmt], out: &mut String) {
-    for s in list {
-        match s {
-            Stmt::Assign { base, index, value, checked, site } => {
-                let cell = match index {
-                    None => base.to_string(),
-                    Some((k, lo, len)) => {
-                        format!("({base} + ({} - {lo}).clamp(0, {}) as usize)", self.int(k), len - 1)
-                    }
-                };
-                out.push_str(&format!("{{ let k: usize = {cell}; let v = {};\n", self.int(value)));
-                if *checked {
-                    // Elements of an array share one range.
-                    let var = &system.states[*base as usize].var;
+    fn statements(&self, system: &System, list: &[Stmt], out: &mut String) {
+        for s in list {
+            match s {
+                Stmt::Assign {
+                    base,
+                    index,
+                    value,
+                    checked,
+                    site,
+                } => {
+                    let cell = match index {
+                        None => base.to_string(),
+                        Some((k, lo, len)) => {
+                            format!(
+                                "({base} + ({} - {lo}).clamp(0, {}) as usize)",
+                                self.int(k),
+                                len - 1
+                            )
+                        }
+                    };
                     out.push_str(&format!(
-                        "if v < {} || v > {} {{ return Err({site}); }}\n",
-                        self.int(&var.lo),
-                        self.int(&var.hi)
+                        "{{ let k: usize = {cell}; let v = {};\n",
+                        self.int(value)
                     ));
+                    if *checked {
+                        // Elements of an array share one range.
+                        let var = &system.states[*base as usize].var;
+                        out.push_str(&format!(
+                            "if v < {} || v > {} {{ return Err({site}); }}\n",
+                            self.int(&var.lo),
+                            self.int(&var.hi)
+                        ));
+                    }
+                    out.push_str("f[k] = v as i32; }\n");
                 }
-                out.push_str("f[k] = v as i32; }\n");
-            }
-            Stmt::If(branches, rest) => {
-                for (n, (guard, body)) in branches.iter().enumerate() {
-                    let head = if n == 0 { "if" } else { "} else if" };
-                    out.push_str(&format!("{head} {} {{\n", self.truth(guard)));
-                    self.statements(system, body, out);
+                Stmt::If(branches, rest) => {
+                    for (n, (guard, body)) in branches.iter().enumerate() {
+                        let head = if n == 0 { "if" } else { "} else if" };
+                        out.push_str(&format!("{head} {} {{\n", self.truth(guard)));
+                        self.statements(system, body, out);
+                    }
+                    if !rest.is_empty() {
+                        out.push_str("} else {\n");
+                        self.statements(system, rest, out);
+                    }
+                    out.push_str("}\n");
                 }
-                if !rest.is_empty() {
-                    out.push_str("} else {\n");
-                    self.statements(system, rest, out);
-                }
-                out.push_str("}\n");
             }
         }
     }
-}
 
-fn load(&self, space: Space, cell: &str) -> String {
-    match space {
+    fn load(&self, space: Space, cell: &str) -> String {
+        match space {
             Space::Param => format!("i64::from(p[{cell}])"),
             Space::Now => format!("i64::from(f[{cell}])"),
             Space::Before => format!("i64::from(f[{} + {cell}])", self.before),
@@ -140,78 +199,104 @@ fn load(&self, space: Space, cell: &str) -> String {
         }
     }
 
-
-fn truth(&self, node: &Node) -> String {
-    match node {
-        Node::Const(v) => (*v != 0).to_string(),
-        Node::Not(a) => format!("!({})", self.truth(a)),
-        Node::Binary(BinaryOp::And, a, b) => format!("(({}) && ({}))", self.truth(a), self.truth(b)),
-        Node::Binary(BinaryOp::Or, a, b) => format!("(({}) || ({}))", self.truth(a), self.truth(b)),
-        Node::Binary(BinaryOp::Xor, a, b) => format!("(({}) ^ ({}))", self.truth(a), self.truth(b)),
-        Node::Binary(op, a, b) if is_truth(node) => {
-            let op = match op {
-                BinaryOp::Eq => "==",
-                BinaryOp::Ne => "!=",
-                BinaryOp::Lt => "<",
-                BinaryOp::Gt => ">",
-                BinaryOp::Le => "<=",
-                _ => ">=",
-            };
-            format!("(({}) {op} ({}))", self.int(a), self.int(b))
+    fn truth(&self, node: &Node) -> String {
+        match node {
+            Node::Const(v) => (*v != 0).to_string(),
+            Node::Not(a) => format!("!({})", self.truth(a)),
+            Node::Binary(BinaryOp::And, a, b) => {
+                format!("(({}) && ({}))", self.truth(a), self.truth(b))
+            }
+            Node::Binary(BinaryOp::Or, a, b) => {
+                format!("(({}) || ({}))", self.truth(a), self.truth(b))
+            }
+            Node::Binary(BinaryOp::Xor, a, b) => {
+                format!("(({}) ^ ({}))", self.truth(a), self.truth(b))
+            }
+            Node::Binary(op, a, b) if is_truth(node) => {
+                let op = match op {
+                    BinaryOp::Eq => "==",
+                    BinaryOp::Ne => "!=",
+                    BinaryOp::Lt => "<",
+                    BinaryOp::Gt => ">",
+                    BinaryOp::Le => "<=",
+                    _ => ">=",
+                };
+                format!("(({}) {op} ({}))", self.int(a), self.int(b))
+            }
+            Node::Sel(g, a, b) => {
+                format!(
+                    "(if {} {{ {} }} else {{ {} }})",
+                    self.truth(g),
+                    self.truth(b),
+                    self.truth(a)
+                )
+            }
+            _ => format!("(({}) != 0)", self.int(node)),
         }
-        Node::Sel(g, a, b) => {
-            format!("(if {} {{ {} }} else {{ {} }})", self.truth(g), self.truth(b), self.truth(a))
-        }
-        _ => format!("(({}) != 0)", self.int(node)),
     }
-}
 
-fn int(&self, node: &Node) -> String {
-    match node {
-        Node::Const(v) => format!("{v}i64"),
-        Node::Cell(space, k) => self.load(*space, &k.to_string()),
-        Node::Lazy(k) => format!("Self::lazy_{k}(f, p, r)"),
-        Node::Element { space, base, lo, len, index } => format!(
-            "{{ let k: usize = {base} + ({} - {lo}).clamp(0, {}) as usize; {} }}",
-            self.int(index),
-            len - 1,
-            self.load(*space, "k")
-        ),
-        Node::Neg(a) => format!("(-({}))", self.int(a)),
-        Node::Abs(a) => format!("({}).abs()", self.int(a)),
-        Node::Sel(g, a, b) => {
-            format!("(if {} {{ {} }} else {{ {} }})", self.truth(g), self.int(b), self.int(a))
+    fn int(&self, node: &Node) -> String {
+        match node {
+            Node::Const(v) => format!("{v}i64"),
+            Node::Cell(space, k) => self.load(*space, &k.to_string()),
+            Node::Lazy(k) => format!("Self::lazy_{k}(f, p, r)"),
+            Node::Element {
+                space,
+                base,
+                lo,
+                len,
+                index,
+            } => format!(
+                "{{ let k: usize = {base} + ({} - {lo}).clamp(0, {}) as usize; {} }}",
+                self.int(index),
+                len - 1,
+                self.load(*space, "k")
+            ),
+            Node::Neg(a) => format!("(-({}))", self.int(a)),
+            Node::Abs(a) => format!("({}).abs()", self.int(a)),
+            Node::Sel(g, a, b) => {
+                format!(
+                    "(if {} {{ {} }} else {{ {} }})",
+                    self.truth(g),
+                    self.int(b),
+                    self.int(a)
+                )
+            }
+            Node::Mux(k, values) => {
+                let (last, first) = match values.split_last() {
+                    Some((last, first)) => (self.int(last), first),
+                    None => ("0i64".to_owned(), &[][..]),
+                };
+                let arms: String = first
+                    .iter()
+                    .enumerate()
+                    .map(|(n, v)| format!("{n} => {{ {} }} ", self.int(v)))
+                    .collect();
+                format!("(match {} {{ {arms}_ => {{ {last} }} }})", self.int(k))
+            }
+            Node::Min(values) => self.fold("min", values),
+            Node::Max(values) => self.fold("max", values),
+            Node::Binary(op, a, b) if !is_truth(node) => {
+                let op = match op {
+                    BinaryOp::Add => "+",
+                    BinaryOp::Sub => "-",
+                    BinaryOp::Mul => "*",
+                    BinaryOp::Div => "/",
+                    _ => "%",
+                };
+                format!("(({}) {op} ({}))", self.int(a), self.int(b))
+            }
+            _ => format!("i64::from({})", self.truth(node)),
         }
-        Node::Mux(k, values) => {
-            let (last, first) = match values.split_last() {
-                Some((last, first)) => (self.int(last), first),
-                None => ("0i64".to_owned(), &[][..]),
-            };
-            let arms: String =
-                first.iter().enumerate().map(|(n, v)| format!("{n} => {{ {} }} ", self.int(v))).collect();
-            format!("(match {} {{ {arms}_ => {{ {last} }} }})", self.int(k))
-        }
-        Node::Min(values) => self.fold("min", values),
-        Node::Max(values) => self.fold("max", values),
-        Node::Binary(op, a, b) if !is_truth(node) => {
-            let op = match op {
-                BinaryOp::Add => "+",
-                BinaryOp::Sub => "-",
-                BinaryOp::Mul => "*",
-                BinaryOp::Div => "/",
-                _ => "%",
-            };
-            format!("(({}) {op} ({}))", self.int(a), self.int(b))
-        }
-        _ => format!("i64::from({})", self.truth(node)),
     }
-}
 
-fn fold(&self, name: &str, values: &[Node]) -> String {
-    let mut nodes = values.iter().map(|n| self.int(n));
-    let first = nodes.next().unwrap_or_else(|| "0i64".to_owned());
-    nodes.fold(first, |acc, v| format!("{{ let a: i64 = {acc}; let b: i64 = {v}; Ord::{name}(a, b) }}"))
-}
+    fn fold(&self, name: &str, values: &[Node]) -> String {
+        let mut nodes = values.iter().map(|n| self.int(n));
+        let first = nodes.next().unwrap_or_else(|| "0i64".to_owned());
+        nodes.fold(first, |acc, v| {
+            format!("{{ let a: i64 = {acc}; let b: i64 = {v}; Ord::{name}(a, b) }}")
+        })
+    }
 }
 
 /// Whether the expression is naturally a Rust `bool`.
@@ -225,4 +310,3 @@ fn is_truth(node: &Node) -> bool {
         _ => false,
     }
 }
-

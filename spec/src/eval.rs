@@ -67,7 +67,10 @@ impl<F: FnMut(usize) -> i32> Read for F {}
 
 impl Bound {
     fn cells(&self) -> Cells<'_> {
-        Cells { params: &self.values, lazies: &self.system.lazies }
+        Cells {
+            params: &self.values,
+            lazies: &self.system.lazies,
+        }
     }
 
     /// One step from the state with which the frame was started; `read(k)` gives input `k` when it is first needed.
@@ -96,7 +99,13 @@ impl Bound {
         let cells = self.cells();
         for s in list {
             match s {
-                Stmt::Assign { base, index, value: node, checked, site } => {
+                Stmt::Assign {
+                    base,
+                    index,
+                    value: node,
+                    checked,
+                    site,
+                } => {
                     let offset = match index {
                         Some((k, lo, _)) => (value(k, cells, f, read) - lo) as usize,
                         None => 0,
@@ -172,7 +181,13 @@ pub(crate) fn value(node: &Node, cells: Cells, f: &mut Frame, read: &mut impl Re
             }
             i64::from(f.lazies[k])
         }
-        Node::Element { space, base, lo, index, .. } => {
+        Node::Element {
+            space,
+            base,
+            lo,
+            index,
+            ..
+        } => {
             let offset = value(index, cells, f, read) - lo;
             load(*space, *base as usize + offset as usize, cells, f, read)
         }
@@ -205,7 +220,14 @@ pub(crate) fn value(node: &Node, cells: Cells, f: &mut Frame, read: &mut impl Re
     }
 }
 
-fn binary(op: BinaryOp, a: &Node, b: &Node, cells: Cells, f: &mut Frame, read: &mut impl Read) -> i64 {
+fn binary(
+    op: BinaryOp,
+    a: &Node,
+    b: &Node,
+    cells: Cells,
+    f: &mut Frame,
+    read: &mut impl Read,
+) -> i64 {
     let x = value(a, cells, f, read);
     match op {
         BinaryOp::And if x == 0 => return 0,

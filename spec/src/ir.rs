@@ -85,7 +85,13 @@ impl Node {
         let mut boxed = |n: &Node| Box::new(f(n));
         match self {
             Node::Const(_) | Node::Cell(..) | Node::Lazy(_) => self.clone(),
-            Node::Element { space, base, lo, len, index } => Node::Element {
+            Node::Element {
+                space,
+                base,
+                lo,
+                len,
+                index,
+            } => Node::Element {
                 space: *space,
                 base: *base,
                 lo: *lo,
@@ -411,10 +417,15 @@ impl System {
     pub fn nodes<'a>(&'a self, f: &mut impl FnMut(&'a Node)) {
         for rule in self.rules() {
             rule.when.visit(f);
-            rule.then.iter().for_each(|s| s.expressions(&mut |n| n.visit(f)));
+            rule.then
+                .iter()
+                .for_each(|s| s.expressions(&mut |n| n.visit(f)));
         }
         self.lazies.iter().for_each(|l| l.value.visit(f));
-        self.atoms.iter().chain(&self.observed).for_each(|n| n.visit(f));
+        self.atoms
+            .iter()
+            .chain(&self.observed)
+            .for_each(|n| n.visit(f));
     }
 
     /// A value of a cell as a reader wants to see it: the enum's name, TRUE/FALSE, or the number.
@@ -440,7 +451,10 @@ impl System {
             .map(|v| (&v.name, v.ty, &v.lo, &v.hi))
             .collect();
         let lazies: Vec<_> = self.lazies.iter().map(|l| (&l.name, &l.value)).collect();
-        let text = format!("{rules:?}{ranges:?}{lazies:?}{:?}{:?}", self.atoms, self.observed);
+        let text = format!(
+            "{rules:?}{ranges:?}{lazies:?}{:?}{:?}",
+            self.atoms, self.observed
+        );
         // FNV-1a, 64 bits.
         text.bytes().fold(0xcbf2_9ce4_8422_2325, |h, b| {
             (h ^ u64::from(b)).wrapping_mul(0x0100_0000_01b3)

@@ -33,7 +33,9 @@ fn find_index(e: &Expr, found: &mut Option<String>) {
             find_index(base, found);
             find_index(index, found);
         }
-        Kind::Member(a, _) | Kind::Unary(_, a) | Kind::Quantified(_, _, _, a) => find_index(a, found),
+        Kind::Member(a, _) | Kind::Unary(_, a) | Kind::Quantified(_, _, _, a) => {
+            find_index(a, found)
+        }
         Kind::Binary(_, a, b) => {
             find_index(a, found);
             find_index(b, found);
@@ -58,8 +60,10 @@ fn texts(def: &schema::Property) -> Vec<(&'static str, &Text)> {
         ("reachable", &def.reachable),
         ("while", &def.while_),
     ];
-    let mut out: Vec<_> =
-        single.into_iter().filter_map(|(k, t)| t.as_ref().map(|t| (k, t))).collect();
+    let mut out: Vec<_> = single
+        .into_iter()
+        .filter_map(|(k, t)| t.as_ref().map(|t| (k, t)))
+        .collect();
     out.extend(def.fair.iter().map(|t| ("fair", t)));
     out.extend(def.observe.iter().map(|t| ("observe", t)));
     out.extend(def.of.iter().map(|t| ("of", t)));
@@ -76,46 +80,78 @@ fn maybe(b: &mut Builder, text: Option<&Text>, index: Option<i64>) -> One<Option
     text.map(|t| atom(b, t, index)).transpose()
 }
 
-pub(crate) fn resolve(b: &mut Builder, def: &schema::Property, index: Option<i64>) -> One<Property> {
+pub(crate) fn resolve(
+    b: &mut Builder,
+    def: &schema::Property,
+    index: Option<i64>,
+) -> One<Property> {
     let written = texts(def);
     let keys: Vec<&str> = written.iter().map(|(k, _)| *k).collect();
     let only = |allowed: &[&str]| keys.iter().all(|k| allowed.contains(k));
     let form = if let (Some(then), true) = (&def.always, only(&["always"])) {
-        Form::Always { when: None, then: atom(b, then, index)? }
+        Form::Always {
+            when: None,
+            then: atom(b, then, index)?,
+        }
     } else if let (Some(never), true) = (&def.never, only(&["never"])) {
         let e = b.spec.expr(b.file, never)?;
         let node = b.system_scope(never, index).expect(&e, Ty::Bool)?;
-        Form::Always { when: None, then: b.add_atom(Node::Not(Box::new(node))) }
+        Form::Always {
+            when: None,
+            then: b.add_atom(Node::Not(Box::new(node))),
+        }
     } else if let (Some(when), Some(then), true) = (&def.when, &def.then, only(&["when", "then"])) {
-        Form::Always { when: Some(atom(b, when, index)?), then: atom(b, then, index)? }
-    } else if let (Some(when), Some(goal), true) =
-        (&def.when, &def.leads_to, only(&["when", "leads_to", "fair", "assuming"]))
-    {
+        Form::Always {
+            when: Some(atom(b, when, index)?),
+            then: atom(b, then, index)?,
+        }
+    } else if let (Some(when), Some(goal), true) = (
+        &def.when,
+        &def.leads_to,
+        only(&["when", "leads_to", "fair", "assuming"]),
+    ) {
         if def.within.is_some() && keys.iter().any(|k| *k == "fair" || *k == "assuming") {
             return Err(b
                 .spec
-                .error(b.file, def.id.span(), "a bounded response takes no fairness")
+                .error(
+                    b.file,
+                    def.id.span(),
+                    "a bounded response takes no fairness",
+                )
                 .help("leave out `within`, or `fair` and `assuming`"));
         }
         Form::LeadsTo {
             when: atom(b, when, index)?,
             goal: atom(b, goal, index)?,
             within: within(b, def, index)?,
-            fair: def.fair.iter().map(|t| atom(b, t, index)).collect::<One<_>>()?,
+            fair: def
+                .fair
+                .iter()
+                .map(|t| atom(b, t, index))
+                .collect::<One<_>>()?,
             assuming: maybe(b, def.assuming.as_ref(), index)?,
         }
-    } else if let (Some(when), Some(holds), Some(unless), true) =
-        (&def.when, &def.holds, &def.unless, only(&["when", "holds", "unless"]))
-    {
+    } else if let (Some(when), Some(holds), Some(unless), true) = (
+        &def.when,
+        &def.holds,
+        &def.unless,
+        only(&["when", "holds", "unless"]),
+    ) {
         Form::Unless {
             when: atom(b, when, index)?,
             holds: atom(b, holds, index)?,
             unless: atom(b, unless, index)?,
         }
-    } else if let (Some(goal), true) = (&def.can_always_reach, only(&["can_always_reach", "using"])) {
-        Form::CanAlwaysReach { goal: atom(b, goal, index)?, using: maybe(b, def.using.as_ref(), index)? }
+    } else if let (Some(goal), true) = (&def.can_always_reach, only(&["can_always_reach", "using"]))
+    {
+        Form::CanAlwaysReach {
+            goal: atom(b, goal, index)?,
+            using: maybe(b, def.using.as_ref(), index)?,
+        }
     } else if let (Some(goal), true) = (&def.reachable, only(&["reachable"])) {
-        Form::Reachable { goal: atom(b, goal, index)? }
+        Form::Reachable {
+            goal: atom(b, goal, index)?,
+        }
     } else if !def.observe.is_empty() && !def.of.is_empty() && only(&["observe", "of", "while"]) {
         independent(b, def, index)?
     } else {
@@ -130,8 +166,10 @@ pub(crate) fn resolve(b: &mut Builder, def: &schema::Property, index: Option<i64
             .error(b.file, def.id.span(), "`within` belongs to `leads_to`")
             .help("remove it"));
     }
-    let mut written: Vec<(String, String)> =
-        written.iter().map(|(k, t)| ((*k).to_owned(), t.get_ref().clone())).collect();
+    let mut written: Vec<(String, String)> = written
+        .iter()
+        .map(|(k, t)| ((*k).to_owned(), t.get_ref().clone()))
+        .collect();
     if let Some(w) = &def.within {
         written.push(("within".to_owned(), scalar_text(w.get_ref())));
     }
@@ -155,7 +193,9 @@ fn scalar_text(s: &Scalar) -> String {
 }
 
 fn within(b: &mut Builder, def: &schema::Property, index: Option<i64>) -> One<Option<Node>> {
-    let Some(value) = &def.within else { return Ok(None) };
+    let Some(value) = &def.within else {
+        return Ok(None);
+    };
     let text = toml::Spanned::new(value.span(), scalar_text(value.get_ref()));
     let e = b.spec.expr(b.file, &text)?;
     let mut scope = b.system_scope(&text, index);
@@ -192,5 +232,9 @@ fn independent(b: &mut Builder, def: &schema::Property, index: Option<i64>) -> O
         observe.push(b.add_observed(node));
     }
     let condition = maybe(b, def.while_.as_ref(), index)?;
-    Ok(Form::Independent { observe, of, condition })
+    Ok(Form::Independent {
+        observe,
+        of,
+        condition,
+    })
 }

@@ -147,9 +147,14 @@ impl Spec {
         }
         for (what, span) in duplicates {
             errors.push(
-                Diagnostic::new(&name, &text, Some(span), format!("`{what}` is defined twice"))
-                    .label("second definition")
-                    .help("rename one of them, or include the common file once"),
+                Diagnostic::new(
+                    &name,
+                    &text,
+                    Some(span),
+                    format!("`{what}` is defined twice"),
+                )
+                .label("second definition")
+                .help("rename one of them, or include the common file once"),
             );
         }
     }
@@ -166,7 +171,10 @@ impl Spec {
 
     /// Names of the machines declared in the file itself.
     pub fn own_machines(&self) -> impl Iterator<Item = &str> {
-        self.machines.iter().filter(|(_, m)| m.file == 0).map(|(n, _)| n.as_str())
+        self.machines
+            .iter()
+            .filter(|(_, m)| m.file == 0)
+            .map(|(n, _)| n.as_str())
     }
 
     /// The files this specification was read from.
@@ -211,7 +219,11 @@ impl Spec {
             .help(e.help)
     }
 
-    pub(crate) fn expr(&self, file: usize, text: &Text) -> std::result::Result<ast::Expr, Diagnostic> {
+    pub(crate) fn expr(
+        &self,
+        file: usize,
+        text: &Text,
+    ) -> std::result::Result<ast::Expr, Diagnostic> {
         lang::parse_expr(text.get_ref()).map_err(|e| self.syntax(file, text, e))
     }
 

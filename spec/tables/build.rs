@@ -22,14 +22,20 @@ fn main() {
             let machines = own.iter().map(|m| spec.open_machine(m));
             for system in systems.iter().map(|s| spec.system(s, None)).chain(machines) {
                 let system = system.unwrap_or_else(|e| panic!("{e}"));
-                let (type_name, table_name) = (format!("System{}", names.len()), format!("TABLE_{}", names.len()));
+                let (type_name, table_name) = (
+                    format!("System{}", names.len()),
+                    format!("TABLE_{}", names.len()),
+                );
                 code.push_str(&codegen::rust(&system, &type_name, &table_name));
                 names.push(table_name);
             }
         }
     }
     let list = names.join(", ");
-    code.push_str(&format!("/// Every generated table.\npub static TABLES: [Table; {}] = [{list}];\n", names.len()));
+    code.push_str(&format!(
+        "/// Every generated table.\npub static TABLES: [Table; {}] = [{list}];\n",
+        names.len()
+    ));
     let out = PathBuf::from(std::env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
     std::fs::write(out.join("tables.rs"), code).expect("OUT_DIR can be written");
 }

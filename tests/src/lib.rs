@@ -35,7 +35,10 @@ pub fn specification_files() -> Vec<PathBuf> {
         for entry in std::fs::read_dir(&folder).expect("a folder") {
             let path = entry.expect("an entry").path();
             let is_toml = path.extension().is_some_and(|e| e == "toml");
-            if is_toml && std::fs::read_to_string(&path).is_ok_and(|t| t.lines().any(|l| l.starts_with("spec "))) {
+            if is_toml
+                && std::fs::read_to_string(&path)
+                    .is_ok_and(|t| t.lines().any(|l| l.starts_with("spec ")))
+            {
                 found.push(path);
             }
         }

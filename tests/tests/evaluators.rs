@@ -19,15 +19,26 @@ fn shipped() -> Vec<ir::System> {
     for path in specification_files() {
         let spec = Spec::load(&path).unwrap_or_else(|e| panic!("{e}"));
         let systems: Vec<String> = spec.systems().map(str::to_owned).collect();
-        out.extend(systems.iter().map(|s| spec.system(s, None).unwrap_or_else(|e| panic!("{e}"))));
+        out.extend(
+            systems
+                .iter()
+                .map(|s| spec.system(s, None).unwrap_or_else(|e| panic!("{e}"))),
+        );
         let machines: Vec<String> = spec.own_machines().map(str::to_owned).collect();
-        out.extend(machines.iter().map(|m| spec.open_machine(m).unwrap_or_else(|e| panic!("{e}"))));
+        out.extend(
+            machines
+                .iter()
+                .map(|m| spec.open_machine(m).unwrap_or_else(|e| panic!("{e}"))),
+        );
     }
     out
 }
 
 fn bind(system: ir::System, params: &[(&str, i64)]) -> Bound {
-    let given = params.iter().map(|(n, v)| ((*n).to_owned(), vec![*v])).collect();
+    let given = params
+        .iter()
+        .map(|(n, v)| ((*n).to_owned(), vec![*v]))
+        .collect();
     Bound::new(system, &given, &BTreeMap::new()).unwrap_or_else(|e| panic!("{e}"))
 }
 
@@ -116,7 +127,10 @@ impl<'a> Both<'a> {
                         return self.note(&format!("{kind:?} {k}"), &left, &right);
                     }
                     reads.truncate(at);
-                    while reads.last().is_some_and(|(i, v)| *v == self.bound.inputs[*i].1) {
+                    while reads
+                        .last()
+                        .is_some_and(|(i, v)| *v == self.bound.inputs[*i].1)
+                    {
                         reads.pop();
                     }
                     match reads.last_mut() {
@@ -160,10 +174,14 @@ impl<'a> Both<'a> {
                 i64::from(self.bound.atom(k, frame, &mut read)),
                 (self.table.atom)(k, cells, values, &mut read).map(i64::from),
             ),
-            Kind::Observed => {
-                (self.bound.observe(k, frame, &mut read), (self.table.observe)(k, cells, values, &mut read))
-            }
-            Kind::Named => (self.bound.lazy(k, frame, &mut read), (self.table.lazy)(k, cells, values, &mut read)),
+            Kind::Observed => (
+                self.bound.observe(k, frame, &mut read),
+                (self.table.observe)(k, cells, values, &mut read),
+            ),
+            Kind::Named => (
+                self.bound.lazy(k, frame, &mut read),
+                (self.table.lazy)(k, cells, values, &mut read),
+            ),
         };
         (Ok(left), right, at)
     }
@@ -182,7 +200,12 @@ impl System for Both<'_> {
 
     fn work(&self) -> Work {
         let (frame, cells) = (self.interpreted.work(), self.generated.work());
-        Work { scratch: (frame.clone(), cells.clone()), frame, cells, equal: true }
+        Work {
+            scratch: (frame.clone(), cells.clone()),
+            frame,
+            cells,
+            equal: true,
+        }
     }
 
     fn domains(&self) -> &[Domain] {
@@ -209,10 +232,17 @@ impl System for Both<'_> {
     ) -> Result<(), Fault> {
         self.cycles.fetch_add(1, Ordering::Relaxed);
         let mut other = before.to_vec();
-        let mut noting = Noting { inner: choices, asked: Vec::new() };
-        let left = self.interpreted.next(&mut work.frame, before, &mut noting, after);
+        let mut noting = Noting {
+            inner: choices,
+            asked: Vec::new(),
+        };
+        let left = self
+            .interpreted
+            .next(&mut work.frame, before, &mut noting, after);
         let read = std::mem::take(&mut noting.asked);
-        let right = self.generated.next(&mut work.cells, before, &mut noting, &mut other);
+        let right = self
+            .generated
+            .next(&mut work.cells, before, &mut noting, &mut other);
         work.equal = if left != right {
             self.note("fault", &left, &right)
         } else if left.is_ok() && after != other {
@@ -237,18 +267,38 @@ fn compare(bound: &Bound) -> u64 {
     let both = Both::new(bound);
     let claim = [Property {
         id: bound.system.name.clone(),
-        form: Form::Always { when: None, then: Both::EQUAL },
+        form: Form::Always {
+            when: None,
+            then: Both::EQUAL,
+        },
     }];
-    let options = Options { witnesses: false, ..Options::default() };
-    let report = explore(&both, &claim, &options, &mut ()).unwrap_or_else(|e| panic!("{}: {e}", bound.system.name));
+    let options = Options {
+        witnesses: false,
+        ..Options::default()
+    };
+    let report = explore(&both, &claim, &options, &mut ())
+        .unwrap_or_else(|e| panic!("{}: {e}", bound.system.name));
     let difference = both.difference.lock().expect("no panic holds it").take();
-    assert_eq!(report.properties[0].verdict, Verdict::Holds, "{}: {difference:?}", bound.system.name);
+    assert_eq!(
+        report.properties[0].verdict,
+        Verdict::Holds,
+        "{}: {difference:?}",
+        bound.system.name
+    );
     assert_eq!(difference, None, "{}", bound.system.name);
-    assert!(report.complete && report.faults.is_empty(), "{}: {:?}", bound.system.name, report.faults);
+    assert!(
+        report.complete && report.faults.is_empty(),
+        "{}: {:?}",
+        bound.system.name,
+        report.faults
+    );
     let cycles = both.cycles.load(Ordering::Relaxed);
     let values = both.values.load(Ordering::Relaxed);
     assert!(cycles >= report.states);
-    println!("{}: {} states, {cycles} cycles, {values} values, {:.1} s", bound.system.name, report.states, report.seconds);
+    println!(
+        "{}: {} states, {cycles} cycles, {values} values, {:.1} s",
+        bound.system.name, report.states, report.seconds
+    );
     cycles
 }
 
@@ -257,7 +307,11 @@ fn every_shipped_system_has_generated_code() {
     let systems = shipped();
     for system in &systems {
         let bound = bind(system.clone(), &[]);
-        assert!(Generated::find(&bound).is_some(), "no generated code belongs to {}", system.name);
+        assert!(
+            Generated::find(&bound).is_some(),
+            "no generated code belongs to {}",
+            system.name
+        );
     }
     let mut names: Vec<&str> = systems.iter().map(|s| s.name.as_str()).collect();
     names.sort_unstable();
@@ -268,10 +322,19 @@ fn every_shipped_system_has_generated_code() {
 
 #[test]
 fn a_changed_file_has_no_generated_code() {
-    let path = specification_files().into_iter().find(|p| p.ends_with("two-axis.toml")).expect("the yardstick");
-    let text = std::fs::read_to_string(&path).expect("readable").replace("r + 1 > stop", "r + 1 >= stop");
+    let path = specification_files()
+        .into_iter()
+        .find(|p| p.ends_with("two-axis.toml"))
+        .expect("the yardstick");
+    let text = std::fs::read_to_string(&path)
+        .expect("readable")
+        .replace("r + 1 > stop", "r + 1 >= stop");
     let spec = Spec::from_text(Path::new(&path), text.into()).unwrap_or_else(|e| panic!("{e}"));
-    let bound = bind(spec.system("two_axis", None).unwrap_or_else(|e| panic!("{e}")), &[]);
+    let bound = bind(
+        spec.system("two_axis", None)
+            .unwrap_or_else(|e| panic!("{e}")),
+        &[],
+    );
     assert!(Generated::find(&bound).is_none());
 }
 
@@ -279,8 +342,16 @@ fn a_changed_file_has_no_generated_code() {
 fn both_evaluators_agree_on_every_reachable_cycle() {
     let only = std::env::var("ONLY").ok();
     for system in shipped() {
-        if only.as_ref().is_some_and(|o| !system.name.contains(o)) { continue; }
-        if only.is_none() && ["stop_pair", "two_axis"].iter().any(|n| system.name.ends_with(n)) { continue; }
+        if only.as_ref().is_some_and(|o| !system.name.contains(o)) {
+            continue;
+        }
+        if only.is_none()
+            && ["stop_pair", "two_axis"]
+                .iter()
+                .any(|n| system.name.ends_with(n))
+        {
+            continue;
+        }
         println!("{}", system.name);
         assert!(compare(&bind(system, &[])) > 0);
     }

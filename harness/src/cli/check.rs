@@ -48,15 +48,22 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         time: arguments.time,
         interpret: arguments.interpret,
     };
-    let fail = |(title, e): (String, stillpoint_model::Error)| Failure::Other(format!("{title}: {e}"));
-    let checked =
-        check(&subject, &settings, &mut |task| Box::new(Line::new(&task.title))).map_err(fail)?;
+    let fail =
+        |(title, e): (String, stillpoint_model::Error)| Failure::Other(format!("{title}: {e}"));
+    let checked = check(&subject, &settings, &mut |task| {
+        Box::new(Line::new(&task.title))
+    })
+    .map_err(fail)?;
     let summaries = summarise(&subject, &checked);
     let mut status = exit_status(&summaries, &checked);
     let compared = if choice.all {
-        let compared = compare(&subject, &checked, &settings, &choice.chosen, &mut |title| {
-            Box::new(Line::new(title))
-        })
+        let compared = compare(
+            &subject,
+            &checked,
+            &settings,
+            &choice.chosen,
+            &mut |title| Box::new(Line::new(title)),
+        )
         .map_err(|e| match e {
             stillpoint::readings::Failed::Input(d) => Failure::Input(d),
             stillpoint::readings::Failed::Explore(title, e) => fail((title, e)),
@@ -71,7 +78,10 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     if arguments.json {
         let mut json = report::to_json(&subject, &checked, &summaries);
         if let (Some(compared), Some(object)) = (&compared, json.as_object_mut()) {
-            object.insert("readings".to_owned(), stillpoint::readings::to_json(compared));
+            object.insert(
+                "readings".to_owned(),
+                stillpoint::readings::to_json(compared),
+            );
         }
         println!("{json:#}");
     } else {
@@ -93,7 +103,10 @@ fn known_readings(subject: &Subject, chosen: &subject::Readings) -> Result<(), F
         None => Ok(()),
         Some(id) => {
             let list: Vec<&str> = known.iter().map(String::as_str).collect();
-            Err(Failure::Other(format!("there is no reading `{id}`; this file has {}", list.join(", "))))
+            Err(Failure::Other(format!(
+                "there is no reading `{id}`; this file has {}",
+                list.join(", ")
+            )))
         }
     }
 }

@@ -4,8 +4,8 @@ use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use clap::Args;
-use stillpoint::diff::{DiffError, exhaustive, pairings, sample, text, to_json};
 use stillpoint::diff::random::Random;
+use stillpoint::diff::{DiffError, exhaustive, pairings, sample, text, to_json};
 use stillpoint::subject::{self, Readings};
 use stillpoint_model::{Limits, Options};
 use stillpoint_monitors::mutant::Mutant;
@@ -48,7 +48,10 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let mutant = arguments
         .mutant
         .as_ref()
-        .map(|name| name.parse::<Mutant>().map_err(|e| Failure::Other(format!("`{name}`: {e}"))))
+        .map(|name| {
+            name.parse::<Mutant>()
+                .map_err(|e| Failure::Other(format!("`{name}`: {e}")))
+        })
         .transpose()?;
     let subject = subject::load(&arguments.file, &Readings::new())?;
     let fail = |e: DiffError| match e {
@@ -57,7 +60,10 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     };
     let pairings = pairings(&subject).map_err(fail)?;
     if pairings.is_empty() {
-        return Err(Failure::Other(format!("{}: none of its machines has a monitor", subject.name)));
+        return Err(Failure::Other(format!(
+            "{}: none of its machines has a monitor",
+            subject.name
+        )));
     }
     let start = Instant::now();
     let mut compared = Vec::new();
@@ -72,7 +78,10 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
                     time: arguments.time.map(|t| t.saturating_sub(start.elapsed())),
                     threads: arguments.threads,
                 };
-                let options = Options { limits, ..Options::default() };
+                let options = Options {
+                    limits,
+                    ..Options::default()
+                };
                 exhaustive(pairing, mutant, &options, &mut Line::new(&pairing.machine))
             }
         };
@@ -83,7 +92,10 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         None => "every reachable pair, every input of the interface".to_owned(),
     };
     if arguments.json {
-        println!("{:#}", to_json(&compared, arguments.random.map(|_| arguments.seed)));
+        println!(
+            "{:#}",
+            to_json(&compared, arguments.random.map(|_| arguments.seed))
+        );
     } else {
         print!("{}", text(&compared, &what));
     }

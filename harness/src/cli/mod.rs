@@ -32,16 +32,24 @@ struct Arguments {
 #[derive(Subcommand)]
 enum Command {
     /// Explore every reachable state and judge every property
-    #[command(after_help = "Examples:\n  stillpoint check spec/machines/milling-840d.toml\n  stillpoint check spec/bench/two-axis.toml --json\n  stillpoint check spec/machines/milling-840d.toml --readings A-25=RESET_AT_ONCE")]
+    #[command(
+        after_help = "Examples:\n  stillpoint check spec/machines/milling-840d.toml\n  stillpoint check spec/bench/two-axis.toml --json\n  stillpoint check spec/machines/milling-840d.toml --readings A-25=RESET_AT_ONCE"
+    )]
     Check(check::Arguments),
     /// Check the production monitors against the tables
-    #[command(after_help = "Examples:\n  stillpoint diff spec/machines/milling-840d.toml --exhaustive\n  stillpoint diff spec/machines/milling-840d.toml --random 1000000 --seed 7\n  stillpoint diff spec/machines/milling-840d.toml --mutant stop-b-no-timer-exit   (must diverge)")]
+    #[command(
+        after_help = "Examples:\n  stillpoint diff spec/machines/milling-840d.toml --exhaustive\n  stillpoint diff spec/machines/milling-840d.toml --random 1000000 --seed 7\n  stillpoint diff spec/machines/milling-840d.toml --mutant stop-b-no-timer-exit   (must diverge)"
+    )]
     Diff(diff::Arguments),
     /// Write a system in the format of another tool
-    #[command(after_help = "Examples:\n  stillpoint export spec/bench/two-axis.toml --to promela --output two-axis.pml\n  stillpoint export spec/sinumerik-840d/axis.toml --system stop --to dot | dot -Tsvg")]
+    #[command(
+        after_help = "Examples:\n  stillpoint export spec/bench/two-axis.toml --to promela --output two-axis.pml\n  stillpoint export spec/sinumerik-840d/axis.toml --system stop --to dot | dot -Tsvg"
+    )]
     Export(export::Arguments),
     /// The requirement matrix: which rules, monitors, proofs and tests carry each requirement
-    #[command(after_help = "Exit status: 0; 1 if a family declared complete has open core requirements or an id is in no catalogue; 2 bad input.\n\nExample: stillpoint trace --html matrix.html")]
+    #[command(
+        after_help = "Exit status: 0; 1 if a family declared complete has open core requirements or an id is in no catalogue; 2 bad input.\n\nExample: stillpoint trace --html matrix.html"
+    )]
     Trace(trace::Arguments),
     /// Check whether a machine file is plausible, without exploring anything
     #[command(after_help = "Example: stillpoint validate spec/machines/milling-840d.toml")]

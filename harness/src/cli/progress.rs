@@ -19,7 +19,11 @@ pub struct Line {
 
 impl Line {
     pub fn new(title: &str) -> Self {
-        Self { title: title.to_owned(), start: Instant::now(), bar: None }
+        Self {
+            title: title.to_owned(),
+            start: Instant::now(),
+            bar: None,
+        }
     }
 }
 

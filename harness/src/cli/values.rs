@@ -8,9 +8,16 @@ use stillpoint::subject::Readings;
 /// `64MiB`, `2G`, `1000000` in bytes.
 pub fn size(text: &str) -> Result<u64, String> {
     let wrong = || format!("`{text}` is not a size; write for example 512MiB or 2GiB");
-    let at = text.find(|c: char| !c.is_ascii_digit()).unwrap_or(text.len());
+    let at = text
+        .find(|c: char| !c.is_ascii_digit())
+        .unwrap_or(text.len());
     let number: u64 = text[..at].parse().map_err(|_| wrong())?;
-    let shift = match text[at..].trim().to_ascii_lowercase().trim_end_matches('b').trim_end_matches('i') {
+    let shift = match text[at..]
+        .trim()
+        .to_ascii_lowercase()
+        .trim_end_matches('b')
+        .trim_end_matches('i')
+    {
         "" => 0,
         "k" => 10,
         "m" => 20,
@@ -18,13 +25,18 @@ pub fn size(text: &str) -> Result<u64, String> {
         "t" => 40,
         _ => return Err(wrong()),
     };
-    number.checked_shl(shift).filter(|n| n >> shift == number && *n > 0).ok_or_else(wrong)
+    number
+        .checked_shl(shift)
+        .filter(|n| n >> shift == number && *n > 0)
+        .ok_or_else(wrong)
 }
 
 /// `90s`, `5m`, `2h`, `500ms`.
 pub fn duration(text: &str) -> Result<Duration, String> {
     let wrong = || format!("`{text}` is not a duration; write for example 90s, 5m or 500ms");
-    let at = text.find(|c: char| !c.is_ascii_digit()).unwrap_or(text.len());
+    let at = text
+        .find(|c: char| !c.is_ascii_digit())
+        .unwrap_or(text.len());
     let number: u64 = text[..at].parse().map_err(|_| wrong())?;
     let milliseconds = match text[at..].trim() {
         "ms" => Some(number),
@@ -54,7 +66,11 @@ pub fn readings(given: &[String]) -> Result<ReadingsChoice, String> {
                 out.chosen.insert(id.to_owned(), option.to_owned());
             }
             None if item == "all" => out.all = true,
-            _ => return Err(format!("`{item}` is not a reading; write `all` or ID=OPTION, e.g. A-25=RESET_AT_ONCE")),
+            _ => {
+                return Err(format!(
+                    "`{item}` is not a reading; write `all` or ID=OPTION, e.g. A-25=RESET_AT_ONCE"
+                ));
+            }
         }
     }
     Ok(out)
@@ -62,7 +78,10 @@ pub fn readings(given: &[String]) -> Result<ReadingsChoice, String> {
 
 /// Ids that no system knows.
 pub fn unknown<'a>(chosen: &'a Readings, known: &BTreeSet<String>) -> Option<&'a str> {
-    chosen.keys().map(String::as_str).find(|id| !known.contains(*id))
+    chosen
+        .keys()
+        .map(String::as_str)
+        .find(|id| !known.contains(*id))
 }
 
 #[cfg(test)]
@@ -74,7 +93,12 @@ mod tests {
         assert_eq!(size("64MiB"), Ok(64 << 20));
         assert_eq!(size("2G"), Ok(2 << 30));
         assert_eq!(size("7"), Ok(7));
-        assert!(size("MiB").is_err() && size("-1").is_err() && size("99999999999T").is_err() && size("0").is_err());
+        assert!(
+            size("MiB").is_err()
+                && size("-1").is_err()
+                && size("99999999999T").is_err()
+                && size("0").is_err()
+        );
         assert_eq!(duration("90s"), Ok(Duration::from_secs(90)));
         assert_eq!(duration("500ms"), Ok(Duration::from_millis(500)));
         assert!(duration("5 fortnights").is_err() && duration("-5s").is_err());

@@ -82,20 +82,36 @@ pub fn pairings(subject: &Subject) -> Result<Vec<Pairing>, DiffError> {
         }
         let spec = &specs[&file];
         for name in peer::MACHINES {
-            if !task.bound.system.instances.iter().any(|i| i.machine == name) {
+            if !task
+                .bound
+                .system
+                .instances
+                .iter()
+                .any(|i| i.machine == name)
+            {
                 continue;
             }
             let system = spec.open_machine(name)?;
             let mut given: BTreeMap<String, Vec<i64>> = BTreeMap::new();
             for param in system.params.iter().filter(|p| p.reading.is_none()) {
-                let same = task.bound.system.params.iter().position(|p| p.var.name == param.var.name);
+                let same = task
+                    .bound
+                    .system
+                    .params
+                    .iter()
+                    .position(|p| p.var.name == param.var.name);
                 if let Some(k) = same {
-                    given.insert(param.var.name.clone(), vec![i64::from(task.bound.values[k])]);
+                    given.insert(
+                        param.var.name.clone(),
+                        vec![i64::from(task.bound.values[k])],
+                    );
                 }
             }
             let bound = Bound::new(system, &given, &BTreeMap::new())
                 .map_err(|e| DiffError::Sides(format!("{name}: {e}")))?;
-            let known = out.iter_mut().find(|p| p.machine == name && p.bound.values == bound.values);
+            let known = out
+                .iter_mut()
+                .find(|p| p.machine == name && p.bound.values == bound.values);
             match known {
                 Some(pairing) => {
                     for axis in &task.axes {
@@ -104,7 +120,11 @@ pub fn pairings(subject: &Subject) -> Result<Vec<Pairing>, DiffError> {
                         }
                     }
                 }
-                None => out.push(Pairing { machine: name.to_owned(), axes: task.axes.clone(), bound }),
+                None => out.push(Pairing {
+                    machine: name.to_owned(),
+                    axes: task.axes.clone(),
+                    bound,
+                }),
             }
         }
     }
@@ -131,14 +151,24 @@ pub fn exhaustive(
     let product = Product::new(&pairing.bound, peer.as_ref()).map_err(DiffError::Sides)?;
     let claim = [Property {
         id: pairing.machine.clone(),
-        form: Form::Always { when: None, then: Product::AGREE },
+        form: Form::Always {
+            when: None,
+            then: Product::AGREE,
+        },
     }];
     // Once the sides have parted they wander through pairs that mean nothing.
-    let options = Options { stop_when_decided: true, witnesses: false, ..options.clone() };
+    let options = Options {
+        stop_when_decided: true,
+        witnesses: false,
+        ..options.clone()
+    };
     let report = explore(&product, &claim, &options, progress)
         .map_err(|e| DiffError::Explore(pairing.machine.clone(), e))?;
     let judged = &report.properties[0];
-    let divergence = match (&judged.trace, report.faults.first().and_then(|f| f.trace.as_ref())) {
+    let divergence = match (
+        &judged.trace,
+        report.faults.first().and_then(|f| f.trace.as_ref()),
+    ) {
         (Some(trace), _) if judged.verdict == Verdict::Violated => Some(trace),
         (_, fault) => fault,
     }
@@ -181,7 +211,11 @@ pub fn sample(
     let mut left = cycles;
     while left > 0 && out.divergence.is_none() {
         // Every second batch runs with other parameters.
-        let varied = if random.below(2) == 0 { None } else { vary(pairing, random) };
+        let varied = if random.below(2) == 0 {
+            None
+        } else {
+            vary(pairing, random)
+        };
         let pairing = varied.as_ref().unwrap_or(pairing);
         let peer = monitor(pairing, mutant)?;
         let product = Product::new(&pairing.bound, peer.as_ref()).map_err(DiffError::Sides)?;
@@ -223,7 +257,11 @@ fn vary(pairing: &Pairing, random: &mut Random) -> Option<Pairing> {
     let bound = Bound::new(system.clone(), &given, &BTreeMap::new()).ok()?;
     // What the monitor refuses at construction needs no comparison.
     peer::peer(&pairing.machine, &bound, None).ok()?;
-    Some(Pairing { machine: pairing.machine.clone(), axes: pairing.axes.clone(), bound })
+    Some(Pairing {
+        machine: pairing.machine.clone(),
+        axes: pairing.axes.clone(),
+        bound,
+    })
 }
 
 /// The report for readers.
@@ -244,7 +282,11 @@ pub fn text(compared: &[Compared], what: &str) -> String {
     ));
     for c in compared {
         let params: Vec<String> = c.params.iter().map(|(n, v)| format!("{n} = {v}")).collect();
-        let axes = if c.axes.is_empty() { String::new() } else { format!(" of {}", c.axes.join(", ")) };
+        let axes = if c.axes.is_empty() {
+            String::new()
+        } else {
+            format!(" of {}", c.axes.join(", "))
+        };
         out.push_str(&format!("{}{axes}: {}\n", c.machine, params.join(", ")));
         out.push_str(&format!(
             "  {} pairs, {} cycles, {} outputs{}\n",

@@ -91,21 +91,36 @@ fn param(bound: &Bound, name: &str) -> i32 {
 }
 
 /// Names of the machines that have a monitor.
-pub const MACHINES: [&str; 7] =
-    ["external", "fault", "stop", "selection", "reference", "agreement", "gear"];
+pub const MACHINES: [&str; 7] = [
+    "external",
+    "fault",
+    "stop",
+    "selection",
+    "reference",
+    "agreement",
+    "gear",
+];
 
 /// The monitor that implements `machine` under the parameters of `bound`, with `mutant` in it if one is given.
 ///
 /// # Errors
 /// The monitor's own refusal of the parameters.
-pub fn peer(machine: &str, bound: &Bound, mutant: Option<Mutant>) -> Result<Option<Box<dyn Peer>>, String> {
+pub fn peer(
+    machine: &str,
+    bound: &Bound,
+    mutant: Option<Mutant>,
+) -> Result<Option<Box<dyn Peer>>, String> {
     let refused = |e| format!("the monitor `{machine}` refuses these parameters: {e:?}");
     let p = |name: &str| param(bound, name);
     let time = |name: &str| cycles(p(name));
     Ok(Some(match machine {
         "external" => Box::new(External {
-            config: external::Config::new(p("enable_ext") != 0, p("enable_e") != 0, p("spl_stop_e") != 0)
-                .map_err(refused)?,
+            config: external::Config::new(
+                p("enable_ext") != 0,
+                p("enable_e") != 0,
+                p("spl_stop_e") != 0,
+            )
+            .map_err(refused)?,
             next: mutant.map_or(external::next as external::Next, Mutant::external),
         }) as Box<dyn Peer>,
         "fault" => Box::new(Fault {
@@ -114,7 +129,8 @@ pub fn peer(machine: &str, bound: &Bound, mutant: Option<Mutant>) -> Result<Opti
             next: mutant.map_or(fault::next as fault::Next, Mutant::fault),
         }),
         "stop" => Box::new(Stop {
-            config: stop::Config::new(time("t_b"), time("t_c"), time("t_d"), time("t_e")).map_err(refused)?,
+            config: stop::Config::new(time("t_b"), time("t_c"), time("t_d"), time("t_e"))
+                .map_err(refused)?,
             longest: p("t_b").max(p("t_c")).max(p("t_d")).max(p("t_e")),
             next: mutant.map_or(stop::next as stop::Next, Mutant::stop),
         }),
@@ -134,13 +150,17 @@ pub fn peer(machine: &str, bound: &Bound, mutant: Option<Mutant>) -> Result<Opti
             next: mutant.map_or(reference::next as reference::Next, Mutant::reference),
         }),
         "agreement" => Box::new(Agreement {
-            config: agreement::Config::new(time("t_differ"), p("se_sn_enabled") != 0).map_err(refused)?,
+            config: agreement::Config::new(time("t_differ"), p("se_sn_enabled") != 0)
+                .map_err(refused)?,
             t_differ: p("t_differ"),
             next: mutant.map_or(agreement::next as agreement::Next, Mutant::agreement),
         }),
         "gear" => Box::new(Gear {
-            config: gear::Config::new(u8::try_from(p("gear_max")).unwrap_or(0), p("se_sn_enabled") != 0)
-                .map_err(refused)?,
+            config: gear::Config::new(
+                u8::try_from(p("gear_max")).unwrap_or(0),
+                p("se_sn_enabled") != 0,
+            )
+            .map_err(refused)?,
             gear_max: p("gear_max"),
             next: mutant.map_or(gear::next as gear::Next, Mutant::gear),
         }),
@@ -155,7 +175,16 @@ struct External {
 
 impl Peer for External {
     fn inputs(&self) -> &'static [&'static str] {
-        &["power_on", "reset", "spl_started", "sge_a", "sge_c", "sge_d", "sge_e", "spl_error"]
+        &[
+            "power_on",
+            "reset",
+            "spl_started",
+            "sge_a",
+            "sge_c",
+            "sge_d",
+            "sge_e",
+            "spl_error",
+        ]
     }
 
     fn outputs(&self) -> &'static [&'static str] {
@@ -172,7 +201,10 @@ impl Peer for External {
     }
 
     fn step(&self, cells: &mut [i32], i: &[i32], outputs: &mut Numbers) {
-        let state = external::State { started: cells[0] != 0, spl_latched: cells[1] != 0 };
+        let state = external::State {
+            started: cells[0] != 0,
+            spl_latched: cells[1] != 0,
+        };
         let inputs = external::Inputs {
             power_on: i[0] != 0,
             reset: i[1] != 0,
@@ -186,7 +218,11 @@ impl Peer for External {
         let (s, o) = (self.next)(state, &self.config, &inputs);
         cells[0] = i32::from(s.started);
         cells[1] = i32::from(s.spl_latched);
-        outputs.extend([rank(o.request.level()), rank(o.selected.level()), bit(o.spl_stop)]);
+        outputs.extend([
+            rank(o.request.level()),
+            rank(o.selected.level()),
+            bit(o.spl_stop),
+        ]);
     }
 }
 
@@ -198,7 +234,15 @@ struct Fault {
 
 impl Peer for Fault {
     fn inputs(&self) -> &'static [&'static str] {
-        &["power_on", "reset", "discrepancy", "rx_fault", "monitoring", "cde_before", "ab_before"]
+        &[
+            "power_on",
+            "reset",
+            "discrepancy",
+            "rx_fault",
+            "monitoring",
+            "cde_before",
+            "ab_before",
+        ]
     }
 
     fn outputs(&self) -> &'static [&'static str] {
@@ -216,7 +260,10 @@ impl Peer for Fault {
     fn step(&self, cells: &mut [i32], i: &[i32], outputs: &mut Numbers) {
         use fault::FaultState::{Delay, Expired, Latched, None};
         let all = [None, Latched, Delay, Expired];
-        let state = fault::State { fault: all[cells[0].clamp(0, 3) as usize], timer: cycles(cells[1]) };
+        let state = fault::State {
+            fault: all[cells[0].clamp(0, 3) as usize],
+            timer: cycles(cells[1]),
+        };
         let inputs = fault::Inputs {
             power_on: i[0] != 0,
             reset: i[1] != 0,
@@ -230,7 +277,13 @@ impl Peer for Fault {
         let ordinal = |f| all.iter().position(|a| *a == f).unwrap_or(0) as i32;
         cells[0] = ordinal(s.fault);
         cells[1] = cell(s.timer);
-        outputs.extend([i64::from(ordinal(o.fault)), bit(o.alarm), bit(o.stop_b), bit(o.bit1), bit(o.interlock)]);
+        outputs.extend([
+            i64::from(ordinal(o.fault)),
+            bit(o.alarm),
+            bit(o.stop_b),
+            bit(o.bit1),
+            bit(o.interlock),
+        ]);
     }
 }
 
@@ -243,7 +296,14 @@ struct Stop {
 impl Peer for Stop {
     fn inputs(&self) -> &'static [&'static str] {
         &[
-            "power_on", "reset", "demand", "f_stop_b", "rx_internal", "external", "rx_external", "test",
+            "power_on",
+            "reset",
+            "demand",
+            "f_stop_b",
+            "rx_internal",
+            "external",
+            "rx_external",
+            "test",
             "standstill",
         ]
     }
@@ -258,8 +318,21 @@ impl Peer for Stop {
 
     fn outputs(&self) -> &'static [&'static str] {
         &[
-            "level", "internal", "phase", "cancel_pulses", "n_set_zero", "path_brake", "esr", "sbh_internal",
-            "sga_stop_ab", "sga_stop_c", "sga_stop_d", "sga_stop_e", "sbr_on", "sequence_over", "start_inhibit",
+            "level",
+            "internal",
+            "phase",
+            "cancel_pulses",
+            "n_set_zero",
+            "path_brake",
+            "esr",
+            "sbh_internal",
+            "sga_stop_ab",
+            "sga_stop_c",
+            "sga_stop_d",
+            "sga_stop_e",
+            "sbr_on",
+            "sequence_over",
+            "start_inhibit",
             "stopsi",
         ]
     }
@@ -330,15 +403,36 @@ struct Selection {
 
 impl Peer for Selection {
     fn inputs(&self) -> &'static [&'static str] {
-        &["power_on", "sge_sbh_sg", "sge_sbh", "sg_select", "sbh_internal", "position"]
+        &[
+            "power_on",
+            "sge_sbh_sg",
+            "sge_sbh",
+            "sg_select",
+            "sbh_internal",
+            "position",
+        ]
     }
 
     fn outputs(&self) -> &'static [&'static str] {
-        &["mode", "sga_active", "sga_sbh_active", "sga_sg", "monitored", "speed_limit", "reference"]
+        &[
+            "mode",
+            "sga_active",
+            "sga_sbh_active",
+            "sga_sg",
+            "monitored",
+            "speed_limit",
+            "reference",
+        ]
     }
 
     fn domains(&self) -> Vec<Domain> {
-        vec![upto(5), upto(3), upto(3), upto(self.t_vel), upto(self.pos_max)]
+        vec![
+            upto(5),
+            upto(3),
+            upto(3),
+            upto(self.t_vel),
+            upto(self.pos_max),
+        ]
     }
 
     fn initial(&self, _: &dyn Fn(&str) -> i32) -> Vec<i32> {
@@ -394,11 +488,24 @@ struct Reference {
 
 impl Peer for Reference {
     fn inputs(&self) -> &'static [&'static str] {
-        &["power_on", "run_up", "referenced", "reference_lost", "parking", "agreed_1", "agreed_2"]
+        &[
+            "power_on",
+            "run_up",
+            "referenced",
+            "reference_lost",
+            "parking",
+            "agreed_1",
+            "agreed_2",
+        ]
     }
 
     fn outputs(&self) -> &'static [&'static str] {
-        &["axis", "nst_reference_reached", "safely_referenced", "compare_due"]
+        &[
+            "axis",
+            "nst_reference_reached",
+            "safely_referenced",
+            "compare_due",
+        ]
     }
 
     fn domains(&self) -> Vec<Domain> {
@@ -412,7 +519,10 @@ impl Peer for Reference {
     fn step(&self, cells: &mut [i32], i: &[i32], outputs: &mut Numbers) {
         use reference::AxisState::{NotRef, Off, Ref, SafeRef};
         let all = [Off, NotRef, Ref, SafeRef];
-        let state = reference::State { axis: all[cells[0].clamp(0, 3) as usize], fresh: cells[1] != 0 };
+        let state = reference::State {
+            axis: all[cells[0].clamp(0, 3) as usize],
+            fresh: cells[1] != 0,
+        };
         let inputs = reference::Inputs {
             power_on: i[0] != 0,
             run_up: i[1] != 0,
@@ -444,8 +554,17 @@ struct Agreement {
 impl Peer for Agreement {
     fn inputs(&self) -> &'static [&'static str] {
         &[
-            "power_on", "set", "cancel", "key", "axis_ref", "compare_due", "history_ok", "stored", "gear_changed",
-            "altered", "other_agreed",
+            "power_on",
+            "set",
+            "cancel",
+            "key",
+            "axis_ref",
+            "compare_due",
+            "history_ok",
+            "stored",
+            "gear_changed",
+            "altered",
+            "other_agreed",
         ]
     }
 
@@ -463,7 +582,10 @@ impl Peer for Agreement {
     }
 
     fn step(&self, cells: &mut [i32], i: &[i32], outputs: &mut Numbers) {
-        let state = agreement::State { agreed: cells[0] != 0, timer: cycles(cells[1]) };
+        let state = agreement::State {
+            agreed: cells[0] != 0,
+            timer: cycles(cells[1]),
+        };
         let inputs = agreement::Inputs {
             power_on: i[0] != 0,
             set: i[1] != 0,
@@ -480,7 +602,12 @@ impl Peer for Agreement {
         let (s, o) = (self.next)(state, &self.config, &inputs);
         cells[0] = i32::from(s.agreed);
         cells[1] = cell(s.timer);
-        outputs.extend([bit(o.agreed), i64::from(o.code.number()), bit(o.withdrawn), bit(o.se_active)]);
+        outputs.extend([
+            bit(o.agreed),
+            i64::from(o.code.number()),
+            bit(o.withdrawn),
+            bit(o.se_active),
+        ]);
     }
 }
 
@@ -508,9 +635,20 @@ impl Peer for Gear {
     }
 
     fn step(&self, cells: &mut [i32], i: &[i32], outputs: &mut Numbers) {
-        let index = |v: i32| u8::try_from(v).ok().and_then(gear::GearIndex::new).unwrap_or_default();
-        let state = gear::State { stage: index(cells[0]), known: cells[1] != 0 };
-        let inputs = gear::Inputs { power_on: i[0] != 0, index: index(i[1]) };
+        let index = |v: i32| {
+            u8::try_from(v)
+                .ok()
+                .and_then(gear::GearIndex::new)
+                .unwrap_or_default()
+        };
+        let state = gear::State {
+            stage: index(cells[0]),
+            known: cells[1] != 0,
+        };
+        let inputs = gear::Inputs {
+            power_on: i[0] != 0,
+            index: index(i[1]),
+        };
         let (s, o) = (self.next)(state, &self.config, &inputs);
         cells[0] = i32::from(s.stage.get());
         cells[1] = i32::from(s.known);

@@ -38,7 +38,9 @@ impl Values {
     pub fn get(self, k: u64) -> i32 {
         match self {
             Values::List(list) => {
-                let k = usize::try_from(k).unwrap_or(usize::MAX).min(list.len().saturating_sub(1));
+                let k = usize::try_from(k)
+                    .unwrap_or(usize::MAX)
+                    .min(list.len().saturating_sub(1));
                 list.get(k).copied().unwrap_or(0)
             }
             Values::Range(lo, hi) => {
@@ -80,11 +82,15 @@ impl<'a> Product<'a> {
     /// A port or output that only one side has: a sentence.
     pub fn new(bound: &'a Bound, peer: &'a dyn Peer) -> Result<Self, String> {
         let system = &bound.system;
-        let short = |name: &str| name.split_once('.').map_or(name.to_owned(), |(_, n)| n.to_owned());
+        let short = |name: &str| {
+            name.split_once('.')
+                .map_or(name.to_owned(), |(_, n)| n.to_owned())
+        };
         let mut feeds = Vec::new();
         for name in peer.inputs() {
             let found = system.inputs.iter().position(|i| short(&i.name) == *name);
-            feeds.push(found.ok_or_else(|| format!("table {} has no input `{name}`", system.name))?);
+            feeds
+                .push(found.ok_or_else(|| format!("table {} has no input `{name}`", system.name))?);
         }
         let mut values = Vec::new();
         for (k, (lo, hi)) in bound.inputs.iter().enumerate() {
@@ -100,22 +106,42 @@ impl<'a> Product<'a> {
         }
         let mut compared = Vec::new();
         for name in peer.outputs() {
-            let state = system.states.iter().position(|s| short(&s.var.name) == *name);
+            let state = system
+                .states
+                .iter()
+                .position(|s| short(&s.var.name) == *name);
             let lazy = || {
-                system.lazies.iter().position(|l| l.kind == LazyKind::Output && short(&l.name) == *name)
+                system
+                    .lazies
+                    .iter()
+                    .position(|l| l.kind == LazyKind::Output && short(&l.name) == *name)
             };
             compared.push(match (state, lazy()) {
                 (Some(k), _) => (Source::State(k), system.states[k].var.ty),
                 (None, Some(k)) => (Source::Lazy(k), system.lazies[k].ty),
-                (None, None) => return Err(format!("table {} has no output `{name}`", system.name)),
+                (None, None) => {
+                    return Err(format!("table {} has no output `{name}`", system.name));
+                }
             });
         }
-        let mut domains: Vec<Domain> =
-            bound.states.iter().map(|(lo, hi)| Domain { lo: *lo, hi: *hi }).collect();
+        let mut domains: Vec<Domain> = bound
+            .states
+            .iter()
+            .map(|(lo, hi)| Domain { lo: *lo, hi: *hi })
+            .collect();
         domains.extend(peer.domains());
         let combinations = values.iter().map(|v| u128::from(v.count())).product();
         let table = Table::find(&system.name, system.fingerprint());
-        Ok(Self { bound, table, peer, domains, values, feeds, compared, combinations })
+        Ok(Self {
+            bound,
+            table,
+            peer,
+            domains,
+            values,
+            feeds,
+            compared,
+            combinations,
+        })
     }
 
     /// Number of outputs compared in each cycle.
@@ -140,37 +166,39 @@ impl<'a> Product<'a> {
             *to = work.inputs[*from];
         }
         work.monitor.clear();
-        self.peer.step(&mut cells[n..], &fed[..self.feeds.len()], &mut work.monitor);
+        self.peer
+            .step(&mut cells[n..], &fed[..self.feeds.len()], &mut work.monitor);
         Ok(())
     }
 
     fn generated(&self, table: &Table, work: &mut Work, cells: &mut [i32]) -> Result<(), Fault> {
         let (frame, params) = (&mut work.generated[..], &self.bound.values[..]);
-        let mut never = |k: usize| self.bound.inputs[k].0;
+        let inputs = &work.inputs;
+        let mut read = |k: usize| inputs[k];
         let fault = |code| Fault { code };
-        table.start(frame, cells);
-        frame[2 * table.states..2 * table.states + table.inputs].copy_from_slice(&work.inputs);
-        (table.step)(frame, params, &mut never).map_err(fault)?;
+        (table.step)(cells, frame, params, &mut read).map_err(fault)?;
         cells.copy_from_slice(&frame[..table.states]);
         for (source, _) in &self.compared {
             work.table.push(match source {
                 Source::State(k) => i64::from(cells[*k]),
-                Source::Lazy(k) => (table.lazy)(*k, frame, params, &mut never).map_err(fault)?,
+                Source::Lazy(k) => (table.lazy)(*k, frame, params, &mut read).map_err(fault)?,
             });
         }
         Ok(())
     }
 
     fn interpreted(&self, work: &mut Work, cells: &mut [i32]) -> Result<(), Fault> {
-        let mut never = |k: usize| self.bound.inputs[k].0;
+        let inputs = &work.inputs;
+        let mut read = |k: usize| inputs[k];
         work.frame.start(cells);
-        work.frame.inputs.copy_from_slice(&work.inputs);
-        self.bound.step(&mut work.frame, &mut never).map_err(|code| Fault { code })?;
+        self.bound
+            .step(&mut work.frame, &mut read)
+            .map_err(|code| Fault { code })?;
         cells.copy_from_slice(&work.frame.now);
         for (source, _) in &self.compared {
             work.table.push(match source {
                 Source::State(k) => i64::from(cells[*k]),
-                Source::Lazy(k) => self.bound.lazy(*k, &mut work.frame, &mut never),
+                Source::Lazy(k) => self.bound.lazy(*k, &mut work.frame, &mut read),
             });
         }
         Ok(())
@@ -194,11 +222,18 @@ impl<'a> Product<'a> {
 
     /// Both initial states; `any` gives a state variable of the table that may start with any value.
     pub fn start(&self, any: &mut dyn FnMut(usize) -> i32) -> Vec<i32> {
-        let table: Vec<i32> =
-            self.bound.initial.iter().enumerate().map(|(k, v)| v.unwrap_or_else(|| any(k))).collect();
+        let table: Vec<i32> = self
+            .bound
+            .initial
+            .iter()
+            .enumerate()
+            .map(|(k, v)| v.unwrap_or_else(|| any(k)))
+            .collect();
         let named = |name: &str| {
             let states = &self.bound.system.states;
-            let k = states.iter().position(|s| s.var.name.ends_with(&format!(".{name}")));
+            let k = states
+                .iter()
+                .position(|s| s.var.name.ends_with(&format!(".{name}")));
             k.map_or(0, |k| table[k])
         };
         let own = self.peer.initial(&named);
@@ -213,14 +248,19 @@ impl<'a> Product<'a> {
     /// Input vectors of an explored run: the initial state and the inputs of each cycle.
     pub fn inputs_of(&self, trace: &Trace) -> (Vec<i32>, Vec<Vec<i32>>) {
         let chosen = |step: &[(u32, u32)], k: usize| {
-            step.iter().find(|(i, _)| *i as usize == k).map_or(0, |(_, v)| *v)
+            step.iter()
+                .find(|(i, _)| *i as usize == k)
+                .map_or(0, |(_, v)| *v)
         };
-        let start =
-            self.start(&mut |k| self.bound.states[k].0 + chosen(&trace.initial, k) as i32);
+        let start = self.start(&mut |k| self.bound.states[k].0 + chosen(&trace.initial, k) as i32);
         let cycles = trace
             .steps
             .iter()
-            .map(|step| (0..self.values.len()).map(|k| self.values[k].get(u64::from(chosen(step, k)))).collect())
+            .map(|step| {
+                (0..self.values.len())
+                    .map(|k| self.values[k].get(u64::from(chosen(step, k))))
+                    .collect()
+            })
             .collect();
         (start, cycles)
     }
@@ -231,10 +271,15 @@ impl<'a> Product<'a> {
         let mut lanes: Vec<Lane> = Vec::new();
         for (k, input) in system.inputs.iter().enumerate() {
             if self.feeds.contains(&k) {
-                let values = cycles.iter().map(|c| Some(system.show(input.ty, i64::from(c[k]))));
+                let values = cycles
+                    .iter()
+                    .map(|c| Some(system.show(input.ty, i64::from(c[k]))));
                 lanes.push(Lane {
                     group: "inputs",
-                    name: input.name.split_once('.').map_or(input.name.clone(), |(_, n)| n.to_owned()),
+                    name: input
+                        .name
+                        .split_once('.')
+                        .map_or(input.name.clone(), |(_, n)| n.to_owned()),
                     level: input.ty == Ty::Bool,
                     values: std::iter::once(None).chain(values).collect(),
                 });
@@ -248,7 +293,11 @@ impl<'a> Product<'a> {
         };
         let names = self.peer.outputs();
         let sides = |group| -> Vec<Lane> {
-            names.iter().zip(&self.compared).map(|(n, (_, ty))| lane(group, n, *ty)).collect()
+            names
+                .iter()
+                .zip(&self.compared)
+                .map(|(n, (_, ty))| lane(group, n, *ty))
+                .collect()
         };
         let (mut table, mut monitor) = (sides("specification"), sides("monitor"));
         let mut marks = Vec::new();
@@ -262,10 +311,18 @@ impl<'a> Product<'a> {
             for k in 0..names.len() {
                 let ty = self.compared[k].1;
                 table[k].values.push(Some(system.show(ty, work.table[k])));
-                monitor[k].values.push(Some(system.show(ty, work.monitor[k])));
+                monitor[k]
+                    .values
+                    .push(Some(system.show(ty, work.monitor[k])));
                 if work.table[k] != work.monitor[k] {
-                    let (a, b) = (system.show(ty, work.table[k]), system.show(ty, work.monitor[k]));
-                    marks.push((n + 1, format!("{}: specification {a}, monitor {b}", names[k])));
+                    let (a, b) = (
+                        system.show(ty, work.table[k]),
+                        system.show(ty, work.monitor[k]),
+                    );
+                    marks.push((
+                        n + 1,
+                        format!("{}: specification {a}, monitor {b}", names[k]),
+                    ));
                 }
             }
         }
@@ -277,8 +334,17 @@ impl<'a> Product<'a> {
                 lanes.push(b);
             }
         }
-        lanes.sort_by_key(|l| ["inputs", "specification", "monitor"].iter().position(|g| *g == l.group));
-        Diagram { lanes, columns: cycles.len() + 1, marks, loop_start: None }
+        lanes.sort_by_key(|l| {
+            ["inputs", "specification", "monitor"]
+                .iter()
+                .position(|g| *g == l.group)
+        });
+        Diagram {
+            lanes,
+            columns: cycles.len() + 1,
+            marks,
+            loop_start: None,
+        }
     }
 }
 
@@ -321,7 +387,11 @@ impl System for Product<'_> {
     ) -> Result<(), Fault> {
         for (k, values) in self.values.iter().enumerate() {
             let count = u32::try_from(values.count()).unwrap_or(u32::MAX);
-            let pick = if count > 1 { choices.choose(k as u32, count) } else { 0 };
+            let pick = if count > 1 {
+                choices.choose(k as u32, count)
+            } else {
+                0
+            };
             work.inputs[k] = values.get(u64::from(pick));
         }
         after.copy_from_slice(before);

@@ -55,14 +55,21 @@ fn any(values: Values, random: &mut Random) -> i32 {
 
 /// Drives both sides for one run. Inputs keep their value for a while, so that timers expire and sequences complete;
 /// how long differs from run to run.
-pub fn run(product: &Product, inputs: usize, random: &mut Random, length: u64) -> Option<Divergence> {
+pub fn run(
+    product: &Product,
+    inputs: usize,
+    random: &mut Random,
+    length: u64,
+) -> Option<Divergence> {
     let start = product.start(&mut |k| {
         let domain = stillpoint_model::System::domains(product)[k];
         domain.lo + random.below(domain.size() as usize) as i32
     });
     // In one run inputs change rarely, in another often.
     let restless = 1 + random.below(16);
-    let mut now: Vec<i32> = (0..inputs).map(|k| any(product.values(k), random)).collect();
+    let mut now: Vec<i32> = (0..inputs)
+        .map(|k| any(product.values(k), random))
+        .collect();
     let favourites = now.clone();
     let mut work = product.new_work();
     let mut cells = start.clone();
@@ -120,7 +127,11 @@ pub fn shrink(product: &Product, found: Divergence) -> Divergence {
     }
     for n in 0..best.cycles.len() {
         for k in 0..best.cycles[n].len() {
-            let calm = if n > 0 { best.cycles[n - 1][k] } else { product.values(k).get(0) };
+            let calm = if n > 0 {
+                best.cycles[n - 1][k]
+            } else {
+                product.values(k).get(0)
+            };
             if best.cycles[n][k] != calm {
                 let mut other = best.cycles.clone();
                 other[n][k] = calm;

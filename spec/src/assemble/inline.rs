@@ -41,10 +41,15 @@ fn table(system: &System) -> Option<Vec<Option<Node>>> {
             plain &= !matches!(n, Node::Lazy(_)) || nodes == 1;
         });
         // A wire to a named expression is that expression; anything larger keeps its cell.
-        lazy.kind == LazyKind::Wire && read[k] && plain && nodes <= SMALL && lazy.value != Node::Lazy(k as u32)
+        lazy.kind == LazyKind::Wire
+            && read[k]
+            && plain
+            && nodes <= SMALL
+            && lazy.value != Node::Lazy(k as u32)
     };
-    let out: Vec<Option<Node>> =
-        (0..system.lazies.len()).map(|k| trivial(k).then(|| system.lazies[k].value.clone())).collect();
+    let out: Vec<Option<Node>> = (0..system.lazies.len())
+        .map(|k| trivial(k).then(|| system.lazies[k].value.clone()))
+        .collect();
     out.iter().any(Option::is_some).then_some(out)
 }
 

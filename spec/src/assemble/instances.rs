@@ -11,7 +11,11 @@ use crate::scope::{Meaning, Tense};
 
 impl Builder<'_> {
     /// A scalar given where an expression is meant.
-    pub(super) fn scalar_expr(&self, file: usize, value: &toml::Spanned<Scalar>) -> One<(ast::Expr, Text)> {
+    pub(super) fn scalar_expr(
+        &self,
+        file: usize,
+        value: &toml::Spanned<Scalar>,
+    ) -> One<(ast::Expr, Text)> {
         let (written, quoted) = match value.get_ref() {
             Scalar::Bool(b) => (if *b { "TRUE" } else { "FALSE" }.to_owned(), false),
             Scalar::Int(v) => (v.to_string(), false),
@@ -33,7 +37,8 @@ impl Builder<'_> {
         names: &Names,
     ) -> One<Node> {
         let (e, text) = self.scalar_expr(file, value)?;
-        self.machine_scope(file, &text, names, Tense::None).expect(&e, want)
+        self.machine_scope(file, &text, names, Tense::None)
+            .expect(&e, want)
     }
 
     /// The cells of a declaration: one, or those of an array with its lower index bound.
@@ -49,7 +54,11 @@ impl Builder<'_> {
         if crate::lang::is_keyword(written) || written.is_empty() {
             return Err(self
                 .spec
-                .error(file, port.ty.span(), format!("`{written}` cannot be a name"))
+                .error(
+                    file,
+                    port.ty.span(),
+                    format!("`{written}` cannot be a name"),
+                )
                 .help("names start with a letter and are not keywords"));
         }
         let (element, array) = match &ty.kind {
@@ -67,8 +76,12 @@ impl Builder<'_> {
                 None => {
                     let known = self.spec.enums.keys().map(String::as_str);
                     let help = nearest(name, known.chain(["BOOL", "INT", "TIME"]))
-                        .map_or("declare it under [enum]".to_owned(), |n| format!("did you mean `{n}`?"));
-                    return Err(scope.error(&element.span, format!("there is no type `{name}`")).help(help));
+                        .map_or("declare it under [enum]".to_owned(), |n| {
+                            format!("did you mean `{n}`?")
+                        });
+                    return Err(scope
+                        .error(&element.span, format!("there is no type `{name}`"))
+                        .help(help));
                 }
             },
             TypeKind::Int(Some((lo, hi))) | TypeKind::Time(Some((lo, hi))) => {
@@ -76,12 +89,18 @@ impl Builder<'_> {
                 let (least, most) = (scope.ranges.of(&a), scope.ranges.of(&b));
                 if least.0 < CELL.0 || most.1 > CELL.1 {
                     return Err(scope
-                        .error(&element.span, format!("range {}..{} does not fit 32 bits", least.0, most.1))
+                        .error(
+                            &element.span,
+                            format!("range {}..{} does not fit 32 bits", least.0, most.1),
+                        )
                         .help("use a range within -2147483647..2147483647"));
                 }
                 if least.0 > most.1 {
                     return Err(scope
-                        .error(&element.span, format!("range {}..{} is empty", least.0, most.1))
+                        .error(
+                            &element.span,
+                            format!("range {}..{} is empty", least.0, most.1),
+                        )
                         .help("the lower bound comes first"));
                 }
                 (Ty::Int, a, b)
@@ -103,29 +122,48 @@ impl Builder<'_> {
         Ok(match array {
             None => (vec![var(full.to_owned())], None),
             Some((first, last)) => (
-                (first..=last).map(|k| var(format!("{full}[{k}]"))).collect(),
+                (first..=last)
+                    .map(|k| var(format!("{full}[{k}]")))
+                    .collect(),
                 Some(first),
             ),
         })
     }
 
-    pub(super) fn declare_param(&mut self, file: usize, name: &Text, port: &schema::Port, names: &Names) -> One<Meaning> {
+    pub(super) fn declare_param(
+        &mut self,
+        file: usize,
+        name: &Text,
+        port: &schema::Port,
+        names: &Names,
+    ) -> One<Meaning> {
         let (vars, array) = self.variables(file, name.get_ref(), name.get_ref(), port, names)?;
         let Some(default) = &port.default else {
             return Err(self
                 .spec
-                .error(file, name.span(), format!("parameter `{}` has no default", name.get_ref()))
+                .error(
+                    file,
+                    name.span(),
+                    format!("parameter `{}` has no default", name.get_ref()),
+                )
                 .help("add `default = ...` so that the file can be checked on its own"));
         };
         let base = self.sys.params.len() as u32;
         let (ty, len) = (vars[0].ty, vars.len() as u32);
         let value = self.constant(file, default, ty, names)?;
-        let (lo, hi) = (self.ranges().of(&vars[0].lo).0, self.ranges().of(&vars[0].hi).1);
+        let (lo, hi) = (
+            self.ranges().of(&vars[0].lo).0,
+            self.ranges().of(&vars[0].hi).1,
+        );
         let range = self.ranges().of(&value);
         if range.1 < lo || range.0 > hi {
             return Err(self
                 .spec
-                .error(file, default.span(), format!("default {} is outside {lo}..{hi}", range.0))
+                .error(
+                    file,
+                    default.span(),
+                    format!("default {} is outside {lo}..{hi}", range.0),
+                )
                 .help(format!("give `{}` a default of its type", name.get_ref())));
         }
         for var in vars {
@@ -156,10 +194,16 @@ impl Builder<'_> {
         let Some(machine) = self.spec.machines.get(def.machine.get_ref()) else {
             let known = self.spec.machines();
             let help = nearest(def.machine.get_ref(), known)
-                .map_or("declare it under [machine]".to_owned(), |n| format!("did you mean `{n}`?"));
+                .map_or("declare it under [machine]".to_owned(), |n| {
+                    format!("did you mean `{n}`?")
+                });
             self.errors.push(
                 self.spec
-                    .error(self.file, def.machine.span(), format!("there is no machine `{}`", def.machine.get_ref()))
+                    .error(
+                        self.file,
+                        def.machine.span(),
+                        format!("there is no machine `{}`", def.machine.get_ref()),
+                    )
                     .help(help),
             );
             return;
@@ -170,7 +214,11 @@ impl Builder<'_> {
             if !(1..=64).contains(&count) {
                 self.errors.push(
                     self.spec
-                        .error(self.file, written.span(), format!("count {count} is not possible"))
+                        .error(
+                            self.file,
+                            written.span(),
+                            format!("count {count} is not possible"),
+                        )
                         .help("1 to 64 instances"),
                 );
                 return;
@@ -181,16 +229,30 @@ impl Builder<'_> {
             if !machine.def.param.contains_key(key) {
                 let known = machine.def.param.keys().map(|k| k.get_ref().as_str());
                 let help = nearest(key.get_ref(), known)
-                    .map_or("its machine has no such parameter".to_owned(), |n| format!("did you mean `{n}`?"));
+                    .map_or("its machine has no such parameter".to_owned(), |n| {
+                        format!("did you mean `{n}`?")
+                    });
                 self.errors.push(
                     self.spec
-                        .error(self.file, key.span(), format!("machine `{}` has no parameter `{}`", def.machine.get_ref(), key.get_ref()))
+                        .error(
+                            self.file,
+                            key.span(),
+                            format!(
+                                "machine `{}` has no parameter `{}`",
+                                def.machine.get_ref(),
+                                key.get_ref()
+                            ),
+                        )
                         .help(help),
                 );
             }
         }
         for index in 1..=count.unwrap_or(1) {
-            let full = if count.is_some() { format!("{base}[{index}]") } else { base.clone() };
+            let full = if count.is_some() {
+                format!("{base}[{index}]")
+            } else {
+                base.clone()
+            };
             let mut unit = Unit {
                 name: full,
                 machine: def.machine.get_ref().clone(),
@@ -210,7 +272,11 @@ impl Builder<'_> {
             for (state, port) in &machine.def.state {
                 let made = self.add_state(machine.file, state, &port.0, &unit, units.len());
                 if let Some(meaning) = self.note(made) {
-                    if unit.names.insert(state.get_ref().clone(), meaning).is_some() {
+                    if unit
+                        .names
+                        .insert(state.get_ref().clone(), meaning)
+                        .is_some()
+                    {
                         self.twice(machine.file, state);
                     }
                 }
@@ -223,7 +289,11 @@ impl Builder<'_> {
     pub(super) fn twice(&mut self, file: usize, name: &Text) {
         self.errors.push(
             self.spec
-                .error(file, name.span(), format!("`{}` is declared twice in this machine", name.get_ref()))
+                .error(
+                    file,
+                    name.span(),
+                    format!("`{}` is declared twice in this machine", name.get_ref()),
+                )
                 .help("parameters, inputs, state, lets and outputs share one name space"),
         );
     }
@@ -236,9 +306,13 @@ impl Builder<'_> {
         def: &schema::Instance,
         unit: &Unit,
     ) -> One<Meaning> {
-        let given = def.param.iter().find(|(k, _)| k.get_ref() == param.get_ref());
+        let given = def
+            .param
+            .iter()
+            .find(|(k, _)| k.get_ref() == param.get_ref());
         if let Some((_, value)) = given {
-            let (vars, _) = self.variables(file, param.get_ref(), param.get_ref(), port, &unit.names)?;
+            let (vars, _) =
+                self.variables(file, param.get_ref(), param.get_ref(), port, &unit.names)?;
             let (e, text) = self.scalar_expr(self.file, value)?;
             if let Kind::Name(n) = &e.kind {
                 if let Some(m @ Meaning::Array(..)) = self.names.get(n) {
@@ -251,7 +325,8 @@ impl Builder<'_> {
             return Ok(Meaning::Value(vars[0].ty, node));
         }
         if let Some(meaning) = self.names.get(param.get_ref()) {
-            let (vars, array) = self.variables(file, param.get_ref(), param.get_ref(), port, &unit.names)?;
+            let (vars, array) =
+                self.variables(file, param.get_ref(), param.get_ref(), port, &unit.names)?;
             let same = match meaning {
                 Meaning::Value(ty, _) => *ty == vars[0].ty && array.is_none(),
                 Meaning::Array(ty, Space::Param, _, first, len) => {
@@ -262,7 +337,14 @@ impl Builder<'_> {
             if !same {
                 return Err(self
                     .spec
-                    .error(file, param.span(), format!("parameter `{}` has another type than the system's", param.get_ref()))
+                    .error(
+                        file,
+                        param.span(),
+                        format!(
+                            "parameter `{}` has another type than the system's",
+                            param.get_ref()
+                        ),
+                    )
                     .help("bind it in the instance: `param = { name = \"...\" }`"));
             }
             return Ok(meaning.clone());
@@ -272,31 +354,59 @@ impl Builder<'_> {
         Ok(meaning)
     }
 
-    pub(super) fn add_state(&mut self, file: usize, name: &Text, port: &schema::Port, unit: &Unit, owner: usize) -> One<Meaning> {
+    pub(super) fn add_state(
+        &mut self,
+        file: usize,
+        name: &Text,
+        port: &schema::Port,
+        unit: &Unit,
+        owner: usize,
+    ) -> One<Meaning> {
         let full = format!("{}.{}", unit.name, name.get_ref());
         let (vars, array) = self.variables(file, &full, name.get_ref(), port, &unit.names)?;
         let ty = vars[0].ty;
         let Some(written) = &port.init else {
             return Err(self
                 .spec
-                .error(file, name.span(), format!("state `{}` has no initial value", name.get_ref()))
+                .error(
+                    file,
+                    name.span(),
+                    format!("state `{}` has no initial value", name.get_ref()),
+                )
                 .help("add `init = ...`, or `init = \"ANY\"` for every value"));
         };
         let any = matches!(written.get_ref(), Scalar::Text(t) if t == "ANY");
-        let init = if any { None } else { Some(self.constant(file, written, ty, &unit.names)?) };
+        let init = if any {
+            None
+        } else {
+            Some(self.constant(file, written, ty, &unit.names)?)
+        };
         if let Some(init) = &init {
-            let (a, b) = (self.ranges().of(init), (self.ranges().of(&vars[0].lo).0, self.ranges().of(&vars[0].hi).1));
+            let (a, b) = (
+                self.ranges().of(init),
+                (
+                    self.ranges().of(&vars[0].lo).0,
+                    self.ranges().of(&vars[0].hi).1,
+                ),
+            );
             if a.1 < b.0 || a.0 > b.1 {
                 return Err(self
                     .spec
-                    .error(file, written.span(), format!("initial value {} is outside {}..{}", a.0, b.0, b.1))
+                    .error(
+                        file,
+                        written.span(),
+                        format!("initial value {} is outside {}..{}", a.0, b.0, b.1),
+                    )
                     .help("choose a value of the type"));
             }
         }
         let base = self.sys.states.len() as u32;
         let len = vars.len() as u32;
         for var in vars {
-            self.sys.states.push(State { var, init: init.clone() });
+            self.sys.states.push(State {
+                var,
+                init: init.clone(),
+            });
             self.state_owner.push(owner);
         }
         Ok(Meaning::State(ty, base, array.map(|first| (first, len))))

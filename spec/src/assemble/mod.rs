@@ -6,8 +6,8 @@ use crate::diag::{Diagnostic, Diagnostics, Result, nearest};
 use crate::interval::Ranges;
 use crate::ir::{Enum, Instance, Node, Param, Property, Reading, Rule, System, Ty, Var};
 use crate::lang::ast::Kind;
-use crate::scope::{Meaning, Scope, Tense};
 use crate::schema::{self, Text};
+use crate::scope::{Meaning, Scope, Tense};
 use crate::spec::Spec;
 
 mod inline;
@@ -59,7 +59,10 @@ impl Spec {
             let source = &self.sources[0];
             let help = match nearest(name, self.systems()) {
                 Some(near) => format!("did you mean `{near}`?"),
-                None => format!("it declares {}", self.systems().collect::<Vec<_>>().join(", ")),
+                None => format!(
+                    "it declares {}",
+                    self.systems().collect::<Vec<_>>().join(", ")
+                ),
             };
             let message = format!("declares no system `{name}`");
             return Err(Diagnostic::new(&source.name, &source.text, None, message)
@@ -99,7 +102,9 @@ impl Spec {
             .collect(),
             wire: schema::Map::new(),
             free: schema::Free {
-                ports: ports.map(|p| text(&format!("{machine}.{}", p.get_ref()))).collect(),
+                ports: ports
+                    .map(|p| text(&format!("{machine}.{}", p.get_ref())))
+                    .collect(),
             },
             unreached: schema::Map::new(),
             property: Vec::new(),
@@ -167,7 +172,11 @@ impl<'a> Builder<'a> {
                 Ok(Kind::Time(us)) if us > 0 => self.sys.cycle_us = us,
                 _ => self.errors.push(
                     self.spec
-                        .error(self.file, cycle.span(), format!("`{}` is not a cycle time", cycle.get_ref()))
+                        .error(
+                            self.file,
+                            cycle.span(),
+                            format!("`{}` is not a cycle time", cycle.get_ref()),
+                        )
                         .help("write for example \"12 ms\""),
                 ),
             }
@@ -185,7 +194,11 @@ impl<'a> Builder<'a> {
             if e.def.values.is_empty() {
                 self.errors.push(
                     self.spec
-                        .error(e.file, e.span.clone(), format!("enum `{name}` has no values"))
+                        .error(
+                            e.file,
+                            e.span.clone(),
+                            format!("enum `{name}` has no values"),
+                        )
                         .help("list its values in rising order"),
                 );
             }
@@ -195,7 +208,12 @@ impl<'a> Builder<'a> {
             self.sys.readings.push(Reading {
                 id: id.clone(),
                 text: reading.def.text.clone(),
-                options: reading.def.options.iter().map(|o| o.get_ref().clone()).collect(),
+                options: reading
+                    .def
+                    .options
+                    .iter()
+                    .map(|o| o.get_ref().clone())
+                    .collect(),
                 note: reading.def.note.clone(),
             });
             for (k, option) in reading.def.options.iter().enumerate() {
@@ -204,7 +222,11 @@ impl<'a> Builder<'a> {
                 if self.options.insert(name.clone(), cell).is_some() {
                     self.errors.push(
                         self.spec
-                            .error(reading.file, option.span(), format!("option `{name}` stands twice"))
+                            .error(
+                                reading.file,
+                                option.span(),
+                                format!("option `{name}` stands twice"),
+                            )
                             .help("option names are unique over all readings"),
                     );
                 }
@@ -239,7 +261,13 @@ impl<'a> Builder<'a> {
     }
 
     /// Scope of a machine's own texts.
-    fn machine_scope<'b>(&'b self, file: usize, text: &'b Text, names: &'b Names, tense: Tense) -> Scope<'b> {
+    fn machine_scope<'b>(
+        &'b self,
+        file: usize,
+        text: &'b Text,
+        names: &'b Names,
+        tense: Tense,
+    ) -> Scope<'b> {
         static NONE: std::sync::OnceLock<(HashMap<String, Names>, HashMap<String, i64>)> =
             std::sync::OnceLock::new();
         let (members, arrays) = NONE.get_or_init(Default::default);
@@ -296,7 +324,13 @@ impl<'a> Builder<'a> {
             }
         }
         for (name, port) in &def.input {
-            let made = self.variables(file, name.get_ref(), name.get_ref(), &port.0, &self.names.clone());
+            let made = self.variables(
+                file,
+                name.get_ref(),
+                name.get_ref(),
+                &port.0,
+                &self.names.clone(),
+            );
             if let Some((vars, array)) = self.note(made) {
                 let meaning = self.add_inputs(vars, array);
                 self.names.insert(name.get_ref().clone(), meaning);
@@ -316,8 +350,9 @@ impl<'a> Builder<'a> {
             self.expressions(k, unit);
         }
         self.fail_early()?;
-        let needs: Vec<Vec<usize>> =
-            (0..units.len()).map(|k| self.connect(&units[k], def, &wires)).collect();
+        let needs: Vec<Vec<usize>> = (0..units.len())
+            .map(|k| self.connect(&units[k], def, &wires))
+            .collect();
         for unit in &mut units {
             self.rules(unit);
         }
@@ -343,18 +378,25 @@ impl<'a> Builder<'a> {
                     let plain = r.name.split('.').next_back().unwrap_or("");
                     *name.get_ref() == r.name
                         || name.get_ref().strip_suffix(plain).is_some_and(|head| {
-                            head.strip_suffix('.').is_some_and(|h| i.name.split('[').next() == Some(h))
+                            head.strip_suffix('.')
+                                .is_some_and(|h| i.name.split('[').next() == Some(h))
                         })
                 })
             });
             if !known {
                 self.errors.push(
                     self.spec
-                        .error(file, name.span(), format!("there is no rule `{}`", name.get_ref()))
+                        .error(
+                            file,
+                            name.span(),
+                            format!("there is no rule `{}`", name.get_ref()),
+                        )
                         .help("write \"instance.rule\" = \"reason\""),
                 );
             }
-            self.sys.unreached.push((name.get_ref().clone(), reason.clone()));
+            self.sys
+                .unreached
+                .push((name.get_ref().clone(), reason.clone()));
         }
         self.unused();
         self.fail_early()?;

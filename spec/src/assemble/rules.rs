@@ -14,7 +14,11 @@ impl Builder<'_> {
         let lets = machine.def.lets.iter().map(|x| (x, LazyKind::Let));
         let outputs = machine.def.output.iter().map(|x| (x, LazyKind::Output));
         for ((name, def), kind) in lets.chain(outputs) {
-            let tense = if kind == LazyKind::Let { Tense::Start } else { Tense::Now };
+            let tense = if kind == LazyKind::Let {
+                Tense::Start
+            } else {
+                Tense::Now
+            };
             let made = (|| {
                 let e = self.spec.expr(machine.file, &def.0.value)?;
                 let mut scope = self.machine_scope(machine.file, &def.0.value, &unit.names, tense);
@@ -27,12 +31,17 @@ impl Builder<'_> {
                 };
                 if lo < CELL.0 || hi > CELL.1 {
                     return Err(scope
-                        .error(&e.span, format!("`{}` can be {lo}..{hi}, more than 32 bits", name.get_ref()))
+                        .error(
+                            &e.span,
+                            format!("`{}` can be {lo}..{hi}, more than 32 bits", name.get_ref()),
+                        )
                         .help("narrow the operands, or use LIMIT"));
                 }
                 Ok((ty, node, lo as i64, hi as i64))
             })();
-            let Some((ty, value, lo, hi)) = self.note(made) else { continue };
+            let Some((ty, value, lo, hi)) = self.note(made) else {
+                continue;
+            };
             let index = self.sys.lazies.len() as u32;
             self.sys.lazies.push(Lazy {
                 name: format!("{}.{}", unit.name, name.get_ref()),
@@ -60,17 +69,24 @@ impl Builder<'_> {
             if rule.id.is_empty() && rule.note.is_empty() {
                 self.errors.push(
                     self.spec
-                        .error(machine.file, rule.name.span(), format!("rule `{}` names no requirement", rule.name.get_ref()))
+                        .error(
+                            machine.file,
+                            rule.name.span(),
+                            format!("rule `{}` names no requirement", rule.name.get_ref()),
+                        )
                         .help("add `id = [...]`, or a `note` that says why it has none"),
                 );
             }
             let when = (|| {
                 let e = self.spec.expr(machine.file, &rule.when)?;
-                self.machine_scope(machine.file, &rule.when, &unit.names, Tense::Start).expect(&e, Ty::Bool)
+                self.machine_scope(machine.file, &rule.when, &unit.names, Tense::Start)
+                    .expect(&e, Ty::Bool)
             })();
             let when = self.note(when);
             let statements = self.spec.effect(machine.file, &rule.then);
-            let Some(statements) = self.note(statements) else { continue };
+            let Some(statements) = self.note(statements) else {
+                continue;
+            };
             let mut then = Vec::new();
             for statement in &statements {
                 let made = self.statement(machine.file, &rule.then, statement, unit, &name);
@@ -90,12 +106,21 @@ impl Builder<'_> {
         }
     }
 
-    pub(super) fn statement(&mut self, file: usize, text: &Text, s: &ast::Stmt, unit: &Unit, rule: &str) -> One<Stmt> {
+    pub(super) fn statement(
+        &mut self,
+        file: usize,
+        text: &Text,
+        s: &ast::Stmt,
+        unit: &Unit,
+        rule: &str,
+    ) -> One<Stmt> {
         match s {
             ast::Stmt::If(branches, rest) => {
                 let mut out = Vec::new();
                 for (guard, body) in branches {
-                    let g = self.machine_scope(file, text, &unit.names, Tense::Now).expect(guard, Ty::Bool)?;
+                    let g = self
+                        .machine_scope(file, text, &unit.names, Tense::Now)
+                        .expect(guard, Ty::Bool)?;
                     out.push((g, self.body(file, text, body, unit, rule)?));
                 }
                 Ok(Stmt::If(out, self.body(file, text, rest, unit, rule)?))
@@ -107,7 +132,9 @@ impl Builder<'_> {
                     _ => (target, None),
                 };
                 let Kind::Name(name) = &name_expr.kind else {
-                    return Err(scope.error(&target.span, "this cannot be assigned").help("assign to a state variable"));
+                    return Err(scope
+                        .error(&target.span, "this cannot be assigned")
+                        .help("assign to a state variable"));
                 };
                 let (ty, base, array) = match unit.names.get(name) {
                     Some(Meaning::State(ty, base, array)) => (*ty, *base, *array),
@@ -118,18 +145,26 @@ impl Builder<'_> {
                     }
                     None => {
                         let help = nearest(name, unit.names.keys().map(String::as_str))
-                            .map_or("declare it under `state`".to_owned(), |n| format!("did you mean `{n}`?"));
-                        return Err(scope.error(&target.span, format!("`{name}` is not known here")).help(help));
+                            .map_or("declare it under `state`".to_owned(), |n| {
+                                format!("did you mean `{n}`?")
+                            });
+                        return Err(scope
+                            .error(&target.span, format!("`{name}` is not known here"))
+                            .help(help));
                     }
                 };
                 let index = match (index, array) {
                     (Some(i), Some((lo, len))) => Some((scope.index_node(i, lo, len)?, lo, len)),
                     (None, None) => None,
                     (Some(_), None) => {
-                        return Err(scope.error(&target.span, format!("`{name}` is not an array")).help("leave out the index"));
+                        return Err(scope
+                            .error(&target.span, format!("`{name}` is not an array"))
+                            .help("leave out the index"));
                     }
                     (None, Some(_)) => {
-                        return Err(scope.error(&target.span, format!("`{name}` is an array")).help("assign to its elements"));
+                        return Err(scope
+                            .error(&target.span, format!("`{name}` is an array"))
+                            .help("assign to its elements"));
                     }
                 };
                 let node = scope.expect(value, ty)?;
@@ -140,19 +175,43 @@ impl Builder<'_> {
                 let most = (scope.ranges.of(&var.lo).0, scope.ranges.of(&var.hi).1);
                 if ty == Ty::Int && (b < most.0 || a > most.1) {
                     return Err(scope
-                        .error(&value.span, format!("the value is {a}..{b}, `{name}` holds {}..{}", most.0, most.1))
+                        .error(
+                            &value.span,
+                            format!(
+                                "the value is {a}..{b}, `{name}` holds {}..{}",
+                                most.0, most.1
+                            ),
+                        )
                         .help("widen the variable's range, or limit the value"));
                 }
-                let checked = ty == Ty::Int && (a < sure.0 || b > sure.1) && node != var.hi && node != var.lo;
+                let checked =
+                    ty == Ty::Int && (a < sure.0 || b > sure.1) && node != var.hi && node != var.lo;
                 let site = self.sys.sites.len() as u32;
-                self.sys.sites.push(Site { name: format!("{rule}: {name}") });
-                Ok(Stmt::Assign { base, index, value: node, checked, site })
+                self.sys.sites.push(Site {
+                    name: format!("{rule}: {name}"),
+                });
+                Ok(Stmt::Assign {
+                    base,
+                    index,
+                    value: node,
+                    checked,
+                    site,
+                })
             }
         }
     }
 
-    pub(super) fn body(&mut self, file: usize, text: &Text, list: &[ast::Stmt], unit: &Unit, rule: &str) -> One<Vec<Stmt>> {
-        list.iter().map(|s| self.statement(file, text, s, unit, rule)).collect()
+    pub(super) fn body(
+        &mut self,
+        file: usize,
+        text: &Text,
+        list: &[ast::Stmt],
+        unit: &Unit,
+        rule: &str,
+    ) -> One<Vec<Stmt>> {
+        list.iter()
+            .map(|s| self.statement(file, text, s, unit, rule))
+            .collect()
     }
 
     /// Warnings: inputs and named expressions that nothing reads.
@@ -161,7 +220,12 @@ impl Builder<'_> {
         let mut lazies = vec![false; self.sys.lazies.len()];
         self.sys.nodes(&mut |n| match n {
             Node::Cell(Space::Input, k) => inputs[*k as usize] = true,
-            Node::Element { space: Space::Input, base, len, .. } => {
+            Node::Element {
+                space: Space::Input,
+                base,
+                len,
+                ..
+            } => {
                 inputs[*base as usize..(*base + *len) as usize].fill(true);
             }
             Node::Lazy(k) => lazies[*k as usize] = true,
@@ -174,7 +238,9 @@ impl Builder<'_> {
         }
         for (input, read) in self.sys.inputs.iter().zip(inputs) {
             if !read {
-                self.sys.warnings.push(format!("input `{}` is never read", input.name));
+                self.sys
+                    .warnings
+                    .push(format!("input `{}` is never read", input.name));
             }
         }
         for (lazy, read) in self.sys.lazies.iter().zip(lazies) {
@@ -184,7 +250,9 @@ impl Builder<'_> {
                 LazyKind::Output => continue, // an output is for the reader of reports too
             };
             if !read {
-                self.sys.warnings.push(format!("{what} `{}` is never read", lazy.name));
+                self.sys
+                    .warnings
+                    .push(format!("{what} `{}` is never read", lazy.name));
             }
         }
     }

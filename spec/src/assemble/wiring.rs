@@ -10,14 +10,21 @@ use crate::scope::Meaning;
 
 impl Builder<'_> {
     /// Ports by full name, from `[wire]` and `[free]`: the key, or none for a free port, and its place.
-    pub(super) fn wiring(&mut self, def: &schema::System, units: &[Unit]) -> HashMap<String, (Option<usize>, Text)> {
+    pub(super) fn wiring(
+        &mut self,
+        def: &schema::System,
+        units: &[Unit],
+    ) -> HashMap<String, (Option<usize>, Text)> {
         let mut out: HashMap<String, (Option<usize>, Text)> = HashMap::new();
         let wires = def.wire.keys().enumerate().map(|(k, key)| (Some(k), key));
         let free = def.free.ports.iter().map(|key| (None, key));
         for (wire, key) in wires.chain(free) {
             let mut hits = 0;
             for unit in units {
-                let indexed = unit.name.rsplit_once('[').map(|(base, _)| format!("{base}[i]"));
+                let indexed = unit
+                    .name
+                    .rsplit_once('[')
+                    .map(|(base, _)| format!("{base}[i]"));
                 let written = key.get_ref().replace(' ', "");
                 let port = [Some(unit.name.clone()), indexed]
                     .into_iter()
@@ -33,7 +40,11 @@ impl Builder<'_> {
                 if out.insert(full.clone(), (wire, key.clone())).is_some() {
                     self.errors.push(
                         self.spec
-                            .error(self.file, key.span(), format!("port `{full}` is bound twice"))
+                            .error(
+                                self.file,
+                                key.span(),
+                                format!("port `{full}` is bound twice"),
+                            )
                             .help("wire it once, or declare it free, not both"),
                     );
                 }
@@ -43,7 +54,10 @@ impl Builder<'_> {
                     .iter()
                     .flat_map(|u| {
                         let machine = &self.spec.machines[&u.machine].def;
-                        machine.input.keys().map(move |k| format!("{}.{}", u.name, k.get_ref()))
+                        machine
+                            .input
+                            .keys()
+                            .map(move |k| format!("{}.{}", u.name, k.get_ref()))
                     })
                     .collect();
                 let help = nearest(key.get_ref(), ports.iter().map(String::as_str)).map_or(
@@ -52,7 +66,11 @@ impl Builder<'_> {
                 );
                 self.errors.push(
                     self.spec
-                        .error(self.file, key.span(), format!("`{}` is not an input port", key.get_ref()))
+                        .error(
+                            self.file,
+                            key.span(),
+                            format!("`{}` is not an input port", key.get_ref()),
+                        )
                         .help(help),
                 );
             }
@@ -71,13 +89,28 @@ impl Builder<'_> {
         let machine = &self.spec.machines[&unit.machine];
         for (port, declared) in &machine.def.input {
             let full = format!("{}.{}", unit.name, port.get_ref());
-            let made = self.variables(machine.file, &full, port.get_ref(), &declared.0, &unit.names);
-            let Some((vars, array)) = self.note(made) else { continue };
+            let made = self.variables(
+                machine.file,
+                &full,
+                port.get_ref(),
+                &declared.0,
+                &unit.names,
+            );
+            let Some((vars, array)) = self.note(made) else {
+                continue;
+            };
             let meaning = match wires.get(&full) {
                 None => {
                     self.errors.push(
                         self.spec
-                            .error(self.file, self.spec.systems.get(self.sys.name.rsplit('/').next().unwrap_or("")).map_or(0..0, |s| s.span.clone()), format!("port `{full}` is not wired"))
+                            .error(
+                                self.file,
+                                self.spec
+                                    .systems
+                                    .get(self.sys.name.rsplit('/').next().unwrap_or(""))
+                                    .map_or(0..0, |s| s.span.clone()),
+                                format!("port `{full}` is not wired"),
+                            )
                             .help("wire it under [system.NAME.wire], or list it under free.ports"),
                     );
                     continue;
@@ -92,7 +125,10 @@ impl Builder<'_> {
                     continue;
                 }
                 Some((Some(k), _)) => {
-                    let (lo, hi) = (self.ranges().of(&vars[0].lo).0, self.ranges().of(&vars[0].hi).1);
+                    let (lo, hi) = (
+                        self.ranges().of(&vars[0].lo).0,
+                        self.ranges().of(&vars[0].hi).1,
+                    );
                     let lazy = self.sys.lazies.len();
                     self.sys.lazies.push(Lazy {
                         name: full.clone(),
@@ -106,7 +142,8 @@ impl Builder<'_> {
                     });
                     self.lazy_owner.push(None);
                     let written = def.wire.get_index(*k).map(|(key, _)| key.get_ref().clone());
-                    unit.wires.push((lazy as u32, written.unwrap_or_default(), *k));
+                    unit.wires
+                        .push((lazy as u32, written.unwrap_or_default(), *k));
                     Meaning::Value(vars[0].ty, Node::Lazy(lazy as u32))
                 }
             };
@@ -125,7 +162,9 @@ impl Builder<'_> {
     ) -> Vec<usize> {
         let mut needs = Vec::new();
         for (lazy, _, k) in &unit.wires {
-            let Some((_, text)) = def.wire.get_index(*k) else { continue };
+            let Some((_, text)) = def.wire.get_index(*k) else {
+                continue;
+            };
             let (ty, lo, hi, port) = {
                 let l = &self.sys.lazies[*lazy as usize];
                 (l.ty, i128::from(l.lo), i128::from(l.hi), l.name.clone())
@@ -137,7 +176,10 @@ impl Builder<'_> {
                 let (a, b) = scope.ranges.of(&node);
                 if a < lo || b > hi {
                     return Err(scope
-                        .error(&e.span, format!("the wire can be {a}..{b}, port `{port}` takes {lo}..{hi}"))
+                        .error(
+                            &e.span,
+                            format!("the wire can be {a}..{b}, port `{port}` takes {lo}..{hi}"),
+                        )
                         .help("widen the port, or use LIMIT"));
                 }
                 Ok(node)
@@ -153,7 +195,12 @@ impl Builder<'_> {
     /// The units whose outputs or new state an expression reads.
     pub(super) fn providers(&self, node: &Node, out: &mut Vec<usize>) {
         node.visit(&mut |n| match n {
-            Node::Cell(Space::Now, k) | Node::Element { space: Space::Now, base: k, .. } => {
+            Node::Cell(Space::Now, k)
+            | Node::Element {
+                space: Space::Now,
+                base: k,
+                ..
+            } => {
                 out.extend(self.state_owner.get(*k as usize).copied());
             }
             Node::Lazy(k) => out.extend(self.lazy_owner.get(*k as usize).copied().flatten()),
@@ -168,8 +215,10 @@ impl Builder<'_> {
         while order.len() < units.len() {
             let next = (0..units.len()).find(|k| !done[*k] && needs[*k].iter().all(|n| done[*n]));
             let Some(k) = next else {
-                let stuck: Vec<&str> =
-                    (0..units.len()).filter(|k| !done[*k]).map(|k| units[k].name.as_str()).collect();
+                let stuck: Vec<&str> = (0..units.len())
+                    .filter(|k| !done[*k])
+                    .map(|k| units[k].name.as_str())
+                    .collect();
                 let span = self
                     .spec
                     .systems
@@ -177,7 +226,11 @@ impl Builder<'_> {
                     .map_or(0..0, |s| s.span.clone());
                 return Err(self
                     .spec
-                    .error(self.file, span, format!("combinational loop between {}", stuck.join(", ")))
+                    .error(
+                        self.file,
+                        span,
+                        format!("combinational loop between {}", stuck.join(", ")),
+                    )
                     .help("break it with PREV(...) in one of the wires")
                     .into());
             };

@@ -138,9 +138,13 @@ fn time_literal(rest: &str, at: usize) -> Result<(u64, usize), SyntaxError> {
                 return Err(bad("is finer than a microsecond"));
             }
             place /= 10;
-            value += u64::from(digit - b'0') * place;
+            value = value
+                .checked_add(u64::from(digit - b'0') * place)
+                .ok_or_else(|| bad("is too large or has no number"))?;
         }
-        total = total.checked_add(value).ok_or_else(|| bad("is too large"))?;
+        total = total
+            .checked_add(value)
+            .ok_or_else(|| bad("is too large"))?;
         left = &left[digits + unit_len..];
     }
     Ok((total, head + len))

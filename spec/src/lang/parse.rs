@@ -426,8 +426,9 @@ impl Parser {
             match self.name() {
                 Ok(name) => TypeKind::Enum(name),
                 Err(_) => {
-                    return self
-                        .fail("a type: BOOL, INT(lo..hi), TIME(lo..hi), ARRAY[lo..hi] OF ..., or an enum");
+                    return self.fail(
+                        "a type: BOOL, INT(lo..hi), TIME(lo..hi), ARRAY[lo..hi] OF ..., or an enum",
+                    );
                 }
             }
         };
@@ -477,7 +478,10 @@ mod tests {
                 Kind::Member(a, m) => format!("{}.{m}", show(a)),
                 Kind::Index(a, i) => format!("{}[{}]", show(a), show(i)),
                 Kind::Call(n, args) => {
-                    format!("{n}({})", args.iter().map(show).collect::<Vec<_>>().join(","))
+                    format!(
+                        "{n}({})",
+                        args.iter().map(show).collect::<Vec<_>>().join(",")
+                    )
                 }
                 Kind::Unary(op, a) => format!("({op:?} {})", show(a)),
                 Kind::Binary(op, a, b) => format!("({op:?} {} {})", show(a), show(b)),
@@ -494,7 +498,10 @@ mod tests {
             "(Or a (And b (Eq (Not c) (Add d (Mul 1 2)))))"
         );
         assert_eq!(shape("a - b - c"), "(Sub (Sub a b) c)");
-        assert_eq!(shape("stop[3 - i].level >= Level#B"), "(Ge stop[(Sub 3 i)].level Level#B)");
+        assert_eq!(
+            shape("stop[3 - i].level >= Level#B"),
+            "(Ge stop[(Sub 3 i)].level Level#B)"
+        );
         assert_eq!(shape("a < b = c"), "(Eq (Lt a b) c)");
     }
 
@@ -519,7 +526,12 @@ mod tests {
 
     #[test]
     fn effects_and_types() {
-        assert_eq!(parse_effect("x := 1; IF a THEN y := 2; ELSE z := 3; END_IF;").unwrap().len(), 2);
+        assert_eq!(
+            parse_effect("x := 1; IF a THEN y := 2; ELSE z := 3; END_IF;")
+                .unwrap()
+                .len(),
+            2
+        );
         assert!(matches!(
             parse_type("ARRAY[0..3] OF INT(0..9)").unwrap().kind,
             TypeKind::Array(0, 3, _)

@@ -9,7 +9,6 @@ use toml::Spanned;
 
 use super::AxisKind;
 use super::document::Findings;
-use crate::text::read_text;
 use super::eval;
 use super::family::{
     Binding, Explore, Family, Formula, Function, Limits, Param, Quantity, Rule, Scope,
@@ -17,6 +16,7 @@ use super::family::{
 use super::value::{Raw, number};
 use crate::diag::Result;
 use crate::lang::parse_expr;
+use crate::text::read_text;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -37,7 +37,11 @@ impl Scope<'_> {
                 Ok((ty, node))
             }
             "SEL" => {
-                arity("(condition, value if FALSE, value if TRUE)", args.len() == 3, self)?;
+                arity(
+                    "(condition, value if FALSE, value if TRUE)",
+                    args.len() == 3,
+                    self,
+                )?;
                 let g = self.expect(&args[0], Ty::Bool)?;
                 let (ty, mut values) = self.alike(&args[1..], hint)?;
                 let (yes, no) = (values.pop(), values.pop());
@@ -54,9 +58,15 @@ impl Scope<'_> {
                 arity("two or more values", args.len() >= 2, self)?;
                 let (ty, values) = self.alike(args, hint)?;
                 if ty == Ty::Bool {
-                    return Err(self.error(&e.span, "truth values have no order").help("use AND or OR"));
+                    return Err(self
+                        .error(&e.span, "truth values have no order")
+                        .help("use AND or OR"));
                 }
-                let node = if name == "MIN" { Node::Min(values) } else { Node::Max(values) };
+                let node = if name == "MIN" {
+                    Node::Min(values)
+                } else {
+                    Node::Max(values)
+                };
                 Ok((ty, node))
             }
             "LIMIT" => {
@@ -64,7 +74,13 @@ impl Scope<'_> {
                 let (ty, mut v) = self.alike(args, hint)?;
                 let hi = v.pop().unwrap_or(Node::Const(0));
                 let x = v.pop().unwrap_or(Node::Const(0));
-                Ok((ty, Node::Max(vec![v.pop().unwrap_or(Node::Const(0)), Node::Min(vec![x, hi])])))
+                Ok((
+                    ty,
+                    Node::Max(vec![
+                        v.pop().unwrap_or(Node::Const(0)),
+                        Node::Min(vec![x, hi]),
+                    ]),
+                ))
             }
             "ABS" => {
                 arity("one number", args.len() == 1, self)?;
@@ -77,7 +93,9 @@ impl Scope<'_> {
                 if matches!(ty, Ty::Enum(_)) {
                     Ok((Ty::Int, node))
                 } else {
-                    Err(self.error(&args[0].span, "ORD needs an enum value").help("leave ORD out"))
+                    Err(self
+                        .error(&args[0].span, "ORD needs an enum value")
+                        .help("leave ORD out"))
                 }
             }
             _ => self.user_call(name, args, e),
@@ -86,10 +104,16 @@ impl Scope<'_> {
 
     fn user_call(&mut self, name: &str, args: &[Expr], e: &Expr) -> Typed {
         let Some(function) = self.spec.functions.get(name) else {
-            let known = BUILTINS.iter().copied().chain(self.spec.functions.keys().map(String::as_str));
-            let help = nearest(name, known)
-                .map_or("declare it under [function]".to_owned(), |n| format!("did you mean `{n}`?"));
-            return Err(self.error(&e.span, format!("there is no function `{name}`")).help(help));
+            let known = BUILTINS
+                .iter()
+                .copied()
+                .chain(self.spec.functions.keys().map(String::as_str));
+            let help = nearest(name, known).map_or("declare it under [function]".to_owned(), |n| {
+                format!("did you mean `{n}`?")
+            });
+            return Err(self
+                .error(&e.span, format!("there is no function `{name}`"))
+                .help(help));
         };
         let def = &function.def;
         if args.len() != def.args.len() {
@@ -114,7 +138,11 @@ impl Scope<'_> {
                 _ => {
                     return Err(self
                         .spec
-                        .error(function.file, decl.span(), "this type cannot be an argument")
+                        .error(
+                            function.file,
+                            decl.span(),
+                            "this type cannot be an argument",
+                        )
                         .help("use BOOL, INT, TIME or a declared enum"));
                 }
             };
@@ -168,9 +196,7 @@ impl Scope<'_> {
         let ty = typed.first().map_or(Ty::Bool, |t| t.0);
         let mut nodes = typed.into_iter().map(|t| t.1);
         let first = nodes.next().unwrap_or(Node::Const(0));
-        let join = |op| {
-            move |a: Node, b: Node| Node::Binary(op, Box::new(a), Box::new(b))
-        };
+        let join = |op| move |a: Node, b: Node| Node::Binary(op, Box::new(a), Box::new(b));
         let node = match q {
             Quantifier::ForAll => nodes.fold(first, join(BinaryOp::And)),
             Quantifier::Exists => nodes.fold(first, join(BinaryOp::Or)),

@@ -55,19 +55,29 @@ pub(crate) struct Scope<'a> {
 
 type Typed = Result<(Ty, Node), Diagnostic>;
 
-const BUILTINS: [&str; 9] = ["SEL", "MUX", "MIN", "MAX", "LIMIT", "ABS", "ORD", "PREV", "T#"];
+const BUILTINS: [&str; 9] = [
+    "SEL", "MUX", "MIN", "MAX", "LIMIT", "ABS", "ORD", "PREV", "T#",
+];
 
 impl Scope<'_> {
     pub(crate) fn error(&self, span: &Span, message: impl Into<String>) -> Diagnostic {
-        self.spec
-            .error(self.file, self.spec.locate(self.file, self.text, span), message)
+        self.spec.error(
+            self.file,
+            self.spec.locate(self.file, self.text, span),
+            message,
+        )
     }
 
     fn type_name(&self, ty: Ty) -> String {
         match ty {
             Ty::Bool => "BOOL".to_owned(),
             Ty::Int => "INT".to_owned(),
-            Ty::Enum(e) => self.spec.enums.get_index(e).map_or("enum", |(n, _)| n).to_owned(),
+            Ty::Enum(e) => self
+                .spec
+                .enums
+                .get_index(e)
+                .map_or("enum", |(n, _)| n)
+                .to_owned(),
         }
     }
 
@@ -79,7 +89,10 @@ impl Scope<'_> {
         }
         let (want, got) = (self.type_name(want), self.type_name(ty));
         Err(self
-            .error(&e.span, format!("a value of type {want} is needed, this is {got}"))
+            .error(
+                &e.span,
+                format!("a value of type {want} is needed, this is {got}"),
+            )
             .help(match (want.as_str(), got.as_str()) {
                 ("BOOL", _) => "compare it, for example with `= value`".to_owned(),
                 ("INT", "BOOL") => "use SEL(condition, 0, 1)".to_owned(),
@@ -145,7 +158,10 @@ impl Scope<'_> {
         match (hits.next(), hits.next()) {
             (Some((k, ordinal)), None) => Ok((Ty::Enum(k), Node::Const(ordinal as i64))),
             (Some(_), Some(_)) => Err(self
-                .error(&e.span, format!("`{name}` is a value of more than one enum"))
+                .error(
+                    &e.span,
+                    format!("`{name}` is a value of more than one enum"),
+                )
                 .help(format!("write it with its enum, as in `Level#{name}`"))),
             (None, _) => Err(self.unknown(name, e)),
         }
@@ -168,19 +184,29 @@ impl Scope<'_> {
             Some(near) => format!("did you mean `{near}`?"),
             None => "declare it, or check the spelling (names are case sensitive)".to_owned(),
         };
-        self.error(&e.span, format!("`{name}` is not known here")).help(help)
+        self.error(&e.span, format!("`{name}` is not known here"))
+            .help(help)
     }
 
     fn qualified(&self, of: &str, value: &str, e: &Expr) -> Typed {
         let Some((k, _, def)) = self.spec.enums.get_full(of) else {
             let help = nearest(of, self.spec.enums.keys().map(String::as_str))
-                .map_or("declare it under [enum]".to_owned(), |n| format!("did you mean `{n}`?"));
-            return Err(self.error(&e.span, format!("there is no enum `{of}`")).help(help));
+                .map_or("declare it under [enum]".to_owned(), |n| {
+                    format!("did you mean `{n}`?")
+                });
+            return Err(self
+                .error(&e.span, format!("there is no enum `{of}`"))
+                .help(help));
         };
         match def.def.values.iter().position(|v| v.get_ref() == value) {
             Some(ordinal) => Ok((Ty::Enum(k), Node::Const(ordinal as i64))),
             None => {
-                let all: Vec<&str> = def.def.values.iter().map(|v| v.get_ref().as_str()).collect();
+                let all: Vec<&str> = def
+                    .def
+                    .values
+                    .iter()
+                    .map(|v| v.get_ref().as_str())
+                    .collect();
                 Err(self
                     .error(&e.span, format!("enum `{of}` has no value `{value}`"))
                     .help(format!("its values are {}", all.join(", "))))
@@ -224,7 +250,10 @@ impl Scope<'_> {
                 };
                 let Some(count) = self.arrays.get(name).copied() else {
                     return Err(self
-                        .error(&array.span, format!("`{name}` is not an array of instances"))
+                        .error(
+                            &array.span,
+                            format!("`{name}` is not an array of instances"),
+                        )
                         .help("give the instance a `count`, or leave out the index"));
                 };
                 let node = self.expect(index, Ty::Int)?;
@@ -250,13 +279,18 @@ impl Scope<'_> {
         if let Some(meaning) = members.and_then(|m| m.get(member)) {
             return Ok(meaning.clone());
         }
-        let names = members.into_iter().flat_map(|m| m.keys().map(String::as_str));
+        let names = members
+            .into_iter()
+            .flat_map(|m| m.keys().map(String::as_str));
         let help = match nearest(member, names) {
             Some(near) => format!("did you mean `{near}`?"),
             None => "name an output, state variable or input of the machine".to_owned(),
         };
         Err(self
-            .error(&e.span, format!("`{instance}` has nothing named `{member}`"))
+            .error(
+                &e.span,
+                format!("`{instance}` has nothing named `{member}`"),
+            )
             .help(help))
     }
 
@@ -299,7 +333,12 @@ impl Scope<'_> {
     }
 
     /// An index that cannot leave the array.
-    pub(crate) fn index_node(&mut self, index: &Expr, lo: i64, len: u32) -> Result<Node, Diagnostic> {
+    pub(crate) fn index_node(
+        &mut self,
+        index: &Expr,
+        lo: i64,
+        len: u32,
+    ) -> Result<Node, Diagnostic> {
         let node = self.expect(index, Ty::Int)?;
         let (least, most) = self.ranges.of(&node);
         let hi = lo + i64::from(len) - 1;
@@ -339,9 +378,15 @@ impl Scope<'_> {
                     return Err(self
                         .error(
                             &e.span,
-                            format!("{} and {} cannot be compared", self.type_name(ta), self.type_name(tb)),
+                            format!(
+                                "{} and {} cannot be compared",
+                                self.type_name(ta),
+                                self.type_name(tb)
+                            ),
                         )
-                        .help("compare values of one type; ORD(x) is the number of an enum value"));
+                        .help(
+                            "compare values of one type; ORD(x) is the number of an enum value",
+                        ));
                 }
                 if ta == Ty::Bool && !matches!(op, Eq | Ne) {
                     return Err(self
@@ -357,7 +402,10 @@ impl Scope<'_> {
                     let (lo, hi) = self.ranges.of(&y);
                     if lo <= 0 && hi >= 0 {
                         return Err(self
-                            .error(&b.span, format!("the divisor can be 0 (its range is {lo}..{hi})"))
+                            .error(
+                                &b.span,
+                                format!("the divisor can be 0 (its range is {lo}..{hi})"),
+                            )
                             .help("use MAX(x, 1), or a type without 0"));
                     }
                 }
@@ -403,7 +451,9 @@ impl Scope<'_> {
     fn alike(&mut self, args: &[Expr], hint: Option<Ty>) -> Result<(Ty, Vec<Node>), Diagnostic> {
         let mut ty = hint.filter(|t| matches!(t, Ty::Enum(_)));
         if ty.is_none() {
-            ty = args.iter().find_map(|a| self.resolve(a, None).ok().map(|(t, _)| t));
+            ty = args
+                .iter()
+                .find_map(|a| self.resolve(a, None).ok().map(|(t, _)| t));
         }
         let mut nodes = Vec::new();
         for a in args {

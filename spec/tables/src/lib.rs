@@ -33,8 +33,9 @@ pub struct Table {
     pub lazies: usize,
     /// Machines.
     pub fired: usize,
-    /// One step of a started frame. The error is the number of the assignment whose value left its range.
-    pub step: fn(&mut [i32], &[i32], &mut Reader<'_>) -> Result<(), u32>,
+    /// One step from a state: the frame is cleared, the state after the step are its first cells. The error is the
+    /// number of the assignment whose value left its range.
+    pub step: fn(&[i32], &mut [i32], &[i32], &mut Reader<'_>) -> Result<(), u32>,
     /// Truth of an atom in the cycle just made.
     pub atom: fn(usize, &mut [i32], &[i32], &mut Reader<'_>) -> Result<bool, u32>,
     /// Value of an observed expression in the cycle just made.
@@ -44,34 +45,34 @@ pub struct Table {
 }
 
 impl Table {
-    /// Starts a cycle in state `before`; a frame of another table is left alone.
-    #[inline]
-    pub fn start(&self, frame: &mut [i32], before: &[i32]) {
-        let s = self.states;
-        if frame.len() != self.cells || before.len() != s {
-            return;
-        }
-        frame[..s].copy_from_slice(before);
-        frame[s..2 * s].copy_from_slice(before);
-        let fired = self.cells - self.fired;
-        frame[2 * s..fired].fill(UNSET);
-        frame[fired..].fill(0);
-    }
-
     /// The table of this name, if it was generated from the specification with this fingerprint.
     pub fn find(name: &str, fingerprint: u64) -> Option<&'static Table> {
-        TABLES.iter().find(|t| t.name == name && t.fingerprint == fingerprint)
+        TABLES
+            .iter()
+            .find(|t| t.name == name && t.fingerprint == fingerprint)
     }
 }
 
 pub use generated::TABLES;
 
 mod generated {
-    #![allow(clippy::all, unused_parens, unused_variables, unused_mut, unused_braces, dead_code)]
+    #![allow(
+        clippy::all,
+        unused_parens,
+        unused_variables,
+        unused_mut,
+        unused_braces,
+        dead_code
+    )]
     use super::{Table, UNSET, WRONG_FRAME};
 
     #[inline(always)]
-    fn input<const N: usize, R: FnMut(usize) -> i32 + ?Sized>(f: &mut [i32; N], base: usize, k: usize, r: &mut R) -> i64 {
+    fn input<const N: usize, R: FnMut(usize) -> i32 + ?Sized>(
+        f: &mut [i32; N],
+        base: usize,
+        k: usize,
+        r: &mut R,
+    ) -> i64 {
         if f[base + k] == UNSET {
             f[base + k] = r(k);
         }
@@ -79,7 +80,10 @@ mod generated {
     }
 
     #[inline(always)]
-    fn fixed<'a, const N: usize, const P: usize>(f: &'a mut [i32], p: &'a [i32]) -> Result<(&'a mut [i32; N], &'a [i32; P]), u32> {
+    fn fixed<'a, const N: usize, const P: usize>(
+        f: &'a mut [i32],
+        p: &'a [i32],
+    ) -> Result<(&'a mut [i32; N], &'a [i32; P]), u32> {
         match (f.try_into(), p.try_into()) {
             (Ok(f), Ok(p)) => Ok((f, p)),
             _ => Err(WRONG_FRAME),
