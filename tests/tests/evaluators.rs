@@ -338,21 +338,25 @@ fn a_changed_file_has_no_generated_code() {
     assert!(Generated::find(&bound).is_none());
 }
 
+/// Parameters that make a large system small enough to compare every expression in every cycle; the others run with
+/// the defaults of their file. `two_axis` itself is left out: its machine is compared alone, and the test of the
+/// yardstick compares the whole reports of both evaluators.
+fn smaller(name: &str) -> &'static [(&'static str, i64)] {
+    match name {
+        // Monitors request STOP B only: 7 029 states with 10^12 input combinations otherwise.
+        "sinumerik-840d/axis/stop_pair" => &[("can_a", 0), ("can_d", 0), ("enable_ext", 0)],
+        // Monitors request STOP C and A only.
+        "sinumerik-840d/axis/channel" => &[("can_b", 0), ("can_d", 0)],
+        // The axes have no STOP E.
+        "sinumerik-840d/axis/stop_group" => &[("can_e", 0)],
+        _ => &[],
+    }
+}
+
 #[test]
 fn both_evaluators_agree_on_every_reachable_cycle() {
-    let only = std::env::var("ONLY").ok();
-    for system in shipped() {
-        if only.as_ref().is_some_and(|o| !system.name.contains(o)) {
-            continue;
-        }
-        if only.is_none()
-            && ["stop_pair", "two_axis"]
-                .iter()
-                .any(|n| system.name.ends_with(n))
-        {
-            continue;
-        }
-        println!("{}", system.name);
-        assert!(compare(&bind(system, &[])) > 0);
+    for system in shipped().into_iter().filter(|s| s.name != "bench/two-axis/two_axis") {
+        let params = smaller(&system.name);
+        assert!(compare(&bind(system, params)) > 0);
     }
 }

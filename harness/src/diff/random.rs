@@ -12,7 +12,7 @@ impl Random {
     }
 
     /// The next 64 bits.
-    pub fn next(&mut self) -> u64 {
+    pub fn draw(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -22,7 +22,7 @@ impl Random {
 
     /// A number in `0..n`.
     pub fn below(&mut self, n: usize) -> usize {
-        ((u128::from(self.next()) * n as u128) >> 64) as usize
+        ((u128::from(self.draw()) * n as u128) >> 64) as usize
     }
 }
 
@@ -42,14 +42,14 @@ fn any(values: Values, random: &mut Random) -> i32 {
     let count = values.count();
     let last = count - 1;
     if count <= 16 {
-        return values.get(random.next() % count);
+        return values.get(random.draw() % count);
     }
     match random.below(8) {
         0 => values.get(0),
         1 => values.get(1),
         2 => values.get(last - 1),
         3 => values.get(last),
-        _ => values.get(random.next() % count),
+        _ => values.get(random.draw() % count),
     }
 }
 
@@ -151,7 +151,7 @@ mod tests {
     #[test]
     fn the_sequence_is_fixed() {
         let mut random = Random::new(42);
-        assert_eq!(random.next(), 13_679_457_532_755_275_413);
+        assert_eq!(random.draw(), 13_679_457_532_755_275_413);
         let mut counts = [0; 5];
         for _ in 0..5000 {
             counts[random.below(5)] += 1;

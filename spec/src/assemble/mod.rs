@@ -1,5 +1,6 @@
 //! Assembles a system: expands instances, binds parameters, wires ports, orders the steps.
 
+use std::cell::Cell;
 use std::collections::HashMap;
 
 use crate::diag::{Diagnostic, Diagnostics, Result, nearest};
@@ -7,7 +8,7 @@ use crate::interval::Ranges;
 use crate::ir::{Enum, Instance, Node, Param, Property, Reading, Rule, System, Ty, Var};
 use crate::lang::ast::Kind;
 use crate::schema::{self, Text};
-use crate::scope::{Meaning, Scope, Tense};
+use crate::scope::{BUDGET, Meaning, Scope, Tense};
 use crate::spec::Spec;
 
 mod inline;
@@ -284,6 +285,7 @@ impl<'a> Builder<'a> {
             tense,
             cycle_us: self.sys.cycle_us,
             calls: Vec::new(),
+            left: Cell::new(BUDGET),
         }
     }
 
@@ -302,6 +304,7 @@ impl<'a> Builder<'a> {
             tense: Tense::Now,
             cycle_us: self.sys.cycle_us,
             calls: Vec::new(),
+            left: Cell::new(BUDGET),
         }
     }
 

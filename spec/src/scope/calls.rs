@@ -165,8 +165,11 @@ impl Scope<'_> {
             tense: Tense::None,
             cycle_us: self.cycle_us,
             calls,
+            left: self.left.clone(),
         };
-        inner.resolve(&body, None)
+        let out = inner.resolve(&body, None);
+        self.left.set(inner.left.get());
+        out
     }
 
     pub(super) fn quantified(

@@ -1,5 +1,6 @@
 //! Resolves names and types of expressions: syntax trees become typed nodes over cells.
 
+use std::cell::Cell;
 use std::collections::HashMap;
 
 use crate::diag::{Diagnostic, nearest};
@@ -51,7 +52,13 @@ pub(crate) struct Scope<'a> {
     pub cycle_us: u64,
     /// Functions being expanded, against recursion.
     pub calls: Vec<String>,
+    /// Nodes that this text may still make, see [`BUDGET`].
+    pub left: Cell<usize>,
 }
+
+/// Nodes that one text may make. Functions and quantifiers are expanded where they stand, so a short text can be a long
+/// expression; and where a type must be inferred, a part may be resolved more than once.
+pub(crate) const BUDGET: usize = 1_000_000;
 
 type Typed = Result<(Ty, Node), Diagnostic>;
 
@@ -103,6 +110,7 @@ impl Scope<'_> {
 
     /// Resolves an expression; `hint` is the type that a bare enum value would get.
     pub(crate) fn resolve(&mut self, e: &Expr, hint: Option<Ty>) -> Typed {
+        self.spend(1, e)?;
         match &e.kind {
             Kind::Int(v) => Ok((Ty::Int, Node::Const(*v))),
             Kind::Bool(b) => Ok((Ty::Bool, Node::Const(i64::from(*b)))),
@@ -214,9 +222,31 @@ impl Scope<'_> {
         }
     }
 
+    /// Takes `nodes` from the budget.
+    fn spend(&self, nodes: usize, e: &Expr) -> Result<(), Diagnostic> {
+        match self.left.get().checked_sub(nodes) {
+            Some(left) => {
+                self.left.set(left);
+                Ok(())
+            }
+            None => {
+                self.left.set(0);
+                Err(self
+                    .error(&e.span, "this expression is too large once its functions are expanded")
+                    .help("name parts of it with `let`"))
+            }
+        }
+    }
+
     fn value_of(&self, meaning: Meaning, e: &Expr) -> Typed {
         match meaning {
-            Meaning::Value(ty, node) => Ok((ty, node)),
+            Meaning::Value(ty, node) => {
+                // An argument is copied to each place of the function that names it.
+                let mut nodes = 0;
+                node.visit(&mut |_| nodes += 1);
+                self.spend(nodes, e)?;
+                Ok((ty, node))
+            }
             Meaning::State(ty, base, None) => Ok((ty, Node::Cell(self.state_space(e)?, base))),
             Meaning::State(_, _, Some(_)) | Meaning::Array(..) => Err(self
                 .error(&e.span, "this is an array, not one value")
@@ -373,7 +403,7 @@ impl Scope<'_> {
                 Ok((Ty::Bool, make(x, y)))
             }
             Eq | Ne | Lt | Gt | Le | Ge => {
-                let ((ta, x), (tb, y)) = self.pair(a, b)?;
+                let [(ta, x), (tb, y)] = self.pair(a, b)?;
                 if ta != tb {
                     return Err(self
                         .error(
@@ -427,22 +457,22 @@ impl Scope<'_> {
     }
 
     /// Two operands of one type; a bare enum value takes the other side's type.
-    fn pair(&mut self, a: &Expr, b: &Expr) -> Result<((Ty, Node), (Ty, Node)), Diagnostic> {
+    fn pair(&mut self, a: &Expr, b: &Expr) -> Result<[(Ty, Node); 2], Diagnostic> {
         if matches!(a.kind, Kind::Name(_)) && !matches!(b.kind, Kind::Name(_)) {
             let y = self.resolve(b, None)?;
             let x = self.resolve(a, Some(y.0))?;
-            return Ok((x, y));
+            return Ok([x, y]);
         }
         match self.resolve(a, None) {
             Ok(x) => {
                 let y = self.resolve(b, Some(x.0))?;
-                Ok((x, y))
+                Ok([x, y])
             }
             // `NONE = level`: the left side may need the right side's type.
             Err(first) => {
                 let y = self.resolve(b, None).map_err(|_| first.clone())?;
                 let x = self.resolve(a, Some(y.0)).map_err(|_| first)?;
-                Ok((x, y))
+                Ok([x, y])
             }
         }
     }

@@ -14,6 +14,12 @@ pub const WRONG_FRAME: u32 = u32::MAX;
 /// Reads an input of the environment by its number.
 pub type Reader<'a> = dyn FnMut(usize) -> i32 + 'a;
 
+/// Makes a step from the state given first; then frame, parameters, inputs.
+pub type Step = fn(&[i32], &mut [i32], &[i32], &mut Reader<'_>) -> Result<(), u32>;
+
+/// Evaluates the expression of that number in the cycle just made; then frame, parameters, inputs.
+pub type Value<T> = fn(usize, &mut [i32], &[i32], &mut Reader<'_>) -> Result<T, u32>;
+
 /// A generated table.
 ///
 /// A frame holds the cells of one cycle, in this order: state as the rules change it, state at the start of the cycle,
@@ -35,13 +41,13 @@ pub struct Table {
     pub fired: usize,
     /// One step from a state: the frame is cleared, the state after the step are its first cells. The error is the
     /// number of the assignment whose value left its range.
-    pub step: fn(&[i32], &mut [i32], &[i32], &mut Reader<'_>) -> Result<(), u32>,
+    pub step: Step,
     /// Truth of an atom in the cycle just made.
-    pub atom: fn(usize, &mut [i32], &[i32], &mut Reader<'_>) -> Result<bool, u32>,
+    pub atom: Value<bool>,
     /// Value of an observed expression in the cycle just made.
-    pub observe: fn(usize, &mut [i32], &[i32], &mut Reader<'_>) -> Result<i64, u32>,
+    pub observe: Value<i64>,
     /// Value of a named expression in the cycle just made.
-    pub lazy: fn(usize, &mut [i32], &[i32], &mut Reader<'_>) -> Result<i64, u32>,
+    pub lazy: Value<i64>,
 }
 
 impl Table {
