@@ -189,6 +189,7 @@ fn headline(out: &mut String, subject: &Subject, checked: &[Checked], summaries:
     let count = |v: Verdict| summaries.iter().filter(|s| s.verdict == v).count();
     let complete = checked.iter().all(|c| c.outcome.report.complete);
     let verdict = match exit_status(summaries, checked) {
+        0 if summaries.is_empty() => "EXPLORED, no property is stated",
         0 => "ALL PROPERTIES HOLD",
         1 => "VIOLATED",
         _ => "INCONCLUSIVE: a limit was reached first",
@@ -217,9 +218,13 @@ fn headline(out: &mut String, subject: &Subject, checked: &[Checked], summaries:
     .collect();
     let _ = writeln!(
         out,
-        "{} properties ({}), {} states, {} transitions, {}, {seconds:.1} s",
+        "{} properties{}, {} states, {} transitions, {}, {seconds:.1} s",
         summaries.len(),
-        list.join(", "),
+        if list.is_empty() {
+            String::new()
+        } else {
+            format!(" ({})", list.join(", "))
+        },
         grouped(states),
         grouped(transitions),
         if complete { "complete" } else { "NOT complete" },

@@ -272,14 +272,24 @@ fn mistake(marked: &str, message: &str, help: &str) -> Option<String> {
     let right = first.message.contains(message)
         && first.help.contains(help)
         && first.position() == Some((line, column))
-        && first.to_string().starts_with(&format!("t.toml:{line}:{column}: "));
+        && first
+            .to_string()
+            .starts_with(&format!("t.toml:{line}:{column}: "));
     let help = if help.is_empty() { "any help" } else { help };
-    (!right).then(|| format!("wanted {line}:{column}: {message}\n  help: {help}\ngot {first}\n  help: {}\n", first.help))
+    (!right).then(|| {
+        format!(
+            "wanted {line}:{column}: {message}\n  help: {help}\ngot {first}\n  help: {}\n",
+            first.help
+        )
+    })
 }
 
 /// All mistakes of a list are answered as they should be.
 fn mistakes(list: impl IntoIterator<Item = (String, &'static str, &'static str)>) {
-    let wrong: Vec<String> = list.into_iter().filter_map(|(text, message, help)| mistake(&text, message, help)).collect();
+    let wrong: Vec<String> = list
+        .into_iter()
+        .filter_map(|(text, message, help)| mistake(&text, message, help))
+        .collect();
     assert!(wrong.is_empty(), "\n{}", wrong.join("\n"));
 }
 
@@ -505,19 +515,37 @@ fn wrong_declarations() {
     let head = |head: &str, when: &str| machine(head, X, &[(when, "x := 1;")], "");
     mistakes([
         (
-            head("[function.f]\nargs = [\"v : INT\"]\nvalue = \"g(v)\"\n[function.g]\nargs = [\"v : INT\"]\nvalue = \"@f(v)\"\n", "f(x) = 1"),
+            head(
+                "[function.f]\nargs = [\"v : INT\"]\nvalue = \"g(v)\"\n[function.g]\nargs = [\"v : INT\"]\nvalue = \"@f(v)\"\n",
+                "f(x) = 1",
+            ),
             "function `f` calls itself",
             "not recursive",
         ),
-        (head("use = [@\"nowhere.toml\"]", "x = 1"), "no such file", "relative to this one"),
         (
-            head("[reading.A-1]\ntext = \"?\"\noptions = [\"ONE\", @\"ONE\"]\n", "ONE"),
+            head("use = [@\"nowhere.toml\"]", "x = 1"),
+            "no such file",
+            "relative to this one",
+        ),
+        (
+            head(
+                "[reading.A-1]\ntext = \"?\"\noptions = [\"ONE\", @\"ONE\"]\n",
+                "ONE",
+            ),
             "option `ONE` stands twice",
             "unique",
         ),
-        (head("[@machien.x]\ntext = \"x\"", "x = 1"), "unknown field `machien`", "check the spelling"),
         (
-            head("[machine.m]\ntext = \"m\"", "x = 1").replacen("\n[machine.m]\ntext = \"m\"\norder", "\n[machine.@m]\ntext = \"m\"\norder", 1),
+            head("[@machien.x]\ntext = \"x\"", "x = 1"),
+            "unknown field `machien`",
+            "check the spelling",
+        ),
+        (
+            head("[machine.m]\ntext = \"m\"", "x = 1").replacen(
+                "\n[machine.m]\ntext = \"m\"\norder",
+                "\n[machine.@m]\ntext = \"m\"\norder",
+                1,
+            ),
             "duplicate key",
             "",
         ),
@@ -550,7 +578,9 @@ fn wrong_systems() {
             "not both",
         ),
         (
-            format!("{head}[system.s.wire]\n@\"m.b\" = \"1\"\n"),
+            format!(
+                "{head}[system.s.wire]\n@\"m.b\" = \"1\"\n[system.s.free]\nports = [\"m.a\"]\n"
+            ),
             "`m.b` is not an input port",
             "did you mean `m.a`?",
         ),
@@ -631,15 +661,24 @@ fn cases_that_overlap_or_are_missing() {
     let text = |order: &str, rules: &[(&str, &str)]| {
         machine("", X, rules, "").replace("order = \"priority\"\notherwise = \"stay\"\n", order)
     };
-    let gap = text("", &[("x < 4", "x := 1;"), ("x > 4", "x := 2;")]).replace("[machine.m]", "[machine.@m]");
+    let gap = text("", &[("x < 4", "x := 1;"), ("x > 4", "x := 2;")])
+        .replace("[machine.m]", "[machine.@m]");
     let both = [("x < 5", "x := 1;"), ("x > 3", "x := 2;")];
     let overlap = text("", &both).replace("name = \"r1\"", "name = @\"r1\"");
     let message = "rules `r0` and `r1` both match x = 4, with different effects";
     mistakes([
         (gap, "machine `m` has no rule for x = 4", "otherwise"),
         (overlap, message, "order = \"priority\""),
-        (text("order = @\"sorted\"\n", &both), "`order` cannot be `sorted`", "exclusive"),
-        (text("otherwise = @\"go\"\n", &[("x < 5", "x := 1;")]), "`otherwise` cannot be `go`", "stay"),
+        (
+            text("order = @\"sorted\"\n", &both),
+            "`order` cannot be `sorted`",
+            "exclusive",
+        ),
+        (
+            text("otherwise = @\"go\"\n", &[("x < 5", "x := 1;")]),
+            "`otherwise` cannot be `go`",
+            "stay",
+        ),
     ]);
     // Allowed: the same effect, or an order given on purpose.
     bound(&text("", &[("x < 5", "x := 1;"), ("x > 3", "x := 1;")]));

@@ -10,9 +10,9 @@ use stillpoint::readings::compare;
 use stillpoint::report;
 use stillpoint::subject::{self, Subject};
 
-use super::Failure;
 use super::progress::Line;
 use super::values;
+use super::{Failure, emit};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -83,11 +83,11 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
                 stillpoint::readings::to_json(compared),
             );
         }
-        println!("{json:#}");
+        emit(&format!("{json:#}\n"));
     } else {
-        print!("{}", report::text(&subject, &checked, &summaries));
+        emit(&report::text(&subject, &checked, &summaries));
         if let Some(compared) = &compared {
-            print!("{}", stillpoint::readings::text(compared));
+            emit(&stillpoint::readings::text(compared));
         }
     }
     Ok(status)

@@ -10,9 +10,9 @@ use stillpoint::subject::{self, Readings};
 use stillpoint_model::{Limits, Options};
 use stillpoint_monitors::mutant::Mutant;
 
-use super::Failure;
 use super::progress::Line;
 use super::values;
+use super::{Failure, emit};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -92,12 +92,12 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         None => "every reachable pair, every input of the interface".to_owned(),
     };
     if arguments.json {
-        println!(
-            "{:#}",
+        emit(&format!(
+            "{:#}\n",
             to_json(&compared, arguments.random.map(|_| arguments.seed))
-        );
+        ));
     } else {
-        print!("{}", text(&compared, &what));
+        emit(&text(&compared, &what));
     }
     Ok(if compared.iter().any(|c| c.divergence.is_some()) {
         1

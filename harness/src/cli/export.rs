@@ -7,7 +7,7 @@ use stillpoint::export::{dot, json, promela, select, write_atomically};
 use stillpoint::subject;
 use stillpoint_model::Options;
 
-use super::Failure;
+use super::{Failure, emit};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -51,7 +51,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         Format::Json => format!("{:#}\n", json::json(&task.bound)),
     };
     match &arguments.output {
-        None => print!("{text}"),
+        None => emit(&text),
         Some(path) => write_atomically(path, &text)
             .map_err(|e| Failure::Other(format!("{} cannot be written: {e}", path.display())))?,
     }

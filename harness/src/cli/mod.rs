@@ -7,6 +7,8 @@ mod progress;
 mod trace;
 mod values;
 
+use std::fmt::Write as _;
+use std::io::Write as _;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -109,18 +111,29 @@ impl Failure {
     }
 }
 
+/// Writes to stdout. A reader that has gone away, as in `stillpoint ... | head`, ends the output, not the program.
+fn emit(text: &str) {
+    let mut out = std::io::stdout().lock();
+    let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+}
+
 fn validate(file: &std::path::Path) -> Result<u8, Failure> {
     let subject = subject::load(file, &subject::Readings::new())?;
-    println!("{}: plausible", subject.name);
+    let mut out = format!("{}: plausible\n", subject.name);
     if let Some(machine) = &subject.machine {
         let axes: Vec<&str> = machine.axes.iter().map(|a| a.name.as_str()).collect();
-        println!("  axes {}", axes.join(", "));
+        let _ = writeln!(out, "  axes {}", axes.join(", "));
     }
     for task in &subject.tasks {
-        println!("  to explore: {} ({})", task.title, task.bound.system.name);
+        let _ = writeln!(
+            out,
+            "  to explore: {} ({})",
+            task.title, task.bound.system.name
+        );
         for item in &task.abstractions {
-            println!("    abstraction: {item}");
+            let _ = writeln!(out, "    abstraction: {item}");
         }
     }
+    emit(&out);
     Ok(0)
 }

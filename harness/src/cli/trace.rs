@@ -6,7 +6,7 @@ use clap::Args;
 use stillpoint::export::write_atomically;
 use stillpoint::matrix::{self, Matrix, ReadError};
 
-use super::Failure;
+use super::{Failure, emit};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -37,9 +37,9 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
             .map_err(|e| Failure::Other(format!("{} cannot be written: {e}", path.display())))?;
     }
     if arguments.json {
-        println!("{:#}", matrix::to_json(&matrix));
+        emit(&format!("{:#}\n", matrix::to_json(&matrix)));
     } else {
-        print!("{}", matrix::text(&matrix));
+        emit(&matrix::text(&matrix));
     }
     Ok(matrix.exit_status())
 }

@@ -296,7 +296,12 @@ pub fn text(compared: &[Compared], what: &str) -> String {
             if c.complete { "" } else { ", not complete" },
         ));
         if let Some(diagram) = &c.divergence {
-            out.push_str("  DIVERGENCE, shortest run found:\n");
+            let run = if c.pairs > 0 {
+                "shortest run"
+            } else {
+                "run, shrunk"
+            };
+            out.push_str(&format!("  DIVERGENCE, {run}:\n"));
             out.push_str(&diagram.text());
         }
     }

@@ -258,6 +258,7 @@ impl Builder<'_> {
                 machine: def.machine.get_ref().clone(),
                 index: count.map(|_| index),
                 names: HashMap::new(),
+                inner: HashMap::new(),
                 wires: Vec::new(),
                 rules: Vec::new(),
                 states: 0..0,

@@ -44,7 +44,10 @@ struct Unit {
     name: String,
     machine: String,
     index: Option<i64>,
+    /// All its names.
     names: Names,
+    /// The names a rule may use: all but the outputs, which are evaluated after the rules.
+    inner: Names,
     wires: Vec<(u32, String, usize)>,
     rules: Vec<Rule>,
     states: std::ops::Range<u32>,

@@ -11,6 +11,7 @@ impl Builder<'_> {
     /// Lets and outputs.
     pub(super) fn expressions(&mut self, owner: usize, unit: &mut Unit) {
         let machine = &self.spec.machines[&unit.machine];
+        unit.inner.clone_from(&unit.names);
         let lets = machine.def.lets.iter().map(|x| (x, LazyKind::Let));
         let outputs = machine.def.output.iter().map(|x| (x, LazyKind::Output));
         for ((name, def), kind) in lets.chain(outputs) {
@@ -55,6 +56,9 @@ impl Builder<'_> {
             });
             self.lazy_owner.push(Some(owner));
             let meaning = Meaning::Value(ty, Node::Lazy(index));
+            if kind == LazyKind::Let {
+                unit.inner.insert(name.get_ref().clone(), meaning.clone());
+            }
             if unit.names.insert(name.get_ref().clone(), meaning).is_some() {
                 self.twice(machine.file, name);
             }
@@ -79,7 +83,7 @@ impl Builder<'_> {
             }
             let when = (|| {
                 let e = self.spec.expr(machine.file, &rule.when)?;
-                self.machine_scope(machine.file, &rule.when, &unit.names, Tense::Start)
+                self.machine_scope(machine.file, &rule.when, &unit.inner, Tense::Start)
                     .expect(&e, Ty::Bool)
             })();
             let when = self.note(when);
@@ -119,14 +123,14 @@ impl Builder<'_> {
                 let mut out = Vec::new();
                 for (guard, body) in branches {
                     let g = self
-                        .machine_scope(file, text, &unit.names, Tense::Now)
+                        .machine_scope(file, text, &unit.inner, Tense::Now)
                         .expect(guard, Ty::Bool)?;
                     out.push((g, self.body(file, text, body, unit, rule)?));
                 }
                 Ok(Stmt::If(out, self.body(file, text, rest, unit, rule)?))
             }
             ast::Stmt::Assign(target, value) => {
-                let mut scope = self.machine_scope(file, text, &unit.names, Tense::Now);
+                let mut scope = self.machine_scope(file, text, &unit.inner, Tense::Now);
                 let (name_expr, index) = match &target.kind {
                     Kind::Index(base, index) => (base.as_ref(), Some(index.as_ref())),
                     _ => (target, None),
@@ -136,7 +140,7 @@ impl Builder<'_> {
                         .error(&target.span, "this cannot be assigned")
                         .help("assign to a state variable"));
                 };
-                let (ty, base, array) = match unit.names.get(name) {
+                let (ty, base, array) = match unit.inner.get(name) {
                     Some(Meaning::State(ty, base, array)) => (*ty, *base, *array),
                     Some(_) => {
                         return Err(scope
@@ -144,7 +148,7 @@ impl Builder<'_> {
                             .help("only state can be assigned; declare it under `state`"));
                     }
                     None => {
-                        let help = nearest(name, unit.names.keys().map(String::as_str))
+                        let help = nearest(name, unit.inner.keys().map(String::as_str))
                             .map_or("declare it under `state`".to_owned(), |n| {
                                 format!("did you mean `{n}`?")
                             });

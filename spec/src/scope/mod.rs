@@ -232,7 +232,10 @@ impl Scope<'_> {
             None => {
                 self.left.set(0);
                 Err(self
-                    .error(&e.span, "this expression is too large once its functions are expanded")
+                    .error(
+                        &e.span,
+                        "this expression is too large once its functions are expanded",
+                    )
                     .help("name parts of it with `let`"))
             }
         }
