@@ -59,7 +59,7 @@ fn every_wrong_monitor_is_found_by_exploration() {
     assert!(Mutant::ALL.len() >= 17);
     for mutant in Mutant::ALL {
         // The first word of a mutant's name is its machine; the search ends with the first difference.
-        let concerned = pairings
+        let mut concerned = pairings
             .iter()
             .filter(|p| mutant.name().starts_with(&format!("{}-", p.machine)));
         let options = Options {
@@ -67,13 +67,11 @@ fn every_wrong_monitor_is_found_by_exploration() {
             stop_when_decided: true,
             ..Options::default()
         };
-        let found = concerned
-            .filter_map(|p| {
-                exhaustive(p, Some(*mutant), &options, &mut ())
-                    .unwrap_or_else(|e| panic!("{e}"))
-                    .divergence
-            })
-            .next();
+        let found = concerned.find_map(|p| {
+            exhaustive(p, Some(*mutant), &options, &mut ())
+                .unwrap_or_else(|e| panic!("{e}"))
+                .divergence
+        });
         let Some(diagram) = found else {
             panic!("{mutant:?} survives")
         };
