@@ -25,7 +25,7 @@ fn explore(pairing: &Pairing) -> Compared {
 
 #[test]
 fn no_reachable_pair_differs() {
-    let compared: Vec<Compared> = all().iter().map(|p| explore(p)).collect();
+    let compared: Vec<Compared> = all().iter().map(explore).collect();
     let machines: BTreeSet<&str> = compared.iter().map(|c| c.machine.as_str()).collect();
     assert_eq!(
         machines,
