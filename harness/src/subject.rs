@@ -151,8 +151,10 @@ fn bind(
     readings: &Readings,
 ) -> Result<Bound> {
     Bound::new(system, params, readings).map_err(|e: BindError| {
-        let help =
-            "give the parameter a value of its range, or correct the mapping in the family's file";
+        let help = match e {
+            BindError::Reading(_) => "write --readings ID=OPTION with one of these options",
+            _ => "give the parameter a value of its range, or correct the mapping in the family's file",
+        };
         Diagnostic::new(&path.display().to_string(), source, None, e.to_string())
             .help(help)
             .into()

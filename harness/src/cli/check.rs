@@ -2,7 +2,6 @@
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
-use std::time::Duration;
 
 use clap::Args;
 use stillpoint::check::{Settings, check, exit_status, summarise};
@@ -10,6 +9,7 @@ use stillpoint::readings::compare;
 use stillpoint::report;
 use stillpoint::subject::{self, Subject};
 
+use super::limits::LimitOptions;
 use super::progress::Line;
 use super::values;
 use super::{Failure, emit};
@@ -21,15 +21,8 @@ pub struct Arguments {
     /// Print the report as JSON
     #[arg(long)]
     json: bool,
-    /// Worker threads [default: all processors]
-    #[arg(long, default_value_t = 0, hide_default_value = true)]
-    threads: usize,
-    /// Most memory for the explorer, e.g. 2GiB
-    #[arg(long, value_parser = values::size)]
-    memory: Option<u64>,
-    /// Most wall time, e.g. 90s
-    #[arg(long, value_parser = values::duration)]
-    time: Option<Duration>,
+    #[command(flatten)]
+    limits: LimitOptions,
     /// `all` compares every option of every reading; ID=OPTION chooses one
     #[arg(long, value_name = "all|ID=OPTION")]
     readings: Vec<String>,
@@ -43,9 +36,9 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let subject = subject::load(&arguments.file, &choice.chosen)?;
     known_readings(&subject, &choice.chosen)?;
     let settings = Settings {
-        threads: arguments.threads,
-        memory: arguments.memory,
-        time: arguments.time,
+        threads: arguments.limits.threads,
+        memory: arguments.limits.memory,
+        time: arguments.limits.time,
         interpret: arguments.interpret,
     };
     let fail =

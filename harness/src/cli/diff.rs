@@ -1,7 +1,7 @@
 //! `stillpoint diff`.
 
 use std::path::PathBuf;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use clap::Args;
 use stillpoint::diff::random::Random;
@@ -10,8 +10,8 @@ use stillpoint::subject::{self, Readings};
 use stillpoint_model::{Limits, Options};
 use stillpoint_monitors::mutant::Mutant;
 
+use super::limits::LimitOptions;
 use super::progress::Line;
-use super::values;
 use super::{Failure, emit};
 
 #[derive(Args)]
@@ -30,15 +30,8 @@ pub struct Arguments {
     /// Print the report as JSON
     #[arg(long)]
     json: bool,
-    /// Worker threads [default: all processors]
-    #[arg(long, default_value_t = 0, hide_default_value = true)]
-    threads: usize,
-    /// Most memory for the explorer, e.g. 2GiB
-    #[arg(long, value_parser = values::size)]
-    memory: Option<u64>,
-    /// Most wall time, e.g. 90s
-    #[arg(long, value_parser = values::duration)]
-    time: Option<Duration>,
+    #[command(flatten)]
+    limits: LimitOptions,
     /// Compare with a deliberately wrong monitor: a test of the comparison itself
     #[arg(long, value_name = "NAME")]
     mutant: Option<String>,
@@ -74,9 +67,12 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
             Some(cycles) => sample(pairing, mutant, cycles, &mut random),
             None => {
                 let limits = Limits {
-                    memory: arguments.memory,
-                    time: arguments.time.map(|t| t.saturating_sub(start.elapsed())),
-                    threads: arguments.threads,
+                    memory: arguments.limits.memory,
+                    time: arguments
+                        .limits
+                        .time
+                        .map(|t| t.saturating_sub(start.elapsed())),
+                    threads: arguments.limits.threads,
                 };
                 let options = Options {
                     limits,

@@ -3,6 +3,7 @@
 mod check;
 mod diff;
 mod export;
+mod limits;
 mod progress;
 mod trace;
 mod values;
