@@ -130,7 +130,7 @@ fn what_nothing_evaluates_meets_no_fault() {
 }
 
 #[test]
-fn witnesses_can_be_left_out() {
+fn without_witnesses_their_length_is_told() {
     let report = run(
         Form::Always {
             when: Some(0),
@@ -141,6 +141,6 @@ fn witnesses_can_be_left_out() {
     assert_eq!(report.properties[0].verdict, Verdict::Holds);
     assert_eq!(
         (report.properties[0].length, &report.properties[0].trace),
-        (None, &None)
+        (Some(1), &None)
     );
 }
