@@ -17,6 +17,8 @@ use crate::text::read_text;
 pub(crate) struct Source {
     pub name: String,
     pub text: Arc<str>,
+    /// The name its key `spec` gives.
+    pub spec: String,
 }
 
 /// A definition and the file it stands in.
@@ -113,6 +115,7 @@ impl Spec {
         self.sources.push(Source {
             name: name.clone(),
             text: text.clone(),
+            spec: file.spec.get_ref().clone(),
         });
         if id == 0 {
             self.name = file.spec.get_ref().clone();

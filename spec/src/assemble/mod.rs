@@ -113,7 +113,10 @@ impl Spec {
             unreached: schema::Map::new(),
             property: Vec::new(),
         };
-        Builder::new(self, found.file, machine, &def, None)?.build(&def)
+        let mut builder = Builder::new(self, found.file, machine, &def, None)?;
+        // Named after the file that declares it, whichever file includes that one.
+        builder.sys.name = format!("{}/{machine}", self.sources[found.file].spec);
+        builder.build(&def)
     }
 }
 
