@@ -205,6 +205,8 @@ pub struct Violation<'a> {
     pub trace: Option<&'a Trace>,
     /// For a property of two runs, the second one.
     pub second: Option<&'a Trace>,
+    /// How the report differs from what the property records.
+    pub refuted: Option<&'a str>,
 }
 
 /// All violations, in order.
@@ -225,6 +227,7 @@ pub fn violations<'a>(subject: &'a Subject, checked: &'a [Checked]) -> Vec<Viola
                     text: property.text.clone(),
                     trace: judged.trace.as_ref(),
                     second: done.outcome.pairs.get(&k).and_then(|p| p.second.as_ref()),
+                    refuted: done.outcome.refuted.get(&k).map(String::as_str),
                 });
             }
         }
@@ -238,6 +241,7 @@ pub fn violations<'a>(subject: &'a Subject, checked: &'a [Checked]) -> Vec<Viola
                 }),
                 trace: fault.trace.as_ref(),
                 second: None,
+                refuted: None,
             });
         }
     }

@@ -11,6 +11,8 @@ use stillpoint_spec::bind::Bound;
 use stillpoint_spec::eval::{Frame, UNSET};
 use stillpoint_spec::ir;
 
+use crate::recorded;
+
 /// Which evaluator ran the table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Evaluator {
@@ -29,6 +31,8 @@ pub struct Outcome {
     pub evaluator: Evaluator,
     /// The exploration of pairs of runs for each `independent` property, by property number.
     pub pairs: BTreeMap<usize, Pair>,
+    /// By property number: how the report differs from what the property records; its verdict is `Violated` then.
+    pub refuted: BTreeMap<usize, String>,
 }
 
 /// The exploration of pairs of runs for one property.
@@ -111,14 +115,17 @@ pub fn run(
                 verdict: Verdict::Inconclusive,
                 length: None,
                 bound: None,
+                fastest: None,
                 trace: None,
             })
         })
         .collect();
+    let refuted = recorded::judge(bound, &mut report.properties);
     Ok(Outcome {
         report,
         evaluator,
         pairs,
+        refuted,
     })
 }
 

@@ -9,6 +9,8 @@ pub mod engine;
 pub mod export;
 pub mod matrix;
 pub mod readings;
+pub mod recorded;
 pub mod report;
 pub mod subject;
 pub mod timing;
+pub mod topics;

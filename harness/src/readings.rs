@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use serde_json::{Value, json};
-use stillpoint_model::{Error, Limits, Options, Progress, Verdict};
+use stillpoint_model::{Error, Judgement, Limits, Options, Progress};
 use stillpoint_spec::bind::Bound;
 use stillpoint_spec::diag::Diagnostics;
 use stillpoint_spec::ir::{Node, Space};
@@ -24,7 +24,7 @@ pub struct Compared {
     pub option: String,
     /// The option the main report was made with.
     pub against: String,
-    /// Properties whose verdict or tightest bound differs: (id, main result, result under the option).
+    /// Properties whose verdict, least bound or fastest reaction differs: (id, main result, result under the option).
     pub changes: Vec<(String, String, String)>,
     /// Tasks explored.
     pub tasks: usize,
@@ -114,7 +114,7 @@ pub fn compare(
                     .iter()
                     .zip(&outcome.report.properties);
                 for (property, (a, b)) in task.bound.system.properties.iter().zip(results) {
-                    let (a, b) = (shown(a.verdict, a.bound), shown(b.verdict, b.bound));
+                    let (a, b) = (shown(a), shown(b));
                     if a != b {
                         compared.changes.push((label(property), a, b));
                     }
@@ -126,11 +126,15 @@ pub fn compare(
     Ok(out)
 }
 
-fn shown(verdict: Verdict, bound: Option<u64>) -> String {
-    match (verdict, bound) {
-        (Verdict::Holds, Some(n)) => format!("holds within {n}"),
-        _ => verdict_name(verdict).to_owned(),
+/// The verdict, with the least bound and the fastest reaction where they are known.
+fn shown(judged: &Judgement) -> String {
+    let mut text = verdict_name(judged.verdict).to_owned();
+    for (word, cycles) in [("within", judged.bound), ("fastest", judged.fastest)] {
+        if let Some(cycles) = cycles {
+            let _ = write!(text, " {word} {cycles}");
+        }
     }
+    text
 }
 
 /// Whether any rule, output or property of the system reads an option of the reading.

@@ -6,11 +6,13 @@ use std::fmt::Write;
 use serde_json::{Value, json};
 use stillpoint_model::{Storage, Trace, Verdict};
 use stillpoint_spec::bind::Bound;
+use stillpoint_spec::ir::Topic;
 
 use crate::check::{Checked, Summary, Unfired, exit_status, violations};
 use crate::engine::{Evaluator, replay};
 use crate::subject::{Subject, Task};
 use crate::timing::Diagram;
+use crate::topics;
 
 /// Property texts are wrapped at this width.
 const WIDTH: usize = 100;
@@ -79,6 +81,9 @@ pub fn text(subject: &Subject, checked: &[Checked], summaries: &[Summary]) -> St
     for violation in violations(subject, checked) {
         let _ = writeln!(out, "VIOLATED  {}  {}", violation.id, violation.text);
         let _ = writeln!(out, "  in: {}", violation.task.title);
+        if let Some(reason) = violation.refuted {
+            let _ = writeln!(out, "  {reason}");
+        }
         match violation.trace {
             Some(trace) => {
                 let _ = writeln!(out, "  shortest run, {} cycles:", trace.steps.len());
@@ -88,11 +93,15 @@ pub fn text(subject: &Subject, checked: &[Checked], summaries: &[Summary]) -> St
                     out.push_str(&diagram(&violation.task.bound, second, "violated here").text());
                 }
             }
+            None if violation.refuted.is_some() => {}
             None => out.push_str("  (no run could be rebuilt within the limits)\n"),
         }
         out.push('\n');
     }
     properties(&mut out, subject, checked);
+    for topic in [Topic::Fault, Topic::Reaction] {
+        topics::text(&mut out, subject, checked, topic);
+    }
     for (n, (task, done)) in subject.tasks.iter().zip(checked).enumerate() {
         run(&mut out, n + 1, task, done);
     }
@@ -127,7 +136,7 @@ fn properties(out: &mut String, subject: &Subject, checked: &[Checked]) {
                     &mut rows[last]
                 }
             };
-            let bound = judged.bound;
+            let bound = (judged.fastest, judged.bound);
             match row.runs.iter_mut().find(|(b, _)| *b == bound) {
                 Some((_, runs)) if runs.last() == Some(&(n + 1)) => {} // another copy of an index
                 Some((_, runs)) => runs.push(n + 1),
@@ -158,10 +167,16 @@ fn properties(out: &mut String, subject: &Subject, checked: &[Checked]) {
                 } else {
                     String::new()
                 };
-                match bound {
-                    Some(k) => format!("within {k} cycles {runs}").trim_end().to_owned(),
-                    None => runs,
-                }
+                let cycles = match bound {
+                    (Some(0), Some(0)) => "in the same cycle".to_owned(),
+                    (Some(1), Some(1)) => "in 1 cycle".to_owned(),
+                    (Some(a), Some(b)) if a == b => format!("in {a} cycles"),
+                    (Some(a), Some(b)) => format!("in {a} to {b} cycles"),
+                    (Some(a), None) => format!("in {a} cycles or more"),
+                    (None, Some(b)) => format!("within {b} cycles"),
+                    (None, None) => String::new(),
+                };
+                format!("{cycles} {runs}").trim().to_owned()
             })
             .filter(|t| !t.is_empty())
             .collect();
@@ -181,9 +196,12 @@ struct Row<'a> {
     id: &'a str,
     text: &'a str,
     verdict: Verdict,
-    /// The runs (from 1) with the same tightest bound.
-    runs: Vec<(Option<u64>, Vec<usize>)>,
+    /// The runs (from 1) with the same fastest reaction and the same least bound.
+    runs: Vec<(Times, Vec<usize>)>,
 }
+
+/// Cycles of the fastest reaction and of the least bound.
+type Times = (Option<u64>, Option<u64>);
 
 fn headline(out: &mut String, subject: &Subject, checked: &[Checked], summaries: &[Summary]) {
     let count = |v: Verdict| summaries.iter().filter(|s| s.verdict == v).count();
@@ -313,8 +331,9 @@ fn unfired(out: &mut String, done: &Checked) {
     }
 }
 
-fn wrapped(out: &mut String, head: &str, text: &str) {
-    let indent = head.chars().count().min(40);
+/// Words after a head, in lines of readable length, indented below the first word.
+pub(crate) fn wrapped(out: &mut String, head: &str, text: &str) {
+    let indent = head.chars().count().min(48);
     let mut line = head.to_owned();
     let mut used = line.chars().count();
     for word in text.split_whitespace() {
@@ -377,12 +396,14 @@ pub fn to_json(subject: &Subject, checked: &[Checked], summaries: &[Summary]) ->
                 .properties
                 .iter()
                 .zip(&report.properties)
-                .map(|(p, j)| {
+                .enumerate()
+                .map(|(k, (p, j))| {
                     let counterexample = (j.verdict == Verdict::Violated)
                         .then(|| j.trace.as_ref().map(|t| steps(t, &task.bound)));
                     json!({
                         "id": p.id, "index": p.index, "text": p.text, "requirements": p.req,
-                        "verdict": verdict_name(j.verdict), "length": j.length, "bound": j.bound,
+                        "verdict": verdict_name(j.verdict), "length": j.length, "bound": j.bound, "fastest": j.fastest,
+                        "refuted": done.outcome.refuted.get(&k),
                         "counterexample": counterexample.flatten(),
                     })
                 })
@@ -435,6 +456,8 @@ pub fn to_json(subject: &Subject, checked: &[Checked], summaries: &[Summary]) ->
         "properties": summaries.iter().map(|s| json!({
             "id": s.id, "verdict": verdict_name(s.verdict), "length": s.length,
         })).collect::<Vec<_>>(),
+        "faults": topics::to_json(subject, checked, Topic::Fault),
+        "reactions": topics::to_json(subject, checked, Topic::Reaction),
         "runs": runs,
     })
 }

@@ -132,7 +132,7 @@ pub struct Outputs {
 
 contract! {
     /// The agreement is given only with the key and on a referenced axis, and only when the user gives it.
-    given_only_with_key_and_reference ["S840D-P-48", "S840D-UA-004", "S840D-UA-005"]:
+    given_only_with_key_and_reference ["S840D-P-48", "S840D-UA-004", "S840D-UA-005", "S840D-UA-003"]:
         when |s| !s.before.agreed && s.after.agreed
             => s.inputs.set && s.inputs.key && s.inputs.axis_ref;
 
@@ -147,7 +147,8 @@ contract! {
             => !s.after.agreed;
 
     /// A due comparison without stored position or beyond the tolerance withdraws the agreement.
-    failed_history_withdraws ["S840D-P-13", "S840D-REF-004", "S840D-REF-008", "S840D-REF-010"]:
+    failed_history_withdraws ["S840D-P-13", "S840D-REF-004", "S840D-REF-008", "S840D-REF-010", "S840D-UA-003",
+        "S840D-REF-014"]:
         when |s| s.before.agreed && s.inputs.compare_due && !(s.inputs.stored && s.inputs.history_ok)
             => !s.after.agreed && s.outputs.withdrawn;
 
@@ -197,7 +198,7 @@ contract! {
             => s.outputs.code == Code::Plausibility && s.after.agreed == s.before.agreed;
 
     /// Without agreement the limit switches raise nothing; with it they act where they are enabled.
-    limit_switches_need_the_agreement ["S840D-P-12", "S840D-UA-002", "S840D-UA-008"]:
+    limit_switches_need_the_agreement ["S840D-P-12", "S840D-UA-002", "S840D-UA-008", "S840D-SE-010"]:
         when |s| !s.outputs.se_active || s.after.agreed
             => s.outputs.se_active == (s.after.agreed && s.config.se_sn_enabled);
 

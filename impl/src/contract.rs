@@ -78,6 +78,22 @@ impl core::fmt::Display for InvalidState {
 
 impl core::error::Error for InvalidState {}
 
+/// The state of a monitor that remembers nothing from one cycle to the next. One type for all of them, so that they have
+/// the same form as the others.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Stateless;
+
+impl Stateless {
+    /// The only state.
+    pub const INITIAL: Self = Self;
+
+    /// The only state is consistent with every configuration.
+    #[cfg_attr(creusot, creusot_contracts::macros::logic)]
+    pub const fn invariant<C>(&self, _config: &C) -> bool {
+        true
+    }
+}
+
 /// Declares `next` with its contract, from the module's `State`, `Config`, `Inputs`, `Outputs` and `transition`.
 macro_rules! contract {
     ($(

@@ -95,18 +95,18 @@ contract! {
             => s.outputs.request == ExternalStop::A;
 
     /// External STOP A selected: the other signals change nothing.
-    stop_a_comes_first ["S840D-P-18", "S840D-EXT-005"]:
+    stop_a_comes_first ["S840D-P-18", "S840D-EXT-005", "S840D-EXT-001"]:
         when |s| s.config.enable_ext && !s.inputs.sge_a
             => s.outputs.request == ExternalStop::A && s.outputs.selected == ExternalStop::A;
 
     /// Of several requests the highest acts, in the order A, C, D, E.
-    highest_request_acts ["S840D-P-18", "S840D-EXT-005", "S840D-EXT-014"]:
+    highest_request_acts ["S840D-P-18", "S840D-EXT-005", "S840D-EXT-014", "S840D-EXT-001"]:
         when |s| s.config.enable_ext && s.after.started && s.inputs.sge_a
             && (!s.inputs.sge_c || !s.inputs.sge_d)
             => s.outputs.request == if s.inputs.sge_c { ExternalStop::D } else { ExternalStop::C };
 
     /// STOP E is requested by its signal when it is enabled and nothing higher is.
-    stop_e_needs_its_enable ["S840D-EXT-003", "S840D-EXT-005"]:
+    stop_e_needs_its_enable ["S840D-EXT-003", "S840D-EXT-005", "S840D-EXT-001"]:
         when |s| s.config.enable_ext && s.inputs.sge_a && s.inputs.sge_c && s.inputs.sge_d && !s.inputs.sge_e
             => s.outputs.selected == if s.config.enable_e { ExternalStop::E } else { ExternalStop::None };
 

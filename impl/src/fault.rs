@@ -120,7 +120,7 @@ contract! {
             => s.after.fault == FaultState::Expired && s.outputs.stop_b;
 
     /// A latched fault brakes nothing.
-    latched_fault_does_not_brake ["S840D-P-22", "S840D-STOP-060", "S840D-STOP-062"]:
+    latched_fault_does_not_brake ["S840D-P-22", "S840D-STOP-060", "S840D-STOP-062", "S840D-STOP-067"]:
         when |s| s.after.fault == FaultState::Latched || s.after.fault == FaultState::None
             => !s.outputs.stop_b && !s.outputs.bit1;
 

@@ -68,6 +68,21 @@ impl Cycles {
         Self::checked(micros / cycle_us.get() as u64)
     }
 
+    /// The shortest tolerance for a change of an input signal (`MODE_SWITCH_TIME`, t_chg) that the system needs: two of the
+    /// longest cycles of the PLC and one of the interpolator, rounded up (S840D-TIMING-510). The delays of the wiring, such
+    /// as relays, come on top of it. All times in microseconds.
+    ///
+    /// # Errors
+    /// [`DurationTooLong`] when the result needs more than 32 bits.
+    pub const fn least_change_tolerance(
+        plc_us: u32,
+        interpolator_us: u32,
+        cycle_us: NonZeroU32,
+    ) -> Result<Self, DurationTooLong> {
+        let micros = 2 * plc_us as u64 + interpolator_us as u64;
+        Self::checked(micros.div_ceil(cycle_us.get() as u64))
+    }
+
     /// The same duration, if it is at most `limit`.
     ///
     /// # Errors
@@ -116,6 +131,31 @@ pub enum ConfigError {
     StopENotEnabled,
     /// The highest gear index is above 7 (S840D-GEAR-501).
     GearIndexTooHigh,
+    /// Internal pulse cancellation lacks its external path (S840D-PARAM-507).
+    NoExternalPath,
+    /// Actual values are synchronised on an axis with one encoder, limit switches or cams (S840D-SLIP-501).
+    SynchronisationNotAllowed,
+    /// The list of the cross comparison is empty or has more than 256 items.
+    ListLength,
+    /// A factor is outside its range: 1 to 100 % for the override (S840D-PARAM-011), 0 to 100 % for the setpoint limit
+    /// (S840D-PARAM-012).
+    FactorOutOfRange,
+    /// A configured stop is none of those the monitor may raise: there is no default (S840D-STOP-087, S840D-PARAM-735).
+    StopNotAllowed,
+    /// An upper limit is not above its lower limit (S840D-PARAM-506).
+    LimitsCrossed,
+    /// The tolerance of the operating stop is above 100 mm or 100 degrees.
+    ToleranceTooLarge,
+    /// A value has more increments than 32 bits hold.
+    ValueTooLarge,
+    /// The monitoring cycle is longer than 25 ms (S840D-TIMING-511).
+    CycleTooLong,
+    /// The modulo range of the cams is neither 0 nor a multiple of 360 degrees up to 737280 (S840D-PARAM-719).
+    ModuloRangeUneven,
+    /// A cam is too close to the limits of the modulo range (S840D-SN-010).
+    CamNearModuloLimit,
+    /// The encoder limit frequency is not 300 to 420 kHz (S840D-FREQ-003).
+    FrequencyOutOfRange,
 }
 
 impl core::fmt::Display for ConfigError {
@@ -127,19 +167,83 @@ impl core::fmt::Display for ConfigError {
                 "STOP E on errors of the safe logic needs external stops and STOP E enabled"
             }
             Self::GearIndexTooHigh => "the highest gear index is above 7",
+            Self::NoExternalPath => {
+                "internal pulse cancellation needs an external path and an input for its test"
+            }
+            Self::SynchronisationNotAllowed => {
+                "the synchronisation of actual values needs two encoders and neither limit switches nor cams"
+            }
+            Self::ListLength => "the list of the cross comparison must have 1 to 256 items",
+            Self::FactorOutOfRange => "a factor in percent is outside its range",
+            Self::StopNotAllowed => "a configured stop is none the monitor may raise",
+            Self::LimitsCrossed => "an upper limit is not above its lower limit",
+            Self::ToleranceTooLarge => "the tolerance of the operating stop is above 100 mm or 100 degrees",
+            Self::ValueTooLarge => "a value has more increments than 32 bits hold",
+            Self::CycleTooLong => "the monitoring cycle is longer than 25 ms",
+            Self::ModuloRangeUneven => {
+                "the modulo range of the cams is neither 0 nor a multiple of 360 degrees up to 737280"
+            }
+            Self::CamNearModuloLimit => "a cam is too close to the limits of the modulo range",
+            Self::FrequencyOutOfRange => "the encoder limit frequency is not 300 to 420 kHz",
         })
     }
 }
 
 impl core::error::Error for ConfigError {}
 
-/// A safe position in increments of the axis (the user fixes the unit, usually micrometres).
+/// A safe position in increments: micrometres (linear axes) or thousandths of a degree (rotary axes).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Position(pub i32);
 
-/// A speed magnitude in mm/min (linear axes) or in the unit the user fixes for the axis.
+impl Position {
+    /// The distance of two positions; never overflows.
+    pub const fn distance(self, other: Self) -> Distance {
+        Distance(self.0.abs_diff(other.0))
+    }
+}
+
+/// A distance or a tolerance in increments.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Distance(pub u32);
+
+/// A speed magnitude in increments per monitoring cycle: the distance of the positions of two cycles, which is what the
+/// manual compares with its limits (S840D-TIMING-512). Conversion: [`crate::units::Scale`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Speed(pub u32);
+
+impl Speed {
+    /// The given part of the speed, rounded down: a limit so reduced is never above the exact one.
+    pub const fn reduced(self, factor: Percent) -> Self {
+        // At most the speed itself, since a factor is at most 100.
+        Self((self.0 as u64 * factor.0 as u64 / 100) as u32)
+    }
+}
+
+/// A factor of 0 to 100 percent.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Percent(u8);
+
+impl Percent {
+    /// The whole.
+    pub const WHOLE: Self = Self(100);
+
+    /// A factor of `percent`.
+    ///
+    /// # Errors
+    /// [`ConfigError::FactorOutOfRange`] when `percent` is above 100.
+    pub const fn new(percent: u8) -> Result<Self, ConfigError> {
+        if percent <= 100 {
+            Ok(Self(percent))
+        } else {
+            Err(ConfigError::FactorOutOfRange)
+        }
+    }
+
+    /// The number, 0 to 100.
+    pub const fn get(self) -> u8 {
+        self.0
+    }
+}
 
 /// The effective stop level of a channel, in rising priority (S840D-STOP-003).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -196,6 +300,18 @@ impl Level {
             self
         } else {
             other
+        }
+    }
+
+    /// The stop category of EN 60204-1 (S840D-STOP-008): 0 without braking, 1 braked and then without power, 2 braked and
+    /// then held with power. STOP F has none of its own: it is of category 1 where it triggers STOP B. A test stop is no
+    /// stop of the machine.
+    pub const fn category(self) -> Option<u8> {
+        match self {
+            Self::A => Some(0),
+            Self::B => Some(1),
+            Self::C | Self::D | Self::E => Some(2),
+            Self::None | Self::F | Self::Test => None,
         }
     }
 

@@ -121,12 +121,12 @@ contract! {
             => s.after.axis == AxisState::Ref && s.inputs.referenced && s.after.fresh;
 
     /// The comparison becomes due exactly when the axis has just been referenced.
-    comparison_is_due_once ["S840D-REF-004", "S840D-REF-007"]:
+    comparison_is_due_once ["S840D-REF-004", "S840D-REF-007", "S840D-REF-014", "S840D-UA-003"]:
         when |s| s.outputs.compare_due
             => s.before.axis == AxisState::NotRef && s.after.axis == AxisState::Ref && !s.inputs.power_on;
 
     /// Power-on without completed run-up leaves the axis off; run-up makes it "not referenced".
-    run_up_starts_it ["S840D-REF-001"]:
+    run_up_starts_it ["S840D-REF-001", "S840D-ARCH-505"]:
         when |s| s.inputs.power_on || s.before.axis == AxisState::Off
             => s.after.axis == if s.inputs.run_up { AxisState::NotRef } else { AxisState::Off };
 

@@ -1,85 +1,18 @@
-//! Selection of the operating stop (SBH) and of the speed stage (SG1 to SG4) with its delays, in one channel (machine M3).
+//! Selection of the operating stop (SBH) and of the speed stage (SG1 to SG4) with its delays, in one channel (machine M3),
+//! with the override of the limits of SG2 and SG4 (M4).
 //!
 //! A lower limit, and the operating stop, take effect after the delay t_vel, during which the old limit is monitored; a
 //! higher or equal limit and de-selection act at once. The end of a STOP C, D or E forces the operating stop and makes the
-//! signals ineffective (see [`crate::stop`]).
+//! signals ineffective (see [`crate::stop`]). The override signals change the limit of SG2 and SG4 only, by the same rules:
+//! what counts is the effective limit of stage and factor.
 //!
 //! Recommended readings of the manual implemented here: A-05 (settled), A-14 SVSS_ON_IN_INT, A-39 REF_KEEP.
 
-use crate::kernel::{ConfigError, Cycles, Position, Speed};
+use crate::kernel::{Cycles, Position, Speed};
 
-/// A speed stage, selected by two signals.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Stage {
-    /// SG1, bits (0,0).
-    #[default]
-    Sg1,
-    /// SG2, bits (0,1).
-    Sg2,
-    /// SG3, bits (1,0).
-    Sg3,
-    /// SG4, bits (1,1).
-    Sg4,
-}
+mod limits;
 
-impl Stage {
-    /// Every stage in order.
-    pub const ALL: [Self; 4] = [Self::Sg1, Self::Sg2, Self::Sg3, Self::Sg4];
-
-    /// The stage of the signals "SG selection bit 1, bit 0" (S840D-SG-002).
-    pub const fn from_bits(bit1: bool, bit0: bool) -> Self {
-        match (bit1, bit0) {
-            (false, false) => Self::Sg1,
-            (false, true) => Self::Sg2,
-            (true, false) => Self::Sg3,
-            (true, true) => Self::Sg4,
-        }
-    }
-
-    /// The number of the signals, 0 for SG1 to 3 for SG4.
-    pub const fn index(self) -> u8 {
-        match self {
-            Self::Sg1 => 0,
-            Self::Sg2 => 1,
-            Self::Sg3 => 2,
-            Self::Sg4 => 3,
-        }
-    }
-}
-
-/// Limits and delay of the changeover.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Config {
-    enable: bool,
-    t_vel: Cycles,
-    limits: [Speed; 4],
-}
-
-impl Config {
-    /// `enable`: SBH and SG exist on the axis (bit 0 of the enable word). `t_vel`: delay to a lower limit or to SBH
-    /// (`SAFE_VELO_SWITCH_DELAY`), 0 means at once. `limits`: SG1 to SG4, in any order of size.
-    ///
-    /// # Errors
-    /// [`ConfigError::DelayTooLong`] when `t_vel` is above [`Cycles::SIXTY_SECONDS`].
-    pub fn new(enable: bool, t_vel: Cycles, limits: [Speed; 4]) -> Result<Self, ConfigError> {
-        Ok(Self {
-            enable,
-            t_vel: t_vel.at_most(Cycles::SIXTY_SECONDS)?,
-            limits,
-        })
-    }
-
-    /// The limit of a stage.
-    pub const fn limit(&self, stage: Stage) -> Speed {
-        let [sg1, sg2, sg3, sg4] = self.limits;
-        match stage {
-            Stage::Sg1 => sg1,
-            Stage::Sg2 => sg2,
-            Stage::Sg3 => sg3,
-            Stage::Sg4 => sg4,
-        }
-    }
-}
+pub use limits::{Choice, Config, FactorIndex, Stage};
 
 /// What is selected and monitored.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -106,8 +39,12 @@ pub struct State {
     pub mode: Mode,
     /// The stage whose limit is monitored in `Sg`, `SgDown` and `SbhPend`, else SG1.
     pub stage: Stage,
+    /// The override factor in force in `stage`, else 0.
+    pub factor: FactorIndex,
     /// The stage to come in `SgDown`, else SG1.
     pub target: Stage,
+    /// The override factor to come in `SgDown`, else 0.
+    pub target_factor: FactorIndex,
     /// What is left of t_vel in `SgDown` and `SbhPend`, else 0.
     pub timer: Cycles,
     /// The position captured in `Sbh` and `SbhForced`, else 0.
@@ -119,16 +56,35 @@ impl State {
     pub const INITIAL: Self = Self {
         mode: Mode::Nsb,
         stage: Stage::Sg1,
+        factor: FactorIndex::NONE,
         target: Stage::Sg1,
+        target_factor: FactorIndex::NONE,
         timer: Cycles::ZERO,
         reference: Position(0),
     };
 
-    const fn speed(stage: Stage) -> Self {
+    const fn speed(choice: Choice) -> Self {
         Self {
             mode: Mode::Sg,
-            stage,
+            stage: choice.stage,
+            factor: choice.factor,
             ..Self::INITIAL
+        }
+    }
+
+    /// What the monitored limit is chosen by, where a speed is monitored.
+    pub const fn monitored(&self) -> Choice {
+        Choice {
+            stage: self.stage,
+            factor: self.factor,
+        }
+    }
+
+    /// What is to come in `SgDown`.
+    pub const fn pending(&self) -> Choice {
+        Choice {
+            stage: self.target,
+            factor: self.target_factor,
         }
     }
 
@@ -158,9 +114,11 @@ impl State {
             && pending != self.timer.is_zero()
             && self.timer <= config.t_vel
             && (speed || self.stage == Stage::Sg1)
+            && config.choice(self.stage, self.factor) == self.monitored()
+            && config.choice(self.target, self.target_factor) == self.pending()
             && (standstill || self.reference == Position(0))
             && if self.mode == Mode::SgDown {
-                config.limit(self.target) < config.limit(self.stage)
+                config.effective(self.pending()) < config.effective(self.monitored())
             } else {
                 self.target == Stage::Sg1
             }
@@ -178,6 +136,8 @@ pub struct Inputs {
     pub sge_sbh: bool,
     /// The stage selected by the signals.
     pub sg_select: Stage,
+    /// The override factor selected by the signals.
+    pub over: FactorIndex,
     /// A STOP C, D or E has ended in the operating stop (see [`crate::stop::Outputs::sbh_internal`]).
     pub sbh_internal: bool,
     /// The actual position.
@@ -209,7 +169,7 @@ pub struct Outputs {
     pub sga_sg: Stage,
     /// What is compared with what.
     pub monitored: Monitored,
-    /// The limit where the speed is monitored, else 0.
+    /// The effective limit where the speed is monitored, else 0.
     pub limit: Speed,
     /// The reference where the position is monitored, else 0.
     pub reference: Position,
@@ -220,16 +180,22 @@ pub struct Outputs {
 enum Selected {
     Nothing,
     Standstill,
-    Speed(Stage),
+    Speed(Choice),
 }
 
 impl Inputs {
+    /// The stage and factor the signals choose, if they select a speed.
+    #[cfg_attr(creusot, creusot_contracts::macros::logic)]
+    pub const fn choice(&self, config: &Config) -> Choice {
+        config.choice(self.sg_select, self.over)
+    }
+
     /// Table 5-22 of the manual.
-    const fn selected(&self) -> Selected {
+    const fn selected(&self, config: &Config) -> Selected {
         match (self.sge_sbh_sg, self.sge_sbh) {
             (true, _) => Selected::Nothing,
             (false, false) => Selected::Standstill,
-            (false, true) => Selected::Speed(self.sg_select),
+            (false, true) => Selected::Speed(self.choice(config)),
         }
     }
 }
@@ -271,34 +237,34 @@ contract! {
             => s.after == State::INITIAL && s.outputs.monitored == Monitored::Nothing;
 
     /// A limit at least as high as the monitored one takes effect in the same cycle.
-    higher_limit_acts_at_once ["S840D-P-09", "S840D-SBH-010", "S840D-SG-003"]:
+    higher_limit_acts_at_once ["S840D-P-09", "S840D-SBH-010", "S840D-SG-003", "S840D-OVR-003"]:
         when |s| s.before.mode.watches_speed() && !s.inputs.power_on && !s.inputs.sbh_internal
             && !s.inputs.sge_sbh_sg && s.inputs.sge_sbh
-            && s.config.limit(s.inputs.sg_select) >= s.config.limit(s.before.stage)
-            && !(s.before.mode == Mode::Sg && s.inputs.sg_select == s.before.stage)
-            => s.after.mode == Mode::Sg && s.after.stage == s.inputs.sg_select && s.after.timer.is_zero();
+            && s.config.effective(s.inputs.choice(&s.config)) >= s.config.effective(s.before.monitored())
+            && !(s.before.mode == Mode::Sg && s.inputs.choice(&s.config) == s.before.monitored())
+            => s.after == State::speed(s.inputs.choice(&s.config));
 
     /// A lower limit newly selected starts the whole delay; the old limit stays in force, unless the delay is 0.
-    lower_limit_waits ["S840D-P-08", "S840D-SBH-010", "S840D-SG-004"]:
+    lower_limit_waits ["S840D-P-08", "S840D-SBH-010", "S840D-SG-004", "S840D-OVR-003", "S840D-PARAM-011"]:
         when |s| s.before.mode.watches_speed() && !s.inputs.power_on && !s.inputs.sbh_internal
             && !s.inputs.sge_sbh_sg && s.inputs.sge_sbh
-            && s.config.limit(s.inputs.sg_select) < s.config.limit(s.before.stage)
-            && !(s.before.mode == Mode::SgDown && s.inputs.sg_select == s.before.target)
+            && s.config.effective(s.inputs.choice(&s.config)) < s.config.effective(s.before.monitored())
+            && !(s.before.mode == Mode::SgDown && s.inputs.choice(&s.config) == s.before.pending())
             => if s.config.t_vel.is_zero() {
-                s.after.mode == Mode::Sg && s.after.stage == s.inputs.sg_select
+                s.after == State::speed(s.inputs.choice(&s.config))
             } else {
-                s.after.mode == Mode::SgDown && s.after.stage == s.before.stage
-                    && s.after.target == s.inputs.sg_select && s.after.timer == s.config.t_vel
+                s.after.mode == Mode::SgDown && s.after.monitored() == s.before.monitored()
+                    && s.after.pending() == s.inputs.choice(&s.config) && s.after.timer == s.config.t_vel
             };
 
     /// The same lower limit selected on: the delay runs to its end, then the new limit is in force, not before.
     lower_limit_comes_in_time ["S840D-P-08", "S840D-SG-004"]:
         when |s| s.before.mode == Mode::SgDown && !s.inputs.power_on && !s.inputs.sbh_internal
-            && !s.inputs.sge_sbh_sg && s.inputs.sge_sbh && s.inputs.sg_select == s.before.target
+            && !s.inputs.sge_sbh_sg && s.inputs.sge_sbh && s.inputs.choice(&s.config) == s.before.pending()
             => if s.before.timer > Cycles::new(1) {
                 s.after == State { timer: s.before.timer.tick(), ..s.before }
             } else {
-                s.after.mode == Mode::Sg && s.after.stage == s.before.target
+                s.after == State::speed(s.before.pending())
             };
 
     /// The operating stop selected from a speed stage starts the whole delay; the old limit stays in force.
@@ -308,7 +274,8 @@ contract! {
             => if s.config.t_vel.is_zero() {
                 s.after.mode == Mode::Sbh
             } else {
-                s.after.mode == Mode::SbhPend && s.after.stage == s.before.stage && s.after.timer == s.config.t_vel
+                s.after.mode == Mode::SbhPend && s.after.monitored() == s.before.monitored()
+                    && s.after.timer == s.config.t_vel
             };
 
     /// The operating stop selected on: the delay runs to its end, then the position is monitored, not before.
@@ -326,10 +293,27 @@ contract! {
         when |s| s.config.enable && !s.inputs.sbh_internal && !s.inputs.sge_sbh_sg
             && (s.inputs.power_on || !s.before.mode.watches_speed())
             => if s.inputs.sge_sbh {
-                s.after.mode == Mode::Sg && s.after.stage == s.inputs.sg_select
+                s.after == State::speed(s.inputs.choice(&s.config))
             } else {
                 s.after.mode == Mode::Sbh
             };
+
+    /// The limit compared is that of the stage, in SG2 and SG4 reduced by the factor in force and rounded down to the next
+    /// whole increment.
+    factor_reduces_the_limit ["S840D-OVR-001", "S840D-OVR-002", "S840D-PARAM-011", "S840D-SG-001"]:
+        when |s| s.outputs.monitored == Monitored::Speed
+            => {
+                let exact = u64::from(s.config.limit(s.after.stage).0)
+                    * u64::from(s.config.factor(s.after.monitored()).get());
+                let hundredths = u64::from(s.outputs.limit.0) * 100;
+                hundredths <= exact && exact < hundredths + 100
+            };
+
+    /// In SG1 and SG3, and without override, no factor is in force and the limit is that of the stage.
+    no_factor_in_sg1_and_sg3 ["S840D-P-31", "S840D-OVR-001"]:
+        when |s| s.outputs.monitored == Monitored::Speed
+            && (s.config.factors.is_none() || matches!(s.after.stage, Stage::Sg1 | Stage::Sg3))
+            => s.after.factor == FactorIndex::NONE && s.outputs.limit == s.config.limit(s.after.stage);
 
     /// The signals to the user show what is monitored, not what is selected.
     feedback_shows_what_is_monitored ["S840D-P-53", "S840D-SBH-007", "S840D-SG-009", "S840D-SG-014"]:
@@ -338,7 +322,11 @@ contract! {
                 && s.outputs.sga_sbh_active == (s.outputs.monitored == Monitored::Standstill)
                 && (s.outputs.monitored == Monitored::Speed) == s.after.mode.watches_speed()
                 && s.outputs.sga_sg == s.after.stage
-                && s.outputs.limit == if s.after.mode.watches_speed() { s.config.limit(s.after.stage) } else { Speed(0) };
+                && s.outputs.limit == if s.after.mode.watches_speed() {
+                    s.config.effective(s.after.monitored())
+                } else {
+                    Speed(0)
+                };
 
     /// With nothing selected nothing is monitored and every signal is 0.
     nothing_selected_nothing_monitored ["S840D-SG-012", "S840D-SBH-002"]:
@@ -379,34 +367,35 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
 
 /// The next state where the signals decide.
 fn select(before: State, config: &Config, inputs: &Inputs) -> State {
-    match (inputs.selected(), before.mode) {
+    match (inputs.selected(config), before.mode) {
         (Selected::Nothing, _) => State::INITIAL,
 
         (Selected::Standstill, Mode::Nsb) => State::standstill(inputs.position),
         // Acknowledged into the selected operating stop: the reference stays (A-39 REF_KEEP).
         (Selected::Standstill, Mode::Sbh | Mode::SbhForced) => State::standstill(before.reference),
         (Selected::Standstill, Mode::Sg | Mode::SgDown) => {
-            standstill_after(config.t_vel, before.stage, inputs)
+            standstill_after(config.t_vel, before.monitored(), inputs)
         }
         (Selected::Standstill, Mode::SbhPend) => {
-            standstill_after(before.timer.tick(), before.stage, inputs)
+            standstill_after(before.timer.tick(), before.monitored(), inputs)
         }
 
-        (Selected::Speed(stage), Mode::Nsb | Mode::Sbh | Mode::SbhForced) => State::speed(stage),
-        (Selected::Speed(stage), Mode::Sg | Mode::SgDown | Mode::SbhPend) => {
-            if config.limit(stage) >= config.limit(before.stage) {
-                State::speed(stage)
-            } else if before.mode == Mode::SgDown && stage == before.target {
-                speed_after(before.timer.tick(), before.stage, stage)
+        (Selected::Speed(new), Mode::Nsb | Mode::Sbh | Mode::SbhForced) => State::speed(new),
+        (Selected::Speed(new), Mode::Sg | Mode::SgDown | Mode::SbhPend) => {
+            let old = before.monitored();
+            if config.effective(new) >= config.effective(old) {
+                State::speed(new)
+            } else if before.mode == Mode::SgDown && new == before.pending() {
+                speed_after(before.timer.tick(), old, new)
             } else {
-                speed_after(config.t_vel, before.stage, stage)
+                speed_after(config.t_vel, old, new)
             }
         }
     }
 }
 
-/// The operating stop when `left` is over, the old stage until then.
-fn standstill_after(left: Cycles, old: Stage, inputs: &Inputs) -> State {
+/// The operating stop when `left` is over, the old limit until then.
+fn standstill_after(left: Cycles, old: Choice, inputs: &Inputs) -> State {
     if left.is_zero() {
         State::standstill(inputs.position)
     } else {
@@ -418,14 +407,15 @@ fn standstill_after(left: Cycles, old: Stage, inputs: &Inputs) -> State {
     }
 }
 
-/// The new stage when `left` is over, the old stage until then.
-fn speed_after(left: Cycles, old: Stage, new: Stage) -> State {
+/// The new limit when `left` is over, the old one until then.
+fn speed_after(left: Cycles, old: Choice, new: Choice) -> State {
     if left.is_zero() {
         State::speed(new)
     } else {
         State {
             mode: Mode::SgDown,
-            target: new,
+            target: new.stage,
+            target_factor: new.factor,
             timer: left,
             ..State::speed(old)
         }
@@ -445,7 +435,7 @@ fn outputs(state: State, config: &Config) -> Outputs {
         sga_sg: state.stage,
         monitored,
         limit: if monitored == Monitored::Speed {
-            config.limit(state.stage)
+            config.effective(state.monitored())
         } else {
             Speed(0)
         },

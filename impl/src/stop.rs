@@ -102,6 +102,11 @@ impl State {
         timer: Cycles::ZERO,
     };
 
+    /// The braking ramp is in force: until STOP B or C ends, also in the operating stop (A-16 SBR_UNTIL_END).
+    pub const fn sbr_on(&self) -> bool {
+        matches!(self.phase, Phase::BBraking) || matches!(self.level, Level::C)
+    }
+
     /// Level, phase and timer belong together; no request is above the effective level.
     #[cfg_attr(creusot, creusot_contracts::macros::logic)]
     pub fn invariant(&self, config: &Config) -> bool {
@@ -193,7 +198,7 @@ contract! {
             => s.after.internal >= s.before.internal;
 
     /// A latched STOP A cancels the pulses, in the cycle it is latched and until power-on.
-    latched_a_cancels_pulses ["S840D-P-01", "S840D-STOP-010", "S840D-STOP-012"]:
+    latched_a_cancels_pulses ["S840D-P-01", "S840D-STOP-010", "S840D-STOP-012", "S840D-PARAM-504"]:
         when |s| s.after.internal == InternalStop::A
             || (s.before.internal == InternalStop::A && !s.inputs.power_on)
             => s.after.internal == InternalStop::A && s.after.level == Level::A && s.outputs.cancel_pulses;
@@ -209,7 +214,7 @@ contract! {
             => s.after.internal >= s.before.internal;
 
     /// RESET in the operating stop acknowledges STOP C, D and E, unless it is demanded again.
-    reset_acknowledges_an_ended_stop ["S840D-P-34", "S840D-ACK-001", "S840D-ACK-002"]:
+    reset_acknowledges_an_ended_stop ["S840D-P-34", "S840D-ACK-001", "S840D-ACK-002", "S840D-STOP-032", "S840D-STOP-041", "S840D-STOP-052"]:
         when |s| s.inputs.reset && !s.inputs.power_on && s.before.phase == Phase::SbhInt && !s.inputs.f_stop_b
             && s.before.internal != InternalStop::None && s.inputs.rx_internal <= InternalStop::C
             => s.after.internal == s.inputs.demand
@@ -221,7 +226,7 @@ contract! {
             => s.inputs.power_on || s.inputs.reset || s.before.level > s.before.internal.level();
 
     /// Every request of the cycle is met: the latch rises at least to each internal request.
-    every_internal_request_is_latched ["S840D-P-20", "S840D-STOP-007", "S840D-STOP-097"]:
+    every_internal_request_is_latched ["S840D-P-20", "S840D-STOP-007", "S840D-STOP-097", "S840D-STOP-025", "S840D-EXT-009"]:
         when |s| s.inputs.demand != InternalStop::None || s.inputs.f_stop_b
             || s.inputs.rx_internal >= InternalStop::B
             => s.after.internal >= s.inputs.demand
@@ -230,12 +235,12 @@ contract! {
                     || s.after.internal >= s.inputs.rx_internal);
 
     /// A received STOP C, D or E is latched, except in a cycle of power-on or RESET.
-    received_stop_is_latched ["S840D-STOP-007", "S840D-STOP-090"]:
+    received_stop_is_latched ["S840D-STOP-007", "S840D-STOP-090", "S840D-STOP-067"]:
         when |s| s.inputs.rx_internal != InternalStop::None && !s.inputs.power_on && !s.inputs.reset
             => s.after.internal >= s.inputs.rx_internal;
 
     /// The latch rises only to what was requested: a demanded or received stop, B by STOP F, and A as the end of B.
-    latch_rises_only_on_request ["S840D-STOP-001", "S840D-STOP-013", "S840D-STOP-090"]:
+    latch_rises_only_on_request ["S840D-STOP-001", "S840D-STOP-013", "S840D-STOP-090", "S840D-STOP-025"]:
         when |s| s.after.internal > s.before.internal
             => s.after.internal == s.inputs.demand || s.after.internal == s.inputs.rx_internal
                 || (s.after.internal == InternalStop::B && s.inputs.f_stop_b)
@@ -295,7 +300,7 @@ contract! {
             };
 
     /// A STOP E, D or C that becomes effective from another level starts its own time.
-    braking_starts_its_timer ["S840D-P-06", "S840D-STOP-030", "S840D-STOP-040", "S840D-STOP-050"]:
+    braking_starts_its_timer ["S840D-P-06", "S840D-STOP-030", "S840D-STOP-040", "S840D-STOP-050", "S840D-EXT-010", "S840D-EXT-011", "S840D-EXT-012"]:
         when |s| s.after.level.ends_in_standstill()
             && (s.inputs.power_on || !s.before.level.ends_in_standstill())
             => s.after.timer == s.config.time(s.after.level);
@@ -306,7 +311,8 @@ contract! {
             => s.after.phase == Phase::SbhInt && s.outputs.sbh_internal;
 
     /// The actions are those of the effective level alone.
-    actions_belong_to_the_level ["S840D-P-38", "S840D-STOP-098"]:
+    actions_belong_to_the_level ["S840D-P-38", "S840D-STOP-098", "S840D-STOP-014", "S840D-STOP-032", "S840D-STOP-041",
+        "S840D-STOP-052", "S840D-EXT-007", "S840D-TEST-023"]:
         when |s| s.after.level != Level::None
             => s.outputs.cancel_pulses == (s.after.level == Level::A || s.after.level == Level::Test)
                 && s.outputs.path_brake == (s.after.level == Level::D && s.after.phase == Phase::Braking)
@@ -317,7 +323,8 @@ contract! {
                 && s.outputs.sga_stop_e == (s.after.level == Level::E);
 
     /// Setpoint 0 while STOP B or C brakes; the braking ramp is watched in STOP B and as long as STOP C lasts.
-    current_limit_braking_and_its_ramp ["S840D-STOP-020", "S840D-STOP-030", "S840D-EXT-010"]:
+    current_limit_braking_and_its_ramp ["S840D-STOP-020", "S840D-STOP-030", "S840D-EXT-010", "S840D-EXT-011",
+        "S840D-SBR-005"]:
         when |s| s.outputs.n_set_zero || s.outputs.sbr_on || s.after.level == Level::B || s.after.level == Level::C
             => s.outputs.sbr_on == matches!(s.after.level, Level::B | Level::C)
                 && s.outputs.n_set_zero == (s.outputs.sbr_on && s.after.phase != Phase::SbhInt);
@@ -331,7 +338,7 @@ contract! {
             );
 
     /// The operating stop is required, and the braking said to be over, exactly in their phases.
-    phases_are_shown ["S840D-STOP-080", "S840D-STOP-086"]:
+    phases_are_shown ["S840D-STOP-080", "S840D-STOP-086", "S840D-EXT-018"]:
         when |s| s.after.level.ends_in_standstill()
             => s.outputs.sbh_internal == (s.after.phase == Phase::SbhInt)
                 && s.outputs.ended == (s.after.phase == Phase::SbhInt)
@@ -345,7 +352,7 @@ contract! {
                 || s.outputs.sga_stop_d || s.outputs.sga_stop_e) && s.outputs.stopsi == -1 && s.outputs.ended;
 
     /// The restart is prevented exactly while an internal stop is latched.
-    restart_is_prevented ["S840D-P-42", "S840D-P-43", "S840D-STOP-083"]:
+    restart_is_prevented ["S840D-P-42", "S840D-P-43", "S840D-STOP-083", "S840D-EXT-008", "S840D-STOP-032", "S840D-STOP-041", "S840D-STOP-052"]:
         when |s| s.after.internal != InternalStop::None || !s.outputs.start_inhibit
             => s.outputs.start_inhibit == (s.after.internal != InternalStop::None);
 
@@ -481,8 +488,7 @@ fn outputs(state: State) -> Outputs {
         sga_stop_c: level == Level::C,
         sga_stop_d: level == Level::D,
         sga_stop_e: level == Level::E,
-        // In force until the stop ends, also in the operating stop (A-16 SBR_UNTIL_END).
-        sbr_on: b_braking || level == Level::C,
+        sbr_on: state.sbr_on(),
         ended: !braking,
         start_inhibit: state.internal != InternalStop::None,
         stopsi: match level {

@@ -119,6 +119,7 @@ pub(crate) enum Evidence<'a, K> {
 pub(crate) struct Decision<'a, K> {
     pub(crate) verdict: Verdict,
     pub(crate) bound: Option<u64>,
+    pub(crate) fastest: Option<u64>,
     pub(crate) evidence: Evidence<'a, K>,
 }
 
@@ -127,6 +128,7 @@ impl<K> From<Verdict> for Decision<'_, K> {
         Decision {
             verdict,
             bound: None,
+            fastest: None,
             evidence: Evidence::None,
         }
     }
@@ -215,6 +217,7 @@ impl<K: Key> Finish<'_, K> {
                 verdict: decision.verdict,
                 length: None,
                 bound: decision.bound,
+                fastest: decision.fastest,
                 trace: None,
             };
             let mut tail = None;
@@ -404,6 +407,7 @@ fn decide<'a, K: Key>(
         let decision = |verdict, evidence| Decision {
             verdict,
             bound: None,
+            fastest: None,
             evidence,
         };
         decisions.push(match form {
@@ -443,6 +447,7 @@ fn decide<'a, K: Key>(
                 let response = Response {
                     goal: *goal,
                     assuming: *assuming,
+                    met: signs.met,
                 };
                 match within {
                     Some(within) => bounded(model, form, response, *within, pending, witness, held),

@@ -8,8 +8,19 @@ use crate::search::Model;
 use crate::store::PIECE;
 use std::ops::ControlFlow;
 
-/// Says whether a cycle to the given state is an edge, and its label.
-pub(crate) type Rule<'a, K> = dyn Fn(&mut dyn Process, &mut Odometer, K) -> Option<u32> + Sync + 'a;
+/// Says what a cycle to the given state is.
+pub(crate) type Rule<'a, K> = dyn Fn(&mut dyn Process, &mut Odometer, K) -> Mark + Sync + 'a;
+
+/// What a cycle is to a graph.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Mark {
+    /// An edge with this label.
+    Edge(u32),
+    /// No edge, but a way out of the graph.
+    Exit,
+    /// Nothing.
+    Outside,
+}
 
 /// An edge; there is one for each pair (target, label) that some choice vector makes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -27,6 +38,8 @@ pub(crate) struct Graph<K> {
     first: Vec<usize>,
     edges: Vec<Edge>,
     pub(crate) seeds: u32,
+    /// The first node with a way out; no other one is nearer to the seeds.
+    exit: Option<u32>,
 }
 
 /// Edges found from the nodes of one piece.
@@ -34,6 +47,8 @@ struct Piece<K> {
     number: usize,
     degrees: Vec<usize>,
     ends: Vec<(K, u32)>,
+    /// The first node with a way out.
+    exit: Option<usize>,
 }
 
 impl<K: Key> Graph<K> {
@@ -50,6 +65,7 @@ impl<K: Key> Graph<K> {
             first: vec![0],
             edges: Vec::new(),
             seeds: 0,
+            exit: None,
         };
         for key in seeds {
             graph.node(*key)?;
@@ -72,13 +88,18 @@ impl<K: Key> Graph<K> {
                         number,
                         degrees: Vec::new(),
                         ends: Vec::new(),
+                        exit: None,
                     };
-                    for key in &block[number * PIECE..block.len().min((number + 1) * PIECE)] {
+                    let (first, last) = (number * PIECE, block.len().min((number + 1) * PIECE));
+                    for (node, key) in (first..).zip(&block[first..last]) {
                         let begin = piece.ends.len();
                         cursor.leaves(&model.packer, *key, |process, odometer, leaf| {
                             if let Leaf::To(after) = leaf {
-                                let label = rule(&mut **process, odometer, after);
-                                piece.ends.extend(label.map(|label| (after, label)));
+                                match rule(&mut **process, odometer, after) {
+                                    Mark::Edge(label) => piece.ends.push((after, label)),
+                                    Mark::Exit => piece.exit = piece.exit.or(Some(done + node)),
+                                    Mark::Outside => (),
+                                }
                             }
                             ControlFlow::Continue(())
                         });
@@ -103,6 +124,8 @@ impl<K: Key> Graph<K> {
                 .collect();
             pieces.sort_unstable_by_key(|piece| piece.number);
             for piece in pieces {
+                let exit = piece.exit.and_then(|node| u32::try_from(node).ok());
+                graph.exit = graph.exit.or(exit);
                 for (key, label) in piece.ends {
                     let to = graph.node(key)?;
                     graph.edges.push(Edge { to, label });
@@ -172,6 +195,23 @@ impl<K: Key> Graph<K> {
 
     pub(crate) fn edges(&self, node: u32) -> &[Edge] {
         &self.edges[self.first[node as usize]..self.first[node as usize + 1]]
+    }
+
+    /// The least number of edges from a seed to a node with a way out.
+    pub(crate) fn nearest_exit(&self) -> Option<u64> {
+        let exit = self.exit?;
+        let (mut near, mut distance) = (self.seeds, 0);
+        let mut from = 0;
+        // Nodes have the order of a breadth-first search: those of one distance stand together.
+        while exit >= near {
+            let next = (from..near)
+                .flat_map(|node| self.edges(node))
+                .map(|edge| edge.to + 1)
+                .max()
+                .unwrap_or(near);
+            (from, near, distance) = (near, next.max(near + 1), distance + 1);
+        }
+        Some(distance)
     }
 
     /// The strongly connected components of the edges that `keep` accepts (Tarjan, without recursion).

@@ -3,7 +3,7 @@
 use crate::choices::Odometer;
 use crate::cursor::{Cursor, Leaf};
 use crate::explore::{Decision, Evidence, Tail, sign_test};
-use crate::graph::{Components, Edge, Graph};
+use crate::graph::{Components, Edge, Graph, Mark};
 use crate::hashed::Sharded;
 use crate::pack::Key;
 use crate::process::{Any, Process};
@@ -39,13 +39,13 @@ pub(crate) fn fair<'a, K: Key>(
     witness: Evidence<'a, K>,
     held: u64,
 ) -> Decision<'a, K> {
-    let Response { goal, assuming } = response;
+    let Response { goal, assuming, .. } = response;
     let label = move |process: &mut dyn Process, choices: &mut Odometer, _: K| {
         let mut eval = model.eval(process, choices);
         if eval.atom(goal) || !eval.given(assuming) {
-            return None;
+            return Mark::Outside;
         }
-        Some(fair.iter().enumerate().fold(0, |mask, (bit, atom)| {
+        Mark::Edge(fair.iter().enumerate().fold(0, |mask, (bit, atom)| {
             mask | u32::from(eval.atom(*atom)) << bit
         }))
     };
@@ -58,6 +58,7 @@ pub(crate) fn fair<'a, K: Key>(
         return Decision {
             verdict: Verdict::Holds,
             bound: None,
+            fastest: None,
             evidence: witness,
         };
     }
@@ -81,7 +82,7 @@ pub(crate) fn fair<'a, K: Key>(
                 shared.graph.key(from),
                 |process, choices, leaf| {
                     leaf == Leaf::To(target)
-                        && label(&mut **process, choices, target) == Some(edge.label)
+                        && label(&mut **process, choices, target) == Mark::Edge(edge.label)
                 },
             )?;
             steps.push(choices);
@@ -96,6 +97,7 @@ pub(crate) fn fair<'a, K: Key>(
     Decision {
         verdict: Verdict::Violated,
         bound: None,
+        fastest: None,
         evidence: Evidence::Run(request, Some(tail)),
     }
 }
@@ -230,7 +232,7 @@ pub(crate) fn recoverable<'a, K: Key>(
     for goals in goals.chunks(TOGETHER) {
         let label = |process: &mut dyn Process, choices: &mut Odometer, _: K| {
             let mut eval = model.eval(process, choices);
-            Some(
+            Mark::Edge(
                 goals
                     .iter()
                     .enumerate()
@@ -279,6 +281,7 @@ pub(crate) fn recovery<'a, K: Key>(
         Some(None) => Decision {
             verdict: Verdict::Holds,
             bound: None,
+            fastest: None,
             evidence: witness,
         },
         Some(Some(lost)) => {
@@ -291,6 +294,7 @@ pub(crate) fn recovery<'a, K: Key>(
             Decision {
                 verdict: Verdict::Violated,
                 bound: None,
+                fastest: None,
                 evidence: Evidence::Run(request, None),
             }
         }

@@ -90,6 +90,8 @@ pub(crate) struct Sign {
     pub(crate) bad: bool,
     /// The cycle leaves a duty pending in the state after it.
     pub(crate) pending: bool,
+    /// The cycle starts a response and ends it at once.
+    pub(crate) met: bool,
 }
 
 /// Evaluates atoms; faults go to a handler and count as FALSE.
@@ -128,7 +130,8 @@ impl<P: Process + ?Sized, F: FnMut(Fault)> Eval<'_, P, F> {
             }
             Form::LeadsTo { when, goal, .. } => {
                 sign.first = self.atom(*when);
-                sign.pending = sign.first && !self.atom(*goal);
+                sign.met = sign.first && self.atom(*goal);
+                sign.pending = sign.first && !sign.met;
             }
             Form::Unless {
                 when,
@@ -156,9 +159,9 @@ impl<P: Process + ?Sized, F: FnMut(Fault)> Eval<'_, P, F> {
         let ended = self.atom(unless);
         let held = !ended && self.atom(holds);
         Sign {
-            first: false,
             bad: !ended && !held,
             pending: held,
+            ..Sign::default()
         }
     }
 }

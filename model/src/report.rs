@@ -132,6 +132,9 @@ pub struct Judgement {
     pub length: Option<u64>,
     /// For a response with a bound: the least bound that holds; none if no bound does (or it is not known).
     pub bound: Option<u64>,
+    /// For a response with a bound: the least number of cycles from one with `when` to the first with the goal, over all
+    /// runs; 0 if one cycle can be both. None if no run gets from the one to the other (or it is not known).
+    pub fastest: Option<u64>,
     /// The counterexample or witness. It may be missing where memory did not suffice to rebuild it, or where it has
     /// more than a million cycles.
     pub trace: Option<Trace>,

@@ -4,7 +4,7 @@ use crate::crew::{Crew, Watch};
 use crate::cursor::{Cursor, Leaf};
 use crate::duty::Duty;
 use crate::explore::{Decision, Evidence, Job, Stage, Tail, on_store, seen, sign_test};
-use crate::graph::Graph;
+use crate::graph::{Graph, Mark};
 use crate::hashed::Sharded;
 use crate::pack::Key;
 use crate::process::{Any, Process};
@@ -23,10 +23,13 @@ const LONGEST: u32 = 1 << 20;
 pub(crate) struct Response {
     pub(crate) goal: usize,
     pub(crate) assuming: Option<usize>,
+    /// Whether some cycle starts the response and ends it at once.
+    pub(crate) met: bool,
 }
 
 /// Judges `goal` in one of the cycles k ..= k + within. The states after cycles with `when` and without `goal` are the
-/// seeds of a graph of the cycles without `goal`: the longest path from a seed tells the least bound that holds.
+/// seeds of a graph of the cycles without `goal`: the longest path from a seed tells the least bound that holds, the
+/// shortest one to a state that a cycle with `goal` leaves, the fastest reaction.
 pub(crate) fn bounded<'a, K: Key>(
     model: &'a Model<'a, Any<'a>, K>,
     form: &'a Form,
@@ -36,10 +39,18 @@ pub(crate) fn bounded<'a, K: Key>(
     witness: Evidence<'a, K>,
     held: u64,
 ) -> Decision<'a, K> {
-    let Response { goal, assuming } = response;
+    let Response {
+        goal,
+        assuming,
+        met,
+    } = response;
     let edge = move |process: &mut dyn Process, choices: &mut crate::choices::Odometer, _: K| {
         let mut eval = model.eval(process, choices);
-        (!eval.atom(goal) && eval.given(assuming)).then_some(0)
+        match (eval.atom(goal), eval.given(assuming)) {
+            (false, true) => Mark::Edge(0),
+            (true, true) => Mark::Exit,
+            (_, false) => Mark::Outside,
+        }
     };
     let Some(graph) = Graph::build(model, &pending.sorted(), &edge, held) else {
         return Verdict::Inconclusive.into();
@@ -49,10 +60,15 @@ pub(crate) fn bounded<'a, K: Key>(
     let bound = (0..graph.seeds)
         .map(|seed| heights[seed as usize].map(|h| u64::from(h) + 1))
         .try_fold(0, |most, one| one.map(|one| most.max(one)));
+    let fastest = match met {
+        true => Some(0),
+        false => graph.nearest_exit().map(|edges| edges + 1),
+    };
     if bound.is_some_and(|bound| bound <= u64::from(within)) {
         return Decision {
             verdict: Verdict::Holds,
             bound,
+            fastest,
             evidence: witness,
         };
     }
@@ -77,7 +93,7 @@ pub(crate) fn bounded<'a, K: Key>(
             let wanted = Leaf::To(graph.key(to));
             let (choices, _) =
                 cursor.first(&model.packer, graph.key(node), |process, choices, leaf| {
-                    leaf == wanted && edge(&mut **process, choices, graph.key(to)).is_some()
+                    leaf == wanted && edge(&mut **process, choices, graph.key(to)) == Mark::Edge(0)
                 })?;
             steps.push(choices);
             node = to;
@@ -92,6 +108,7 @@ pub(crate) fn bounded<'a, K: Key>(
     Decision {
         verdict: Verdict::Violated,
         bound,
+        fastest,
         evidence: Evidence::Run(request, Some(tail)),
     }
 }
@@ -115,7 +132,10 @@ pub(crate) fn until<'a, K: Key>(
             if sign.bad {
                 violated.store(true, Ordering::Relaxed);
             }
-            sign.pending.then_some(0)
+            match sign.pending {
+                true => Mark::Edge(0),
+                false => Mark::Outside,
+            }
         };
         if Graph::build(model, &pending.sorted(), &rule, held).is_none()
             && !violated.load(Ordering::Relaxed)
@@ -127,6 +147,7 @@ pub(crate) fn until<'a, K: Key>(
         return Ok(Decision {
             verdict: Verdict::Holds,
             bound: None,
+            fastest: None,
             evidence: witness,
         });
     }
@@ -139,6 +160,7 @@ pub(crate) fn until<'a, K: Key>(
     Ok(Decision {
         verdict: Verdict::Violated,
         bound: None,
+        fastest: None,
         evidence,
     })
 }

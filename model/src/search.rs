@@ -61,6 +61,8 @@ impl<'a, O: Origin, K: Key> Model<'a, O, K> {
 pub(crate) struct Signs<K> {
     pub(crate) first: Option<(u32, K)>,
     pub(crate) bad: Option<(u32, K)>,
+    /// Whether some cycle started a response and ended it at once.
+    pub(crate) met: bool,
 }
 
 /// What a search found.
@@ -92,6 +94,7 @@ struct Worker<P, K, L> {
     explored: u64,
     first: Vec<Option<K>>,
     bad: Vec<Option<K>>,
+    met: Vec<bool>,
     pending: Vec<Batch<K>>,
     faults: BTreeMap<u32, K>,
     coverage: Vec<u64>,
@@ -124,6 +127,7 @@ pub(crate) fn search<O: Origin, T: Store>(
             explored: 0,
             first: vec![None; properties.len()],
             bad: vec![None; properties.len()],
+            met: vec![false; properties.len()],
             pending: properties.iter().map(|_| Batch::new()).collect(),
             faults: BTreeMap::new(),
             coverage: vec![0; origin.rules()],
@@ -139,7 +143,8 @@ pub(crate) fn search<O: Origin, T: Store>(
         signs: vec![
             Signs {
                 first: None,
-                bad: None
+                bad: None,
+                met: false,
             };
             properties.len()
         ],
@@ -254,6 +259,7 @@ impl<O: Origin, T: Store> Level<'_, O, T> {
             local,
             first,
             bad,
+            met,
             pending,
             faults,
             coverage,
@@ -280,6 +286,7 @@ impl<O: Origin, T: Store> Level<'_, O, T> {
                         if sign.bad {
                             lower(&mut bad[property], key);
                         }
+                        met[property] |= sign.met;
                         if sign.pending {
                             self.pending[property].insert(&mut pending[property], after, |_| ());
                         }
@@ -338,6 +345,7 @@ fn gather<P, K: Key, L>(found: &mut Found<K>, worker: &mut Worker<P, K, L>, exam
         if let Some(key) = worker.bad[property].take() {
             lower(&mut signs.bad, (depth, key));
         }
+        signs.met |= worker.met[property];
         found.pending[property].flush(&mut worker.pending[property], |_| ());
     }
     for (code, key) in std::mem::take(&mut worker.faults) {

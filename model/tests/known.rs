@@ -156,6 +156,7 @@ fn a_join_of_a_short_and_a_long_way_has_the_long_bound() {
         (holds.verdict, holds.bound, holds.length),
         (Verdict::Holds, Some(3), Some(1))
     );
+    assert_eq!(holds.fastest, Some(2));
     let short = judge(&system, within(2));
     assert_eq!(
         (short.verdict, short.bound, short.length),
@@ -169,6 +170,7 @@ fn a_goal_in_the_cycle_of_the_condition_counts() {
     let system = Table::graph(&[&[(0, &[WHEN, GOAL])]], 4);
     let bounded = judge(&system, within(0));
     assert_eq!((bounded.verdict, bounded.bound), (Verdict::Holds, Some(0)));
+    assert_eq!(bounded.fastest, Some(0));
     assert_eq!(judge(&system, response(&[], None)).verdict, Verdict::Holds);
 }
 
@@ -186,6 +188,35 @@ fn a_condition_repeated_under_a_pending_duty_does_not_postpone_it() {
     );
     assert_eq!(judge(&system, within(3)).bound, Some(3));
     assert_eq!(judge(&system, within(2)).verdict, Verdict::Violated);
+}
+
+#[test]
+fn the_fastest_reaction_is_known_where_no_bound_holds() {
+    // 0 -when-> 1; 1 waits forever, or goes 1 -> 2 -goal-> 0.
+    let waits = Table::graph(
+        &[&[(1, &[WHEN])], &[(1, &[]), (2, &[])], &[(0, &[GOAL])]],
+        4,
+    );
+    let judged = judge(&waits, within(9));
+    assert_eq!(
+        (judged.verdict, judged.bound, judged.fastest),
+        (Verdict::Violated, None, Some(2))
+    );
+    // A goal that no run reaches.
+    let never = Table::graph(&[&[(1, &[WHEN])], &[(1, &[])]], 4);
+    assert_eq!(judge(&never, within(9)).fastest, None);
+    // The fastest and the slowest reaction start in different places.
+    let two = Table::graph(
+        &[
+            &[(1, &[WHEN]), (3, &[WHEN])],
+            &[(2, &[])],
+            &[(0, &[GOAL])],
+            &[(0, &[GOAL])],
+        ],
+        4,
+    );
+    let judged = judge(&two, within(2));
+    assert_eq!((judged.bound, judged.fastest), (Some(2), Some(1)));
 }
 
 #[test]

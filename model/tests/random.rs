@@ -218,6 +218,7 @@ fn compare(seed: u64, padded: usize, storage: Storage) -> Report {
         let place = format!("seed {seed} {:?}", property.form);
         assert_eq!(judgement.verdict, answer.verdict, "{place}");
         assert_eq!(judgement.bound, answer.bound, "{place}");
+        assert_eq!(judgement.fastest, answer.fastest, "{place}");
         if answer.length.is_some() {
             assert_eq!(judgement.length, answer.length, "{place}");
         }
@@ -232,14 +233,22 @@ fn compare(seed: u64, padded: usize, storage: Storage) -> Report {
 #[test]
 fn verdicts_agree_with_the_naive_implementation() {
     let mut seen = std::collections::BTreeMap::new();
+    let mut fastest = [0; 4];
     for seed in 0..SYSTEMS {
         let report = compare(seed, 0, Storage::Bitmap);
         for (number, judgement) in report.properties.iter().enumerate() {
             *seen
                 .entry((number, format!("{:?}", judgement.verdict)))
                 .or_insert(0) += 1;
+            if let Some(cycles) = judgement.fastest {
+                fastest[cycles.min(3) as usize] += 1;
+            }
         }
     }
+    assert!(
+        fastest.iter().all(|count| *count >= 20),
+        "fastest reactions of 0, 1, 2 and more cycles: {fastest:?}"
+    );
     // The sample is worth something: every form met each of its verdicts often.
     for number in 0..14 {
         let verdicts: &[&str] = match number {

@@ -3,8 +3,16 @@
 //! A function returns `None` when the choices are outside the domain. States are chosen before inputs, so that an
 //! enumeration leaves an impossible state at once.
 
+mod checking;
+mod composing;
+mod watching;
+
+pub use checking::*;
+pub use composing::*;
+pub use watching::*;
+
 use stillpoint_monitors::kernel::{Cycles, ExternalStop, InternalStop, Level};
-use stillpoint_monitors::{agreement, external, fault, gear, reference, selection, stop};
+use stillpoint_monitors::{agreement, external, fault, gear, group, reference, selection, stop};
 
 use crate::source::Source;
 
@@ -144,10 +152,25 @@ pub fn selection_config<S: Source>(source: &mut S) -> Option<(selection::Config,
         source.any_speed(),
         source.any_speed(),
     ];
-    Some((
-        selection::Config::new(source.any_bool(), t_vel, limits).ok()?,
-        t_vel,
-    ))
+    let mut config = selection::Config::new(source.any_bool(), t_vel, limits).ok()?;
+    if source.any_bool() {
+        // Two factors are enough: what is chosen at index 0 and what elsewhere.
+        let (first, others) = (any_factor(source), any_factor(source));
+        let mut factors = [others; 16];
+        factors[0] = first;
+        config = config.with_override(factors).ok()?;
+    }
+    Some((config, t_vel))
+}
+
+/// Any override factor, 1 to 100 percent; the enumeration takes the ends.
+fn any_factor<S: Source>(source: &mut S) -> u8 {
+    100 - source.any_u32(0, 99) as u8
+}
+
+/// Any index of an override factor; the enumeration takes the ends.
+pub fn factor_index<S: Source>(source: &mut S) -> selection::FactorIndex {
+    selection::FactorIndex::new(source.any_u32(0, 15) as u8).unwrap_or_default()
 }
 
 /// Any inputs of the selection.
@@ -157,17 +180,22 @@ pub fn selection_inputs<S: Source>(source: &mut S) -> selection::Inputs {
         sge_sbh_sg: source.any_bool(),
         sge_sbh: source.any_bool(),
         sg_select: source.any_of(&selection::Stage::ALL),
+        over: factor_index(source),
         sbh_internal: source.any_bool(),
         position: source.any_position(),
     }
 }
 
-/// Any step of the selection.
-pub fn selection<S: Source>(
+/// A factor that is in force wherever one can be.
+const OTHER_FACTOR: selection::FactorIndex =
+    selection::FactorIndex::from_bits(true, true, true, true);
+
+/// Any consistent state of the selection.
+pub fn selection_state<S: Source>(
     source: &mut S,
-) -> Option<(selection::State, selection::Config, selection::Inputs)> {
+    config: &selection::Config,
+) -> Option<selection::State> {
     use selection::{Mode, Stage, State};
-    let (config, t_vel) = selection_config(source)?;
     let mode = source.any_of(&[
         Mode::Nsb,
         Mode::Sg,
@@ -182,19 +210,33 @@ pub fn selection<S: Source>(
     };
     if matches!(mode, Mode::Sg | Mode::SgDown | Mode::SbhPend) {
         state.stage = source.any_of(&Stage::ALL);
+        // Only a factor in force is a state: choosing it freely would mostly leave the invariant.
+        if config.choice(state.stage, OTHER_FACTOR).factor == OTHER_FACTOR {
+            state.factor = factor_index(source);
+        }
     }
     if matches!(mode, Mode::SgDown | Mode::SbhPend) {
-        state.timer = source.any_cycles(t_vel);
+        state.timer = source.any_cycles(config.t_vel());
     }
     if mode == Mode::SgDown {
         state.target = source.any_of(&Stage::ALL);
+        if config.choice(state.target, OTHER_FACTOR).factor == OTHER_FACTOR {
+            state.target_factor = factor_index(source);
+        }
     }
     if matches!(mode, Mode::Sbh | Mode::SbhForced) {
         state.reference = source.any_position();
     }
-    state
-        .invariant(&config)
-        .then(|| (state, config, selection_inputs(source)))
+    state.invariant(config).then_some(state)
+}
+
+/// Any step of the selection.
+pub fn selection<S: Source>(
+    source: &mut S,
+) -> Option<(selection::State, selection::Config, selection::Inputs)> {
+    let (config, _) = selection_config(source)?;
+    let state = selection_state(source, &config)?;
+    Some((state, config, selection_inputs(source)))
 }
 
 /// Any step of the referencing.
@@ -274,4 +316,16 @@ pub fn gear<S: Source>(source: &mut S) -> Option<(gear::State, gear::Config, gea
 /// Any gear index.
 pub fn gear_index<S: Source>(source: &mut S) -> gear::GearIndex {
     gear::GearIndex::from_bits(source.any_bool(), source.any_bool(), source.any_bool())
+}
+
+/// Any question about the effect on another axis, also with a level below the latch, which no channel shows.
+pub fn group<S: Source>(source: &mut S) -> Option<(group::State, group::Config, group::Inputs)> {
+    let reach = source.any_of(&[group::Reach::Channel, group::Reach::Interpolating]);
+    let inputs = group::Inputs {
+        level: source.any_of(&Level::ALL),
+        internal: source.any_of(&InternalStop::ALL),
+        interpolates: source.any_bool(),
+        esr: source.any_bool(),
+    };
+    Some((group::State::INITIAL, group::Config::new(reach), inputs))
 }

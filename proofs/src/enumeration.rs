@@ -102,6 +102,28 @@ impl Source for Odometer {
         Speed(self.choose(self.domain.highest_speed))
     }
 
+    fn any_i32(&mut self, reach: u32) -> i32 {
+        let reach = reach.min(i32::MAX as u32 / 2);
+        match self.choose(2 * reach + 2) {
+            0 => i32::MIN,
+            1 => i32::MAX,
+            // 2 to 2 * reach + 2.
+            digit => digit as i32 - 2 - reach as i32,
+        }
+    }
+
+    fn any_u32(&mut self, reach: u32, highest: u32) -> u32 {
+        if reach >= highest {
+            return self.choose(highest);
+        }
+        let digit = self.choose(reach + 1);
+        if digit > reach { highest } else { digit }
+    }
+
+    fn any_part(&mut self, parts: u32) -> u32 {
+        1 + self.choose(parts.saturating_sub(1))
+    }
+
     fn cover(&mut self, index: usize, met: bool) {
         if let Some(count) = self.covers.get_mut(index) {
             *count += u64::from(met);
@@ -182,6 +204,23 @@ mod tests {
             (4, 0, [1].as_slice())
         );
         assert!(count.proves());
+    }
+
+    #[test]
+    fn wide_numbers_are_the_near_ones_and_the_ends() {
+        let (mut signed, mut unsigned) = (Vec::new(), Vec::new());
+        enumerate(SMALL, 0, |source| {
+            signed.push(source.any_i32(1));
+            Verdict::Held
+        });
+        assert_eq!(signed, [i32::MIN, i32::MAX, -1, 0, 1]);
+        for (reach, highest) in [(1, 9), (3, 2)] {
+            enumerate(SMALL, 0, |source| {
+                unsigned.push(source.any_u32(reach, highest));
+                Verdict::Held
+            });
+        }
+        assert_eq!(unsigned, [0, 1, 9, 0, 1, 2]);
     }
 
     #[test]

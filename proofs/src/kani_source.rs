@@ -42,6 +42,14 @@ impl Source for Symbolic {
         Speed(kani::any())
     }
 
+    fn any_i32(&mut self, _: u32) -> i32 {
+        kani::any()
+    }
+
+    fn any_u32(&mut self, _: u32, highest: u32) -> u32 {
+        self.any_in(0, highest)
+    }
+
     fn cover(&mut self, index: usize, met: bool) {
         if met && index < 32 {
             self.covers |= 1 << index;

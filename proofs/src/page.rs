@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use crate::enumeration::Count;
-use crate::inventory::{Entry, INVENTORY};
+use crate::inventory::{self, Entry};
 use crate::properties::Subject;
 
 /// The command that writes the page.
@@ -11,8 +11,7 @@ pub const COMMAND: &str = "cargo run -p stillpoint-proofs --bin inventory";
 
 /// Runs every enumeration on the production monitors.
 pub fn results() -> Vec<(&'static Entry, Count)> {
-    INVENTORY
-        .iter()
+    inventory::all()
         .map(|entry| (entry, (entry.enumerate)(&Subject::PRODUCTION)))
         .collect()
 }

@@ -65,6 +65,15 @@ impl Source for Tape<'_> {
         Speed(self.wide(u32::MAX))
     }
 
+    fn any_i32(&mut self, _: u32) -> i32 {
+        // The same bits read as a signed number.
+        self.wide(u32::MAX) as i32
+    }
+
+    fn any_u32(&mut self, _: u32, highest: u32) -> u32 {
+        self.wide(highest)
+    }
+
     fn cover(&mut self, index: usize, met: bool) {
         if let Some(count) = self.covers.get_mut(index) {
             *count += u64::from(met);

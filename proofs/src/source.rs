@@ -33,6 +33,18 @@ pub trait Source {
     /// Any speed; the enumeration takes 0 to the highest of its domain.
     fn any_speed(&mut self) -> Speed;
 
+    /// Any number; the enumeration takes those from -`reach` to `reach` and the two ends of the range.
+    fn any_i32(&mut self, reach: u32) -> i32;
+
+    /// Any number of at most `highest`; the enumeration takes those up to `reach`, and `highest` itself.
+    fn any_u32(&mut self, reach: u32, highest: u32) -> u32;
+
+    /// Which part of a domain that is too large to enumerate as a whole: the enumeration takes the parts 1 to `parts`; the
+    /// other engines take 0, which is everything.
+    fn any_part(&mut self, _parts: u32) -> u32 {
+        0
+    }
+
     /// Notes whether the situation `index` of the harness's list of covers was met.
     fn cover(&mut self, index: usize, met: bool);
 

@@ -318,6 +318,24 @@ pub enum Form {
     },
 }
 
+/// In which table of a report a property stands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Topic {
+    /// What becomes of a single fault.
+    Fault,
+    /// How long a reaction takes.
+    Reaction,
+}
+
+/// What the report on a bounded response is to show, over parameters: recorded, so that a change fails the check.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Recorded {
+    /// The least bound that holds, in cycles.
+    pub exactly: Option<Node>,
+    /// The fastest reaction, in cycles.
+    pub fastest: Option<Node>,
+}
+
 /// A property of a system.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Property {
@@ -331,8 +349,12 @@ pub struct Property {
     pub note: String,
     /// Requirement ids.
     pub req: Vec<String>,
+    /// The table of the report in which it stands.
+    pub topic: Option<Topic>,
     /// Form.
     pub form: Form,
+    /// What its report is to show.
+    pub recorded: Recorded,
     /// The expressions as written, for reports: (key, text).
     pub written: Vec<(String, String)>,
 }

@@ -2,9 +2,10 @@
 
 use crate::assemble::Builder;
 use crate::diag::Diagnostic;
-use crate::ir::{Form, Node, Property, Space, Ty};
+use crate::ir::{Form, Node, Property, Recorded, Space, Topic, Ty};
 use crate::lang::ast::{Expr, Kind};
 use crate::schema::{self, Scalar, Text};
+use toml::Spanned;
 
 type One<T> = std::result::Result<T, Diagnostic>;
 
@@ -123,7 +124,7 @@ pub(crate) fn resolve(
         Form::LeadsTo {
             when: atom(b, when, index)?,
             goal: atom(b, goal, index)?,
-            within: within(b, def, index)?,
+            within: cycles(b, def.within.as_ref(), index)?,
             fair: def
                 .fair
                 .iter()
@@ -166,12 +167,37 @@ pub(crate) fn resolve(
             .error(b.file, def.id.span(), "`within` belongs to `leads_to`")
             .help("remove it"));
     }
+    let bounded = def.within.is_some();
+    let recorded = Recorded {
+        exactly: cycles(b, def.exactly.as_ref(), index)?,
+        fastest: cycles(b, def.fastest.as_ref(), index)?,
+    };
+    if recorded != Recorded::default() && !bounded {
+        return Err(b
+            .spec
+            .error(
+                b.file,
+                def.id.span(),
+                "`exactly` and `fastest` belong to a response with `within`",
+            )
+            .help("add `within`, the bound that must hold, or remove them"));
+    }
+    let topic = def
+        .topic
+        .as_ref()
+        .map(|t| topic(b, t, bounded))
+        .transpose()?;
     let mut written: Vec<(String, String)> = written
         .iter()
         .map(|(k, t)| ((*k).to_owned(), t.get_ref().clone()))
         .collect();
-    if let Some(w) = &def.within {
-        written.push(("within".to_owned(), scalar_text(w.get_ref())));
+    for (key, value) in [
+        ("within", &def.within),
+        ("exactly", &def.exactly),
+        ("fastest", &def.fastest),
+    ] {
+        let text = value.as_ref().map(|v| scalar_text(v.get_ref()));
+        written.extend(text.map(|text| (key.to_owned(), text)));
     }
     Ok(Property {
         id: def.id.get_ref().clone(),
@@ -179,7 +205,9 @@ pub(crate) fn resolve(
         text: def.text.clone(),
         note: def.note.clone(),
         req: def.req.clone(),
+        topic,
         form,
+        recorded,
         written,
     })
 }
@@ -192,11 +220,35 @@ fn scalar_text(s: &Scalar) -> String {
     }
 }
 
-fn within(b: &mut Builder, def: &schema::Property, index: Option<i64>) -> One<Option<Node>> {
-    let Some(value) = &def.within else {
+fn topic(b: &Builder, text: &Text, bounded: bool) -> One<Topic> {
+    match text.get_ref().as_str() {
+        "fault" => Ok(Topic::Fault),
+        "reaction" if bounded => Ok(Topic::Reaction),
+        "reaction" => Err(b
+            .spec
+            .error(
+                b.file,
+                text.span(),
+                "a reaction time needs a bounded response",
+            )
+            .help("use when + leads_to + within, or remove the topic")),
+        other => Err(b
+            .spec
+            .error(b.file, text.span(), format!("`{other}` is no topic"))
+            .help("write fault or reaction")),
+    }
+}
+
+/// A number of cycles over parameters.
+fn cycles(
+    b: &mut Builder,
+    value: Option<&Spanned<Scalar>>,
+    index: Option<i64>,
+) -> One<Option<Node>> {
+    let Some(value) = value else {
         return Ok(None);
     };
-    let text = toml::Spanned::new(value.span(), scalar_text(value.get_ref()));
+    let text = Spanned::new(value.span(), scalar_text(value.get_ref()));
     let e = b.spec.expr(b.file, &text)?;
     let mut scope = b.system_scope(&text, index);
     scope.tense = crate::scope::Tense::None;

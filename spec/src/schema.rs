@@ -176,12 +176,15 @@ pub(crate) struct Property {
     pub note: String,
     #[serde(default)]
     pub req: Vec<String>,
+    pub topic: Option<Text>,
     pub always: Option<Text>,
     pub never: Option<Text>,
     pub when: Option<Text>,
     pub then: Option<Text>,
     pub leads_to: Option<Text>,
     pub within: Option<Spanned<Scalar>>,
+    pub exactly: Option<Spanned<Scalar>>,
+    pub fastest: Option<Spanned<Scalar>>,
     #[serde(default)]
     pub fair: Vec<Text>,
     pub assuming: Option<Text>,

@@ -37,6 +37,7 @@ fn the_milling_machine_has_exact_values() {
     let machine = milling();
     assert_eq!(machine.name, "milling-840d");
     assert_eq!(machine.family, "sinumerik-840d");
+    // 3 * 4 ms (S840D-TIMING-501)
     assert_eq!(machine.monitoring_cycle, 12_000);
     let names: Vec<&str> = machine.axes.iter().map(|a| a.name.as_str()).collect();
     assert_eq!(names, ["X", "Y", "Z", "S"]);
@@ -194,6 +195,34 @@ fn coupling_follows_the_stop_group() {
         groups(&[axis("A", alone), axis("B", ""), axis("C", alone)]),
         [["A", "B", "C"]]
     );
+}
+
+/// Each function is selected for each axis alone, whatever the others have; nothing else, such as an operating mode, takes
+/// part in the selection: there is no key for it (S840D-ARCH-502).
+#[test]
+fn functions_are_selected_for_each_axis_alone() {
+    let load = |text: &str| {
+        let text = format!("family = \"sinumerik-840d\"\n{text}");
+        machine::load_bytes(Path::new("example.toml"), text.into_bytes(), spec())
+    };
+    for function in ["SE", "override", "external stops", "SN1+", "SN4-"] {
+        let text = format!(
+            "axis.X = {{ kind = \"linear\", functions = [\"SBH/SG\", \"{function}\"] }}\naxis.Y.kind = \"linear\"\n\
+             axis.Z = {{ kind = \"linear\", functions = [\"SBH/SG\"] }}\n"
+        );
+        let machine = load(&text).unwrap_or_else(|e| panic!("{e}"));
+        let of = |k: usize| machine.axes[k].functions.clone();
+        assert_eq!(of(0), ["SBH/SG", function]);
+        assert!(of(1).is_empty());
+        assert_eq!(of(2), ["SBH/SG"]);
+    }
+    for key in ["mode", "operating_mode", "OPERATING_MODE"] {
+        let text = format!(
+            "axis.X = {{ kind = \"linear\", functions = [\"SBH/SG\"], {key} = \"JOG\" }}\n"
+        );
+        let error = load(&text).expect_err("no such key").to_string();
+        assert!(error.contains("unknown key"), "{error}");
+    }
 }
 
 /// What the loader says about a file of the folder of bad input, the folder's name left out.

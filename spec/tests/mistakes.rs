@@ -393,6 +393,34 @@ fn wrong_systems() {
         ),
         (
             format!(
+                "{head}[system.s.free]\nports = [\"m.a\"]\n[[system.s.property]]\nid = \"P\"\ntext = \"p\"\ntopic = @\"speed\"\nalways = \"m.x = 1\"\n"
+            ),
+            "`speed` is no topic",
+            "fault or reaction",
+        ),
+        (
+            format!(
+                "{head}[system.s.free]\nports = [\"m.a\"]\n[[system.s.property]]\nid = \"P\"\ntext = \"p\"\ntopic = @\"reaction\"\nalways = \"m.x = 1\"\n"
+            ),
+            "a reaction time needs a bounded response",
+            "within",
+        ),
+        (
+            format!(
+                "{head}[system.s.free]\nports = [\"m.a\"]\n[[system.s.property]]\nid = @\"P\"\ntext = \"p\"\nwhen = \"m.x = 1\"\nleads_to = \"m.x = 0\"\nexactly = 3\n"
+            ),
+            "belong to a response with `within`",
+            "add `within`",
+        ),
+        (
+            format!(
+                "{head}[system.s.free]\nports = [\"m.a\"]\n[[system.s.property]]\nid = \"P\"\ntext = \"p\"\nwhen = \"m.x = 1\"\nleads_to = \"m.x = 0\"\nwithin = 3\nfastest = \"@0 - 1\"\n"
+            ),
+            "the bound can be -1..-1 cycles",
+            "0 or more",
+        ),
+        (
+            format!(
                 "{head}[system.s.free]\nports = [\"m.a\"]\n[[system.s.property]]\nid = \"P\"\ntext = \"p\"\nalways = \"@m.y = 1\"\n"
             ),
             "`m` has nothing named `y`",

@@ -2,17 +2,32 @@
 
 use std::collections::BTreeSet;
 
-use stillpoint::diff::random::Random;
 use stillpoint::diff::{Compared, Pairing, exhaustive, pairings, peer, sample, to_json};
 use stillpoint::subject::{self, Readings};
 use stillpoint_model::Options;
 use stillpoint_monitors::mutant::Mutant;
 use stillpoint_tests::root;
 
+/// Everything that has a monitor: with the parameters of the systems of `axis.toml`, else with those of the milling machine
+/// or its own default ones.
 fn all() -> Vec<Pairing> {
-    let path = root().join("spec/sinumerik-840d/axis.toml");
-    let subject = subject::load(&path, &Readings::new()).unwrap_or_else(|e| panic!("{e}"));
-    pairings(&subject).unwrap_or_else(|e| panic!("{e}"))
+    let mut all: Vec<Pairing> = Vec::new();
+    for file in [
+        "spec/sinumerik-840d/axis.toml",
+        "spec/machines/milling-840d.toml",
+    ] {
+        let subject =
+            subject::load(&root().join(file), &Readings::new()).unwrap_or_else(|e| panic!("{e}"));
+        let more = pairings(&subject).unwrap_or_else(|e| panic!("{e}"));
+        let known: BTreeSet<String> = all.iter().map(|p| p.machine.clone()).collect();
+        all.extend(more.into_iter().filter(|p| !known.contains(&p.machine)));
+    }
+    all
+}
+
+/// The machines alone: what is composed of several is compared by random runs only.
+fn alone() -> Vec<Pairing> {
+    all().into_iter().filter(|p| !p.composed).collect()
 }
 
 fn explore(pairing: &Pairing) -> Compared {
@@ -23,13 +38,24 @@ fn explore(pairing: &Pairing) -> Compared {
     exhaustive(pairing, None, &options, &mut ()).unwrap_or_else(|e| panic!("{e}"))
 }
 
+/// The machine that a mutant is one of: the first words of its name are its module.
+fn machine(mutant: Mutant) -> &'static str {
+    let names = peer::MACHINES.into_iter().chain(peer::SYSTEMS);
+    let prefix = |module: &str| format!("{}-", module.replace('_', "-"));
+    names
+        .filter(|(_, module)| mutant.name().starts_with(&prefix(module)))
+        .max_by_key(|(_, module)| module.len())
+        .map(|(machine, _)| machine)
+        .unwrap_or_else(|| panic!("{mutant:?} is one of no machine that is compared"))
+}
+
 #[test]
 fn no_reachable_pair_differs() {
-    let compared: Vec<Compared> = all().iter().map(explore).collect();
+    let compared: Vec<Compared> = alone().iter().map(explore).collect();
     let machines: BTreeSet<&str> = compared.iter().map(|c| c.machine.as_str()).collect();
     assert_eq!(
         machines,
-        peer::MACHINES.into_iter().collect(),
+        peer::MACHINES.into_iter().map(|(name, _)| name).collect(),
         "every machine that has a monitor"
     );
     for one in &compared {
@@ -44,7 +70,7 @@ fn no_reachable_pair_differs() {
             "{one:?}"
         );
     }
-    let json = to_json(&compared, None);
+    let json = to_json(&compared, None, &[]);
     assert_eq!(json["divergences"], 0);
     assert_eq!(json["complete"], true);
     assert!(
@@ -54,14 +80,26 @@ fn no_reachable_pair_differs() {
 }
 
 #[test]
+fn the_composed_channel_is_compared() {
+    let composed: BTreeSet<String> = all()
+        .into_iter()
+        .filter(|p| p.composed)
+        .map(|p| p.machine)
+        .collect();
+    let systems = peer::SYSTEMS.into_iter().map(|(name, _)| name.to_owned());
+    assert_eq!(composed, systems.collect());
+}
+
+#[test]
 fn every_wrong_monitor_is_found_by_exploration() {
     let pairings = all();
     assert!(Mutant::ALL.len() >= 17);
+    let mut survivors = Vec::new();
     for mutant in Mutant::ALL {
-        // The first word of a mutant's name is its machine; the search ends with the first difference.
+        let machine = machine(*mutant);
         let mut concerned = pairings
             .iter()
-            .filter(|p| mutant.name().starts_with(&format!("{}-", p.machine)));
+            .filter(|p| p.machine == machine && !p.composed);
         let options = Options {
             witnesses: false,
             stop_when_decided: true,
@@ -73,7 +111,8 @@ fn every_wrong_monitor_is_found_by_exploration() {
                 .divergence
         });
         let Some(diagram) = found else {
-            panic!("{mutant:?} survives")
+            survivors.push(*mutant);
+            continue;
         };
         let text = diagram.text();
         assert!(
@@ -81,51 +120,52 @@ fn every_wrong_monitor_is_found_by_exploration() {
             "{mutant:?}: no diagram with a mark\n{text}"
         );
     }
+    // Those of the composed channel, and those that need other parameters than the default ones: random runs have both.
+    for mutant in survivors {
+        assert!(differs(&pairings, mutant), "{mutant:?} survives");
+    }
 }
 
-/// Random runs over all machines, as the command makes them.
-fn random(pairings: &[Pairing], mutant: Option<Mutant>, cycles: u64, seed: u64) -> Vec<Compared> {
-    let mut random = Random::new(seed);
-    let share = cycles.div_ceil(pairings.len() as u64);
-    pairings
+/// Whether random runs of the machine of a mutant find it.
+fn differs(pairings: &[Pairing], mutant: Mutant) -> bool {
+    let machine = machine(mutant);
+    let concerned: Vec<Pairing> = pairings
         .iter()
-        .map(|p| sample(p, mutant, share, &mut random).unwrap_or_else(|e| panic!("{e}")))
-        .collect()
+        .filter(|p| p.machine == machine)
+        .cloned()
+        .collect();
+    let found = sample(&concerned, Some(mutant), 400_000, 3, 0).unwrap_or_else(|e| panic!("{e}"));
+    found.iter().any(|c| c.divergence.is_some())
 }
 
 #[test]
 fn random_runs_find_no_difference_and_repeat() {
     let pairings = all();
-    let once = random(&pairings, None, 200_000, 3);
+    let runs =
+        |threads| sample(&pairings, None, 3_000_000, 3, threads).unwrap_or_else(|e| panic!("{e}"));
+    let once = runs(1);
     for one in &once {
         assert!(
             one.divergence.is_none(),
-            "{}",
+            "{}: {:?}\n{}",
+            one.machine,
+            one.params,
             one.divergence.as_ref().expect("it").text()
         );
     }
     let cycles: u128 = once.iter().map(|c| c.cycles).sum();
-    assert!(cycles >= 200_000, "{cycles}");
-    let twice = random(&pairings, None, 200_000, 3);
-    assert_eq!(to_json(&once, Some(3)), to_json(&twice, Some(3)));
+    assert!(cycles >= 3_000_000, "{cycles}");
+    assert_eq!(
+        to_json(&once, Some(3), &[]),
+        to_json(&runs(3), Some(3), &[]),
+        "the number of threads does not matter"
+    );
 }
 
 #[test]
-fn random_runs_find_most_wrong_monitors_and_repeat() {
+fn random_runs_find_every_wrong_monitor() {
     let pairings = all();
-    let mut survivors = Vec::new();
     for mutant in Mutant::ALL {
-        let found = random(&pairings, Some(*mutant), 200_000, 3);
-        if found.iter().all(|c| c.divergence.is_none()) {
-            survivors.push(*mutant);
-        } else if survivors.len() < 2 {
-            let again = random(&pairings, Some(*mutant), 200_000, 3);
-            assert_eq!(
-                to_json(&found, Some(3)),
-                to_json(&again, Some(3)),
-                "{mutant:?}"
-            );
-        }
+        assert!(differs(&pairings, *mutant), "random runs miss {mutant:?}");
     }
-    assert!(survivors.len() <= 5, "random runs miss {survivors:?}");
 }

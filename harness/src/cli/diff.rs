@@ -4,8 +4,7 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use clap::Args;
-use stillpoint::diff::random::Random;
-use stillpoint::diff::{DiffError, exhaustive, pairings, sample, text, to_json};
+use stillpoint::diff::{Compared, DiffError, Pairing, exhaustive, pairings, sample, text, to_json};
 use stillpoint::subject::{self, Readings};
 use stillpoint_model::{Limits, Options};
 use stillpoint_monitors::mutant::Mutant;
@@ -58,42 +57,33 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
             subject.name
         )));
     }
-    let start = Instant::now();
-    let mut compared = Vec::new();
-    let mut random = Random::new(arguments.seed);
-    let share = arguments.random.map(|n| n.div_ceil(pairings.len() as u64));
-    for pairing in &pairings {
-        let result = match share {
-            Some(cycles) => sample(pairing, mutant, cycles, &mut random),
-            None => {
-                let limits = Limits {
-                    memory: arguments.limits.memory,
-                    time: arguments
-                        .limits
-                        .time
-                        .map(|t| t.saturating_sub(start.elapsed())),
-                    threads: arguments.limits.threads,
-                };
-                let options = Options {
-                    limits,
-                    ..Options::default()
-                };
-                exhaustive(pairing, mutant, &options, &mut Line::new(&pairing.machine))
-            }
-        };
-        compared.push(result.map_err(fail)?);
-    }
+    let (composed, alone): (Vec<Pairing>, Vec<Pairing>) =
+        pairings.iter().cloned().partition(|p| p.composed);
+    let mut left_out = Vec::new();
+    let compared = match arguments.random {
+        Some(cycles) => sample(
+            &pairings,
+            mutant,
+            cycles,
+            arguments.seed,
+            arguments.limits.threads,
+        )
+        .map_err(fail)?,
+        None => {
+            left_out = composed.iter().map(|p| p.machine.clone()).collect();
+            left_out.dedup();
+            explore(&alone, mutant, &arguments.limits).map_err(fail)?
+        }
+    };
     let what = match arguments.random {
         Some(_) => format!("random runs, seed {}: a test, not a proof", arguments.seed),
         None => "every reachable pair, every input of the interface".to_owned(),
     };
+    let seed = arguments.random.map(|_| arguments.seed);
     if arguments.json {
-        emit(&format!(
-            "{:#}\n",
-            to_json(&compared, arguments.random.map(|_| arguments.seed))
-        ));
+        emit(&format!("{:#}\n", to_json(&compared, seed, &left_out)));
     } else {
-        emit(&text(&compared, &what));
+        emit(&text(&compared, &what, &left_out));
     }
     Ok(if compared.iter().any(|c| c.divergence.is_some()) {
         1
@@ -102,4 +92,25 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     } else {
         3
     })
+}
+
+fn explore(
+    pairings: &[Pairing],
+    mutant: Option<Mutant>,
+    given: &LimitOptions,
+) -> Result<Vec<Compared>, DiffError> {
+    let start = Instant::now();
+    let one = |pairing: &Pairing| {
+        let limits = Limits {
+            memory: given.memory,
+            time: given.time.map(|t| t.saturating_sub(start.elapsed())),
+            threads: given.threads,
+        };
+        let options = Options {
+            limits,
+            ..Options::default()
+        };
+        exhaustive(pairing, mutant, &options, &mut Line::new(&pairing.machine))
+    };
+    pairings.iter().map(one).collect()
 }

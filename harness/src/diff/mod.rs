@@ -1,34 +1,23 @@
 //! `diff`: checks the production monitors against the tables, exhaustively or with random runs.
 
+pub mod bytes;
+pub mod pairing;
 pub mod peer;
 pub mod product;
 pub mod random;
 
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 
 use serde_json::{Value, json};
 use stillpoint_model::{Error, Form, Options, Progress, Property, Verdict, explore};
 use stillpoint_monitors::mutant::Mutant;
-use stillpoint_spec::Spec;
-use stillpoint_spec::bind::Bound;
 
 use crate::report::{grouped, params};
-use crate::subject::Subject;
 use crate::timing::Diagram;
+pub use pairing::{Pairing, pairings};
 use product::Product;
-use random::Random;
-
-/// A machine of the specification on its own under the parameters of one or more runs.
-#[derive(Debug, Clone)]
-pub struct Pairing {
-    /// Machine.
-    pub machine: String,
-    /// The axes these parameters stand for.
-    pub axes: Vec<String>,
-    /// The machine with every input free.
-    pub bound: Bound,
-}
+use random::{Driver, Random};
 
 /// The result for one pairing.
 #[derive(Debug)]
@@ -63,72 +52,6 @@ pub enum DiffError {
     /// The product cannot be explored.
     #[error("{0}: {1}")]
     Explore(String, Error),
-}
-
-/// Every machine with a monitor that the subject's runs use, once for each set of parameters.
-///
-/// # Errors
-/// A specification that does not load.
-pub fn pairings(subject: &Subject) -> Result<Vec<Pairing>, DiffError> {
-    let mut out: Vec<Pairing> = Vec::new();
-    let mut specs: BTreeMap<PathBuf, Spec> = BTreeMap::new();
-    for (k, task) in subject.tasks.iter().enumerate() {
-        let file = match &subject.machine {
-            Some(machine) => machine.runs[k].file.clone(),
-            None => subject.path.clone(),
-        };
-        if !specs.contains_key(&file) {
-            specs.insert(file.clone(), Spec::load(&file)?);
-        }
-        let spec = &specs[&file];
-        for name in peer::MACHINES {
-            if !task
-                .bound
-                .system
-                .instances
-                .iter()
-                .any(|i| i.machine == name)
-            {
-                continue;
-            }
-            let system = spec.open_machine(name)?;
-            let mut given: BTreeMap<String, Vec<i64>> = BTreeMap::new();
-            for param in system.params.iter().filter(|p| p.reading.is_none()) {
-                let same = task
-                    .bound
-                    .system
-                    .params
-                    .iter()
-                    .position(|p| p.var.name == param.var.name);
-                if let Some(k) = same {
-                    given.insert(
-                        param.var.name.clone(),
-                        vec![i64::from(task.bound.values[k])],
-                    );
-                }
-            }
-            let bound = Bound::new(system, &given, &BTreeMap::new())
-                .map_err(|e| DiffError::Sides(format!("{name}: {e}")))?;
-            let known = out
-                .iter_mut()
-                .find(|p| p.machine == name && p.bound.values == bound.values);
-            match known {
-                Some(pairing) => {
-                    for axis in &task.axes {
-                        if !pairing.axes.contains(axis) {
-                            pairing.axes.push(axis.clone());
-                        }
-                    }
-                }
-                None => out.push(Pairing {
-                    machine: name.to_owned(),
-                    axes: task.axes.clone(),
-                    bound,
-                }),
-            }
-        }
-    }
-    Ok(out)
 }
 
 fn monitor(pairing: &Pairing, mutant: Option<Mutant>) -> Result<Box<dyn peer::Peer>, DiffError> {
@@ -188,84 +111,133 @@ pub fn exhaustive(
     })
 }
 
-/// Random runs of `cycles` cycles in all, at full width: besides the parameters of the machine file also random ones.
+/// Runs of one batch: with one set of parameters.
+const BATCH: u64 = 16;
+
+/// Random runs of about `cycles` cycles in all, at full width: besides the parameters of the machine file also random ones.
+/// The pairings share the cycles; `threads` (0 for all processors) share the work. The result depends on the seed alone.
 ///
 /// # Errors
 /// Sides that do not fit each other.
 pub fn sample(
-    pairing: &Pairing,
+    pairings: &[Pairing],
     mutant: Option<Mutant>,
     cycles: u64,
-    random: &mut Random,
-) -> Result<Compared, DiffError> {
-    let mut out = Compared {
-        machine: pairing.machine.clone(),
-        axes: pairing.axes.clone(),
-        params: params(&pairing.bound),
-        pairs: 0,
-        cycles: 0,
-        outputs: 0,
-        complete: true,
-        divergence: None,
+    seed: u64,
+    threads: usize,
+) -> Result<Vec<Compared>, DiffError> {
+    let threads = match threads {
+        0 => std::thread::available_parallelism().map_or(1, usize::from),
+        given => given,
     };
-    let mut left = cycles;
-    while left > 0 && out.divergence.is_none() {
-        // Every second batch runs with other parameters.
-        let varied = if random.below(2) == 0 {
-            None
-        } else {
-            vary(pairing, random)
-        };
-        let pairing = varied.as_ref().unwrap_or(pairing);
-        let peer = monitor(pairing, mutant)?;
-        let product = Product::new(&pairing.bound, peer.as_ref()).map_err(DiffError::Sides)?;
-        for _ in 0..64 {
-            let length = left.min(random::RUN);
-            if length == 0 {
-                break;
+    let share = cycles.div_ceil(pairings.len().max(1) as u64);
+    let batches = share.div_ceil(BATCH * random::RUN);
+    let jobs: Vec<(usize, u64)> = (0..pairings.len())
+        .flat_map(|k| (0..batches).map(move |n| (k, n)))
+        .collect();
+    // The first batch of each pairing that found something: later ones need not run, and do not count.
+    let found: Vec<AtomicU64> = pairings.iter().map(|_| AtomicU64::new(u64::MAX)).collect();
+    let next = AtomicUsize::new(0);
+    let worker = || -> Result<Vec<Batch>, DiffError> {
+        let mut done = Vec::new();
+        while let Some(&(pairing, number)) = jobs.get(next.fetch_add(1, Ordering::Relaxed)) {
+            if found[pairing].load(Ordering::Relaxed) < number {
+                continue;
             }
-            let found = random::run(&product, pairing.bound.inputs.len(), random, length);
-            left -= length;
-            out.cycles += u128::from(length);
-            out.outputs += u128::from(length) * product.outputs() as u128;
-            if let Some(found) = found {
-                out.divergence = Some(product.diagram(&found.start, &found.cycles));
-                out.params = params(&pairing.bound);
-                break;
+            let left = share - number * BATCH * random::RUN;
+            let mut random = Random::fork(seed, pairing as u64, number);
+            let result = batch(&pairings[pairing], mutant, left, &mut random)?;
+            if result.divergence.is_some() {
+                found[pairing].fetch_min(number, Ordering::Relaxed);
             }
+            done.push((pairing, number, result));
+        }
+        Ok(done)
+    };
+    let mut results = std::thread::scope(|scope| {
+        let handles: Vec<_> = (0..threads).map(|_| scope.spawn(worker)).collect();
+        let mut all = Vec::new();
+        for handle in handles {
+            let done = handle
+                .join()
+                .map_err(|_| DiffError::Sides("a worker thread has failed".to_owned()))?;
+            all.extend(done?);
+        }
+        Ok::<_, DiffError>(all)
+    })?;
+    results.sort_by_key(|(pairing, number, _)| (*pairing, *number));
+    let mut out: Vec<Compared> = pairings.iter().map(Compared::nothing).collect();
+    for (pairing, number, result) in results {
+        if number <= found[pairing].load(Ordering::Relaxed) {
+            out[pairing].add(result);
         }
     }
     Ok(out)
 }
 
-/// The same machine with random parameters: small times so that they expire within a run, else any value of the range.
-fn vary(pairing: &Pairing, random: &mut Random) -> Option<Pairing> {
-    let system = &pairing.bound.system;
-    let mut given: BTreeMap<String, Vec<i64>> = BTreeMap::new();
-    for param in system.params.iter().filter(|p| p.reading.is_none()) {
-        let lo = pairing.bound.constant(&param.var.lo);
-        let hi = pairing.bound.constant(&param.var.hi);
-        let small = param.var.name.starts_with("t_") && random.below(8) > 0;
-        let hi = if small { hi.min(lo + 12) } else { hi };
-        let value = match random.below(4) {
-            0 => lo,
-            1 if !small => hi,
-            _ => lo + random.below((hi - lo + 1) as usize) as i64,
-        };
-        given.insert(param.var.name.clone(), vec![value]);
+/// A piece of the work: pairing, number, result.
+type Batch = (usize, u64, Compared);
+
+/// A batch of runs with one set of parameters, at most `left` cycles.
+fn batch(
+    pairing: &Pairing,
+    mutant: Option<Mutant>,
+    left: u64,
+    random: &mut Random,
+) -> Result<Compared, DiffError> {
+    // Three of four batches run with other parameters.
+    let varied = match random.below(4) {
+        0 => None,
+        _ => pairing::vary(pairing, random),
+    };
+    let pairing = varied.as_ref().unwrap_or(pairing);
+    let peer = monitor(pairing, mutant)?;
+    let product = Product::new(&pairing.bound, peer.as_ref()).map_err(DiffError::Sides)?;
+    let mut driver = Driver::new(&product);
+    let mut out = Compared::nothing(pairing);
+    for run in 0..BATCH {
+        let length = left.saturating_sub(run * random::RUN).min(random::RUN);
+        if length == 0 {
+            break;
+        }
+        let found = driver.run(random, length);
+        out.cycles += u128::from(length);
+        out.outputs += u128::from(length) * product.outputs() as u128;
+        if let Some(found) = found {
+            out.divergence = Some(product.diagram(&found.start, &found.cycles));
+            break;
+        }
     }
-    let bound = Bound::new(system.clone(), &given, &BTreeMap::new()).ok()?;
-    // What the monitor refuses at construction needs no comparison.
-    peer::peer(&pairing.machine, &bound, None).ok()?;
-    Some(Pairing {
-        machine: pairing.machine.clone(),
-        axes: pairing.axes.clone(),
-        bound,
-    })
+    Ok(out)
 }
 
-/// The report for readers.
-pub fn text(compared: &[Compared], what: &str) -> String {
+impl Compared {
+    fn nothing(pairing: &Pairing) -> Self {
+        Compared {
+            machine: pairing.machine.clone(),
+            axes: pairing.axes.clone(),
+            params: params(&pairing.bound),
+            pairs: 0,
+            cycles: 0,
+            outputs: 0,
+            complete: true,
+            divergence: None,
+        }
+    }
+
+    /// Adds a batch; where it found something, its parameters are the ones to tell.
+    fn add(&mut self, batch: Compared) {
+        self.cycles += batch.cycles;
+        self.outputs += batch.outputs;
+        if batch.divergence.is_some() {
+            self.params = batch.params;
+            self.divergence = batch.divergence;
+        }
+    }
+}
+
+/// The report for readers; `left_out` names what was not compared.
+pub fn text(compared: &[Compared], what: &str, left_out: &[String]) -> String {
     let mut out = String::new();
     let divergences = compared.iter().filter(|c| c.divergence.is_some()).count();
     let sum = |f: &dyn Fn(&Compared) -> u128| grouped(compared.iter().map(f).sum());
@@ -280,6 +252,12 @@ pub fn text(compared: &[Compared], what: &str) -> String {
         sum(&|c| c.cycles),
         sum(&|c| c.outputs),
     ));
+    if !left_out.is_empty() {
+        out.push_str(&format!(
+            "Not explored, several machines with too many inputs at once: {}; --random compares them.\n\n",
+            left_out.join(", ")
+        ));
+    }
     for c in compared {
         let params: Vec<String> = c.params.iter().map(|(n, v)| format!("{n} = {v}")).collect();
         let axes = if c.axes.is_empty() {
@@ -309,7 +287,7 @@ pub fn text(compared: &[Compared], what: &str) -> String {
 }
 
 /// The report as JSON.
-pub fn to_json(compared: &[Compared], seed: Option<u64>) -> Value {
+pub fn to_json(compared: &[Compared], seed: Option<u64>, left_out: &[String]) -> Value {
     let number = |n: u128| u64::try_from(n).unwrap_or(u64::MAX);
     json!({
         "pairs": compared.iter().map(|c| c.pairs).sum::<u64>(),
@@ -318,6 +296,7 @@ pub fn to_json(compared: &[Compared], seed: Option<u64>) -> Value {
         "divergences": compared.iter().filter(|c| c.divergence.is_some()).count(),
         "complete": compared.iter().all(|c| c.complete),
         "seed": seed,
+        "left_out": left_out,
         "machines": compared.iter().map(|c| json!({
             "machine": c.machine, "axes": c.axes,
             "parameters": c.params.iter().cloned().collect::<BTreeMap<_, _>>(),

@@ -51,6 +51,11 @@ impl Values {
     }
 }
 
+/// Whether a port of a table has this name: alone for a machine on its own, with its instance for a system.
+fn is(port: &str, name: &str) -> bool {
+    port == name || port.split_once('.').is_some_and(|(_, short)| short == name)
+}
+
 /// A table machine on its own, and its monitor.
 pub struct Product<'a> {
     bound: &'a Bound,
@@ -71,6 +76,8 @@ pub struct Work {
     frame: Frame,
     generated: Box<[i32]>,
     inputs: Vec<i32>,
+    /// Those that the monitor has, in its order.
+    fed: Vec<i32>,
     table: Numbers,
     monitor: Numbers,
 }
@@ -82,15 +89,20 @@ impl<'a> Product<'a> {
     /// A port or output that only one side has: a sentence.
     pub fn new(bound: &'a Bound, peer: &'a dyn Peer) -> Result<Self, String> {
         let system = &bound.system;
-        let short = |name: &str| {
-            name.split_once('.')
-                .map_or(name.to_owned(), |(_, n)| n.to_owned())
-        };
         let mut feeds = Vec::new();
         for name in peer.inputs() {
-            let found = system.inputs.iter().position(|i| short(&i.name) == *name);
+            let found = system.inputs.iter().position(|i| is(&i.name, name));
             feeds
                 .push(found.ok_or_else(|| format!("table {} has no input `{name}`", system.name))?);
+        }
+        let unknown = system.inputs.iter().enumerate().find(|(k, input)| {
+            !feeds.contains(k) && !peer.unused().iter().any(|name| is(&input.name, name))
+        });
+        if let Some((_, input)) = unknown {
+            return Err(format!(
+                "table {}: the monitor has no input `{}`",
+                system.name, input.name
+            ));
         }
         let mut values = Vec::new();
         for (k, (lo, hi)) in bound.inputs.iter().enumerate() {
@@ -99,22 +111,19 @@ impl<'a> Product<'a> {
                 // An input that the monitor does not have keeps its least value: its readings are not the recommended ones.
                 None => Values::Range(*lo, *lo),
                 Some(port) => match peer.allowed(port) {
-                    Some(list) => Values::List(list),
+                    Some(values) => values,
                     None => Values::Range(*lo, *hi),
                 },
             });
         }
         let mut compared = Vec::new();
         for name in peer.outputs() {
-            let state = system
-                .states
-                .iter()
-                .position(|s| short(&s.var.name) == *name);
+            let state = system.states.iter().position(|s| is(&s.var.name, name));
             let lazy = || {
                 system
                     .lazies
                     .iter()
-                    .position(|l| l.kind == LazyKind::Output && short(&l.name) == *name)
+                    .position(|l| l.kind == LazyKind::Output && is(&l.name, name))
             };
             compared.push(match (state, lazy()) {
                 (Some(k), _) => (Source::State(k), system.states[k].var.ty),
@@ -160,14 +169,11 @@ impl<'a> Product<'a> {
             Some(table) => self.generated(table, work, &mut cells[..n])?,
             None => self.interpreted(work, &mut cells[..n])?,
         }
-        // `feeds` has at most as many entries as the largest monitor has inputs.
-        let mut fed = [0; 16];
-        for (to, from) in fed.iter_mut().zip(&self.feeds) {
-            *to = work.inputs[*from];
-        }
+        work.fed.clear();
+        work.fed.extend(self.feeds.iter().map(|k| work.inputs[*k]));
         work.monitor.clear();
         self.peer
-            .step(&mut cells[n..], &fed[..self.feeds.len()], &mut work.monitor);
+            .step(&mut cells[n..], &work.fed, &mut work.monitor);
         Ok(())
     }
 
@@ -210,9 +216,21 @@ impl<'a> Product<'a> {
             frame: Frame::new(self.bound),
             generated: vec![0; self.table.map_or(0, |t| t.cells)].into_boxed_slice(),
             inputs: self.bound.inputs.iter().map(|(lo, _)| *lo).collect(),
+            fed: Vec::new(),
             table: Numbers::new(),
             monitor: Numbers::new(),
         }
+    }
+
+    /// Number of inputs of the table.
+    pub fn inputs(&self) -> usize {
+        self.values.len()
+    }
+
+    /// The values of the parameters, readings aside.
+    pub fn parameters(&self) -> impl Iterator<Item = i32> + '_ {
+        let all = self.bound.system.params.iter().zip(&self.bound.values);
+        all.filter(|(p, _)| p.reading.is_none()).map(|(_, v)| *v)
     }
 
     /// The values input `k` of the table can have.
@@ -231,9 +249,7 @@ impl<'a> Product<'a> {
             .collect();
         let named = |name: &str| {
             let states = &self.bound.system.states;
-            let k = states
-                .iter()
-                .position(|s| s.var.name.ends_with(&format!(".{name}")));
+            let k = states.iter().position(|s| is(&s.var.name, name));
             k.map_or(0, |k| table[k])
         };
         let own = self.peer.initial(&named);

@@ -117,11 +117,11 @@ fn add(named: &mut Named, id: &str, place: &str) {
         .insert(place.to_owned());
 }
 
+/// The module a file of `impl/src` belongs to: `stop` for `impl/src/stop.rs`, `channel` for `impl/src/channel/laws.rs`.
 fn module(place: &str) -> &str {
-    Path::new(place)
-        .file_stem()
-        .and_then(|s| s.to_str())
-        .unwrap_or(place)
+    let inside = place.strip_prefix("impl/src/").unwrap_or(place);
+    let first = inside.split('/').next().unwrap_or(inside);
+    first.strip_suffix(".rs").unwrap_or(first)
 }
 
 /// The requirement ids in a text: `PREFIX-AREA-123`, with a prefix of the catalogues and exactly three digits.
@@ -226,7 +226,7 @@ fn parsed<T: serde::de::DeserializeOwned>(path: &Path) -> Result<T, ReadError> {
         .map_err(|e| ReadError::Other(format!("{}: {}", path.display(), e.to_string().trim())))
 }
 
-/// The specification files, family data, exceptions and status of one family.
+/// The specification files, family data, signals, exceptions and status of one family.
 fn tables(folder: &Path, family: &str, sources: &mut Sources) -> Result<(), ReadError> {
     let mut specs: Vec<Table> = Vec::new();
     for path in entries(folder)?
@@ -256,6 +256,7 @@ fn tables(folder: &Path, family: &str, sources: &mut Sources) -> Result<(), Read
                 }
             }
             "family.toml" => data("family", &Value::Table(parsed(&path)?), &mut sources.rules),
+            "signals.toml" => data("signals", &Value::Table(parsed(&path)?), &mut sources.rules),
             name if name.starts_with("requirements") || name == "manual.toml" => {}
             _ => {
                 let table: Table = parsed(&path)?;
@@ -356,6 +357,12 @@ mod tests {
             ids(text, &prefixes),
             ["F-STOP-001", "F-A2-123", "F-STOP-002"]
         );
+    }
+
+    #[test]
+    fn modules_are_files_or_folders() {
+        assert_eq!(module("impl/src/stop.rs"), "stop");
+        assert_eq!(module("impl/src/channel/laws.rs"), "channel");
     }
 
     #[test]

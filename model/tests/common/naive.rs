@@ -27,6 +27,7 @@ pub struct Answer {
     pub verdict: Verdict,
     pub length: Option<u64>,
     pub bound: Option<u64>,
+    pub fastest: Option<u64>,
 }
 
 type Set = BTreeSet<usize>;
@@ -116,6 +117,7 @@ impl Naive {
             verdict,
             length,
             bound: None,
+            fastest: None,
         };
         let given = |e: &Edge, atom: &Option<usize>| atom.is_none_or(|a| e.atoms[a]);
         match form {
@@ -172,7 +174,21 @@ impl Naive {
                 let start = |e: &Edge| e.atoms[*when] && !e.atoms[*goal];
                 let pending = |e: &Edge| !e.atoms[*goal] && given(e, assuming);
                 match within {
-                    Some(within) => self.bounded(*when, start, pending, u64::from(*within)),
+                    Some(within) => {
+                        let end = |e: &Edge| e.atoms[*goal] && given(e, assuming);
+                        let answer = self.bounded(*when, start, pending, u64::from(*within));
+                        let fastest = match answer.verdict {
+                            Verdict::Vacuous => None,
+                            _ => self.fastest(
+                                |e| e.atoms[*when],
+                                |e| e.atoms[*goal],
+                                start,
+                                pending,
+                                end,
+                            ),
+                        };
+                        Answer { fastest, ..answer }
+                    }
                     None => self.fair(*when, start, pending, fair),
                 }
             }
@@ -185,13 +201,41 @@ impl Naive {
                 verdict: Verdict::Vacuous,
                 length: None,
                 bound: None,
+                fastest: None,
             },
             length => Answer {
                 verdict: Verdict::Holds,
                 length,
                 bound: None,
+                fastest: None,
             },
         }
+    }
+
+    /// The least number of cycles to the goal: sets of states that are 1, 2, ... cycles away from a start.
+    fn fastest(
+        &self,
+        when: impl Fn(&Edge) -> bool,
+        goal: impl Fn(&Edge) -> bool,
+        start: impl Fn(&Edge) -> bool,
+        pending: impl Fn(&Edge) -> bool,
+        end: impl Fn(&Edge) -> bool,
+    ) -> Option<u64> {
+        if self.edges.iter().any(|e| when(e) && goal(e)) {
+            return Some(0);
+        }
+        let after = |pass: &dyn Fn(&Edge) -> bool| -> Set {
+            let passing = self.edges.iter().filter(|e| pass(e));
+            passing.map(|e| e.to).collect()
+        };
+        let mut set = after(&start);
+        for cycles in 1..=self.depth.len() as u64 {
+            if self.edges.iter().any(|e| end(e) && set.contains(&e.from)) {
+                return Some(cycles);
+            }
+            set = after(&|e| pending(e) && set.contains(&e.from));
+        }
+        None
     }
 
     fn bounded(
@@ -244,6 +288,7 @@ impl Naive {
             verdict: Verdict::Violated,
             length: Some(first + within),
             bound,
+            fastest: None,
         }
     }
 
@@ -298,6 +343,7 @@ impl Naive {
                 verdict: Verdict::Violated,
                 length: None,
                 bound: None,
+                fastest: None,
             },
             None => self.unless_vacuous(when),
         }
@@ -338,6 +384,7 @@ impl Naive {
                 verdict: Verdict::Violated,
                 length,
                 bound: None,
+                fastest: None,
             },
             None => self.unless_vacuous(when),
         }

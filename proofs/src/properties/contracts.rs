@@ -1,7 +1,10 @@
 //! The contract of every step function as a property: from any consistent state, under any accepted configuration and
 //! any inputs, one step satisfies every clause. The invariant is one of the clauses, so the facts are inductive.
 
-use stillpoint_monitors::{agreement, external, fault, gear, reference, selection, stop};
+use stillpoint_monitors::channel;
+use stillpoint_monitors::{agreement, external, fault, gear, group, reference, selection, stop};
+use stillpoint_monitors::{cam, limit_switch, motion, ramp, results, speed, standstill, threshold};
+use stillpoint_monitors::{compare, forced_check, history, pulses, shutdown_test, slip, test_stop};
 
 use crate::arbitrary;
 use crate::properties::Subject;
@@ -55,6 +58,76 @@ contract_property! {
 contract_property! {
     /// The contract of the gear stage.
     gear
+}
+contract_property! {
+    /// The contract of the effect on other axes.
+    group
+}
+contract_property! {
+    /// The contract of the test of the shutdown path.
+    test_stop
+}
+contract_property! {
+    /// The contract of the test of the external shutdown.
+    shutdown_test
+}
+contract_property! {
+    /// The contract of the pulse cancellation.
+    pulses
+}
+contract_property! {
+    /// The contract of the cross comparison.
+    compare
+}
+contract_property! {
+    /// The contract of the synchronisation of actual values.
+    slip
+}
+contract_property! {
+    /// The contract of the history.
+    history
+}
+contract_property! {
+    /// The contract of the forced checking.
+    forced_check
+}
+
+contract_property! {
+    /// The contract of the actual position.
+    motion
+}
+contract_property! {
+    /// The contract of the window of the operating stop.
+    standstill
+}
+contract_property! {
+    /// The contract of the limit of the speed.
+    speed
+}
+contract_property! {
+    /// The contract of the limit switches.
+    limit_switch
+}
+contract_property! {
+    /// The contract of the braking ramp.
+    ramp
+}
+contract_property! {
+    /// The contract of the threshold.
+    threshold
+}
+contract_property! {
+    /// The contract of a cam.
+    cam
+}
+contract_property! {
+    /// The contract of the result lists.
+    results
+}
+
+contract_property! {
+    /// The laws of the channel, the composition of the monitors.
+    channel
 }
 
 /// The initial state of every monitor satisfies its invariant under every accepted configuration: the base of the

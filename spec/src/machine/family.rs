@@ -61,6 +61,8 @@ pub(super) struct Function {
 pub(super) enum Quantity {
     Length,
     Angle,
+    Grid,
+    Pitch,
     Speed,
     Time,
     Percent,
@@ -76,6 +78,8 @@ impl Quantity {
         match (self, kind) {
             (Self::Length, AxisKind::Linear) => Dimension::Length,
             (Self::Length, AxisKind::Rotary) | (Self::Angle, _) => Dimension::Angle,
+            (Self::Grid, _) => Dimension::Grid,
+            (Self::Pitch, _) => Dimension::Pitch,
             (Self::Speed, AxisKind::Linear) => Dimension::Speed,
             (Self::Speed, AxisKind::Rotary) => Dimension::Rotation,
             (Self::Time, _) => Dimension::Time,

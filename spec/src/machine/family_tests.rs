@@ -213,7 +213,7 @@ fn alarms_exist() {
 }
 
 /// For each rule a machine that violates it and one beside it that does not: what stands in the file after the family.
-const EXAMPLES: [(&str, &str, &str); 17] = [
+const EXAMPLES: [(&str, &str, &str); 24] = [
     (
         "the monitoring cycle is longer than 25 ms",
         "control.SYSCLOCK_CYCLE_TIME = \"5 ms\"\ncontrol.SAFETY_SYSCLOCK_TIME_RATIO = 6\naxis.X = { kind = \"linear\" }",
@@ -246,13 +246,48 @@ const EXAMPLES: [(&str, &str, &str); 17] = [
     ),
     (
         "\"slip sync\" makes the absolute position meaningless",
-        "axis.X = { kind = \"linear\", ENCODERS = 2, functions = [\"SBH/SG\", \"slip sync\", \"SN3-\"] }",
-        "axis.X = { kind = \"linear\", ENCODERS = 2, functions = [\"SBH/SG\", \"slip sync\"] }",
+        "axis.X = { kind = \"linear\", LOAD_ENCODER = \"incremental\", functions = [\"SBH/SG\", \"slip sync\", \"SN3-\"] }",
+        "axis.X = { kind = \"linear\", LOAD_ENCODER = \"incremental\", functions = [\"SBH/SG\", \"slip sync\"] }",
     ),
     (
         "\"slip sync\" needs two encoders",
         "axis.X = { kind = \"linear\", functions = [\"SBH/SG\", \"slip sync\"] }",
-        "axis.X = { kind = \"linear\", ENCODERS = 2, functions = [\"SBH/SG\", \"slip sync\"] }",
+        "axis.X = { kind = \"linear\", LOAD_ENCODER = \"incremental\", functions = [\"SBH/SG\", \"slip sync\"] }",
+    ),
+    (
+        "the axis has no encoder at the motor",
+        "axis.X = { kind = \"linear\", MOTOR_ENCODER = \"none\", LOAD_ENCODER = \"absolute\", functions = [\"SBH/SG\"] }",
+        "axis.X = { kind = \"linear\", MOTOR_ENCODER = \"incremental\", LOAD_ENCODER = \"absolute\", functions = [\"SBH/SG\"] }",
+    ),
+    (
+        "the axis has no encoder at the motor",
+        "axis.X = { kind = \"linear\", MOTOR_ENCODER = \"none\", functions = [\"SBH/SG\"] }",
+        "axis.X = { kind = \"linear\", MOTOR_ENCODER = \"absolute\", functions = [\"SBH/SG\"] }",
+    ),
+    (
+        "two encoders with slip between them drift apart",
+        "axis.S = { kind = \"spindle\", SLIP = true, LOAD_ENCODER = \"incremental\", functions = [\"SBH/SG\"] }",
+        "axis.S = { kind = \"spindle\", SLIP = true, LOAD_ENCODER = \"incremental\", functions = [\"SBH/SG\", \"slip sync\"] }",
+    ),
+    (
+        "\"SE\" and \"SN\" are not permitted on an axis with slip",
+        "axis.S = { kind = \"spindle\", SLIP = true, functions = [\"SBH/SG\", \"SN1+\"] }",
+        "axis.S = { kind = \"spindle\", SLIP = true, functions = [\"SBH/SG\"] }",
+    ),
+    (
+        "internal pulse cancellation has no external path",
+        "axis.X = { kind = \"linear\", CONTROL_MODULE = \"Performance 2\", INTERNAL_PULSE_CANCELLATION = true, EXT_PULSE_ENABLE_ASSIGNED = true }",
+        "axis.X = { kind = \"linear\", CONTROL_MODULE = \"Performance 2\", INTERNAL_PULSE_CANCELLATION = true, EXT_PULSE_ENABLE_ASSIGNED = true, EXT_PULSE_TEST_ASSIGNED = true }",
+    ),
+    (
+        "internal pulse cancellation has no external path",
+        "axis.X = { kind = \"linear\", CONTROL_MODULE = \"High Standard\", INTERNAL_PULSE_CANCELLATION = true, EXT_PULSE_TEST_ASSIGNED = true }",
+        "axis.X = { kind = \"linear\", CONTROL_MODULE = \"High Standard\", EXT_PULSE_TEST_ASSIGNED = true }",
+    ),
+    (
+        "this control module has no internal pulse cancellation",
+        "axis.X = { kind = \"linear\", INTERNAL_PULSE_CANCELLATION = true, EXT_PULSE_ENABLE_ASSIGNED = true, EXT_PULSE_TEST_ASSIGNED = true }",
+        "axis.X = { kind = \"linear\", CONTROL_MODULE = \"High Performance\", INTERNAL_PULSE_CANCELLATION = true, EXT_PULSE_ENABLE_ASSIGNED = true, EXT_PULSE_TEST_ASSIGNED = true }",
     ),
     (
         "this control module monitors encoders up to 300 kHz only",
@@ -329,4 +364,31 @@ fn each_rule_has_an_example() {
         assert!(has, "no example violates '{}'", rule.text);
         assert!(!rule.id.is_empty());
     }
+}
+
+/// Table 4-1 of the manual: six systems are permitted, no other one (S840D-ENC-001).
+#[test]
+fn encoder_systems_are_those_of_the_manual() {
+    let mut accepted = Vec::new();
+    for motor in ["none", "incremental", "absolute"] {
+        for second in ["none", "incremental", "absolute"] {
+            let text = format!(
+                "axis.X = {{ kind = \"linear\", MOTOR_ENCODER = \"{motor}\", LOAD_ENCODER = \"{second}\", functions = [\"SBH/SG\"] }}"
+            );
+            if load(&text).is_ok() {
+                accepted.push((motor, second));
+            }
+        }
+    }
+    assert_eq!(
+        accepted,
+        [
+            ("incremental", "none"),
+            ("incremental", "incremental"),
+            ("incremental", "absolute"),
+            ("absolute", "none"),
+            ("absolute", "incremental"),
+            ("absolute", "absolute"),
+        ]
+    );
 }

@@ -4,6 +4,8 @@
 //! |---|---|---|
 //! | length | 1 um | resolution of the drive channel |
 //! | angle | 1 mdeg | resolution of the drive channel |
+//! | grid | 10 nm | grid of a linear scale: the drive has hundredths of a micrometre |
+//! | pitch | 1 um/rev | mm per revolution with three decimals |
 //! | speed | 1 um/min | mm/min with three decimals |
 //! | rotation | 1 mdeg/min | 1 rev/min = 360000, 1 deg/s = 60000: all units exact |
 //! | time | 1 us | the clock cycles are multiples of 31.25 us or coarser |
@@ -18,6 +20,10 @@ use std::fmt;
 pub enum Dimension {
     /// Path of a linear axis, base unit 1 um.
     Length,
+    /// Distance of the lines of a linear scale, base unit 10 nm.
+    Grid,
+    /// Path of a linear axis in a revolution of its spindle, base unit 1 um/rev.
+    Pitch,
     /// Angle of a rotary axis or spindle, base unit 1 mdeg.
     Angle,
     /// Speed of a linear axis, base unit 1 um/min.
@@ -54,6 +60,8 @@ impl Dimension {
     pub fn units(self) -> &'static [(&'static str, i64)] {
         match self {
             Self::Length => &[("mm", 1_000), ("um", 1), ("inch", 25_400)],
+            Self::Grid => &[("mm", 100_000), ("um", 100)],
+            Self::Pitch => &[("mm/rev", 1_000), ("um/rev", 1), ("inch/rev", 25_400)],
             Self::Angle => &[("deg", 1_000), ("mdeg", 1)],
             Self::Speed => &[
                 ("mm/min", 1_000),
@@ -79,6 +87,8 @@ impl Dimension {
     pub fn noun(self) -> &'static str {
         match self {
             Self::Length => "a length",
+            Self::Grid => "a grid distance",
+            Self::Pitch => "a pitch",
             Self::Angle => "an angle",
             Self::Speed => "a speed of a linear axis",
             Self::Rotation => "a speed of a rotary axis or spindle",

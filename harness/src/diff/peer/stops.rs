@@ -1,20 +1,33 @@
-//! External stops, STOP F and the arbitration of stops.
+//! External stops, STOP F, the arbitration of stops and their effect on other axes.
 
-use stillpoint_model::Domain;
-use stillpoint_monitors::{external, fault, stop};
+use stillpoint_monitors::mutant::Mutant;
+use stillpoint_monitors::{external, fault, group, stop};
 
-use super::{
-    EXTERNAL, INTERNAL, Numbers, Peer, bit, cell, cycles, external_stop, internal, level, rank,
-    truth, upto,
-};
+use super::adapter::Adapter;
+use super::numbers::*;
+use super::{Made, Params, Refusable};
 
-pub(super) struct External {
-    pub(super) config: external::Config,
-    pub(super) next: external::Next,
+/// The monitor of a machine of this topic.
+pub(super) fn make(machine: &str, p: &Params, mutant: Option<Mutant>) -> Made {
+    Ok(Some(match machine {
+        "external" => external(p, mutant)?,
+        "fault" => fault(p, mutant)?,
+        "stop" => stop(p, mutant)?,
+        "group" => group(p, mutant),
+        _ => return Ok(None),
+    }))
 }
 
-impl Peer for External {
-    fn inputs(&self) -> &'static [&'static str] {
+pub(super) fn external_config(
+    p: &Params,
+) -> Result<external::Config, stillpoint_monitors::kernel::ConfigError> {
+    external::Config::new(p.is("enable_ext"), p.is("enable_e"), p.is("spl_stop_e"))
+}
+
+fn external(p: &Params, mutant: Option<Mutant>) -> Refusable {
+    let config = external_config(p)?;
+    let next = mutant.map_or(external::next as external::Next, Mutant::external);
+    Ok(Adapter::new(
         &[
             "power_on",
             "reset",
@@ -24,56 +37,36 @@ impl Peer for External {
             "sge_d",
             "sge_e",
             "spl_error",
-        ]
-    }
-
-    fn outputs(&self) -> &'static [&'static str] {
-        &["request", "selected", "spl_stop"]
-    }
-
-    fn domains(&self) -> Vec<Domain> {
-        vec![truth(), truth()]
-    }
-
-    fn initial(&self, _: &dyn Fn(&str) -> i32) -> Vec<i32> {
-        let s = external::State::INITIAL;
-        vec![i32::from(s.started), i32::from(s.spl_latched)]
-    }
-
-    fn step(&self, cells: &mut [i32], i: &[i32], outputs: &mut Numbers) {
-        let state = external::State {
-            started: cells[0] != 0,
-            spl_latched: cells[1] != 0,
-        };
-        let inputs = external::Inputs {
-            power_on: i[0] != 0,
-            reset: i[1] != 0,
-            spl_started: i[2] != 0,
-            sge_a: i[3] != 0,
-            sge_c: i[4] != 0,
-            sge_d: i[5] != 0,
-            sge_e: i[6] != 0,
-            spl_error: i[7] != 0,
-        };
-        let (s, o) = (self.next)(state, &self.config, &inputs);
-        cells[0] = i32::from(s.started);
-        cells[1] = i32::from(s.spl_latched);
-        outputs.extend([
-            rank(o.request.level()),
-            rank(o.selected.level()),
-            bit(o.spl_stop),
-        ]);
-    }
+        ],
+        &["request", "selected", "spl_stop"],
+        vec![truth(), truth()],
+        external::State::INITIAL,
+        move |state, i, o| {
+            let inputs = external::Inputs {
+                power_on: i[0] != 0,
+                reset: i[1] != 0,
+                spl_started: i[2] != 0,
+                sge_a: i[3] != 0,
+                sge_c: i[4] != 0,
+                sge_d: i[5] != 0,
+                sge_e: i[6] != 0,
+                spl_error: i[7] != 0,
+            };
+            let (after, out) = next(state, &config, &inputs);
+            o.extend([
+                rank(out.request.level()),
+                rank(out.selected.level()),
+                bit(out.spl_stop),
+            ]);
+            after
+        },
+    ))
 }
 
-pub(super) struct Fault {
-    pub(super) config: fault::Config,
-    pub(super) t_f: i32,
-    pub(super) next: fault::Next,
-}
-
-impl Peer for Fault {
-    fn inputs(&self) -> &'static [&'static str] {
+fn fault(p: &Params, mutant: Option<Mutant>) -> Refusable {
+    let config = fault::Config::new(p.time("t_f"))?;
+    let next = mutant.map_or(fault::next as fault::Next, Mutant::fault);
+    Ok(Adapter::new(
         &[
             "power_on",
             "reset",
@@ -82,59 +75,49 @@ impl Peer for Fault {
             "monitoring",
             "cde_before",
             "ab_before",
-        ]
-    }
-
-    fn outputs(&self) -> &'static [&'static str] {
-        &["fault", "alarm", "stop_b", "bit1", "interlock"]
-    }
-
-    fn domains(&self) -> Vec<Domain> {
-        vec![upto(3), upto(self.t_f)]
-    }
-
-    fn initial(&self, _: &dyn Fn(&str) -> i32) -> Vec<i32> {
-        vec![0, 0]
-    }
-
-    fn step(&self, cells: &mut [i32], i: &[i32], outputs: &mut Numbers) {
-        use fault::FaultState::{Delay, Expired, Latched, None};
-        let all = [None, Latched, Delay, Expired];
-        let state = fault::State {
-            fault: all[cells[0].clamp(0, 3) as usize],
-            timer: cycles(cells[1]),
-        };
-        let inputs = fault::Inputs {
-            power_on: i[0] != 0,
-            reset: i[1] != 0,
-            discrepancy: i[2] != 0,
-            rx_fault: i[3] != 0,
-            monitoring: i[4] != 0,
-            cde_before: i[5] != 0,
-            ab_before: i[6] != 0,
-        };
-        let (s, o) = (self.next)(state, &self.config, &inputs);
-        let ordinal = |f| all.iter().position(|a| *a == f).unwrap_or(0) as i32;
-        cells[0] = ordinal(s.fault);
-        cells[1] = cell(s.timer);
-        outputs.extend([
-            i64::from(ordinal(o.fault)),
-            bit(o.alarm),
-            bit(o.stop_b),
-            bit(o.bit1),
-            bit(o.interlock),
-        ]);
-    }
+        ],
+        &["fault", "alarm", "stop_b", "bit1", "interlock"],
+        vec![upto(3), upto(p.value("t_f"))],
+        fault::State::INITIAL,
+        move |state, i, o| {
+            let inputs = fault::Inputs {
+                power_on: i[0] != 0,
+                reset: i[1] != 0,
+                discrepancy: i[2] != 0,
+                rx_fault: i[3] != 0,
+                monitoring: i[4] != 0,
+                cde_before: i[5] != 0,
+                ab_before: i[6] != 0,
+            };
+            let (after, out) = next(state, &config, &inputs);
+            o.extend([
+                i64::from(ordinal(&FAULTS, out.fault)),
+                bit(out.alarm),
+                bit(out.stop_b),
+                bit(out.bit1),
+                bit(out.interlock),
+            ]);
+            after
+        },
+    ))
 }
 
-pub(super) struct Stop {
-    pub(super) config: stop::Config,
-    pub(super) longest: i32,
-    pub(super) next: stop::Next,
+/// The longest of the times of the stops.
+pub(super) fn longest(p: &Params) -> i32 {
+    let times = ["t_b", "t_c", "t_d", "t_e"].map(|name| p.value(name));
+    times.into_iter().max().unwrap_or(0)
 }
 
-impl Peer for Stop {
-    fn inputs(&self) -> &'static [&'static str] {
+pub(super) fn stop_config(
+    p: &Params,
+) -> Result<stop::Config, stillpoint_monitors::kernel::ConfigError> {
+    stop::Config::new(p.time("t_b"), p.time("t_c"), p.time("t_d"), p.time("t_e"))
+}
+
+fn stop(p: &Params, mutant: Option<Mutant>) -> Refusable {
+    let config = stop_config(p)?;
+    let next = mutant.map_or(stop::next as stop::Next, Mutant::stop);
+    Ok(Adapter::new(
         &[
             "power_on",
             "reset",
@@ -145,18 +128,7 @@ impl Peer for Stop {
             "rx_external",
             "test",
             "standstill",
-        ]
-    }
-
-    fn allowed(&self, k: usize) -> Option<&'static [i32]> {
-        match k {
-            2 | 4 => Some(INTERNAL),
-            5 | 6 => Some(EXTERNAL),
-            _ => None,
-        }
-    }
-
-    fn outputs(&self) -> &'static [&'static str] {
+        ],
         &[
             "level",
             "internal",
@@ -174,62 +146,81 @@ impl Peer for Stop {
             "sequence_over",
             "start_inhibit",
             "stopsi",
-        ]
-    }
+        ],
+        vec![upto(7), upto(7), upto(7), upto(5), upto(longest(p))],
+        stop::State::INITIAL,
+        move |state, i, o| {
+            let inputs = stop::Inputs {
+                power_on: i[0] != 0,
+                reset: i[1] != 0,
+                demand: internal(i[2]),
+                f_stop_b: i[3] != 0,
+                rx_internal: internal(i[4]),
+                external: external_stop(i[5]),
+                rx_external: external_stop(i[6]),
+                test: i[7] != 0,
+                standstill: i[8] != 0,
+            };
+            let (after, out) = next(state, &config, &inputs);
+            o.extend([
+                rank(out.level),
+                rank(out.internal.level()),
+                i64::from(ordinal(&STOPS, out.phase)),
+                bit(out.cancel_pulses),
+                bit(out.n_set_zero),
+                bit(out.path_brake),
+                bit(out.esr),
+                bit(out.sbh_internal),
+                bit(out.sga_stop_ab),
+                bit(out.sga_stop_c),
+                bit(out.sga_stop_d),
+                bit(out.sga_stop_e),
+                bit(out.sbr_on),
+                bit(out.ended),
+                bit(out.start_inhibit),
+                i64::from(out.stopsi),
+            ]);
+            after
+        },
+    )
+    .only(&["demand", "rx_internal"], INTERNAL)
+    .only(&["external", "rx_external"], EXTERNAL))
+}
 
-    fn domains(&self) -> Vec<Domain> {
-        vec![upto(7), upto(7), upto(7), upto(5), upto(self.longest)]
-    }
-
-    fn initial(&self, _: &dyn Fn(&str) -> i32) -> Vec<i32> {
-        vec![0; 5]
-    }
-
-    fn step(&self, cells: &mut [i32], i: &[i32], outputs: &mut Numbers) {
-        use stop::Phase::{BBraking, Braking, Idle, PulsesOff, SbhInt, Testing};
-        let phases = [Idle, Braking, SbhInt, BBraking, PulsesOff, Testing];
-        let state = stop::State {
-            internal: internal(cells[0]),
-            external: external_stop(cells[1]),
-            level: level(cells[2]),
-            phase: phases[cells[3].clamp(0, 5) as usize],
-            timer: cycles(cells[4]),
-        };
-        let inputs = stop::Inputs {
-            power_on: i[0] != 0,
-            reset: i[1] != 0,
-            demand: internal(i[2]),
-            f_stop_b: i[3] != 0,
-            rx_internal: internal(i[4]),
-            external: external_stop(i[5]),
-            rx_external: external_stop(i[6]),
-            test: i[7] != 0,
-            standstill: i[8] != 0,
-        };
-        let (s, o) = (self.next)(state, &self.config, &inputs);
-        let phase = |p| phases.iter().position(|a| *a == p).unwrap_or(0) as i32;
-        cells[0] = rank(s.internal.level()) as i32;
-        cells[1] = rank(s.external.level()) as i32;
-        cells[2] = rank(s.level) as i32;
-        cells[3] = phase(s.phase);
-        cells[4] = cell(s.timer);
-        outputs.extend([
-            rank(o.level),
-            rank(o.internal.level()),
-            i64::from(phase(o.phase)),
-            bit(o.cancel_pulses),
-            bit(o.n_set_zero),
-            bit(o.path_brake),
-            bit(o.esr),
-            bit(o.sbh_internal),
-            bit(o.sga_stop_ab),
-            bit(o.sga_stop_c),
-            bit(o.sga_stop_d),
-            bit(o.sga_stop_e),
-            bit(o.sbr_on),
-            bit(o.ended),
-            bit(o.start_inhibit),
-            i64::from(o.stopsi),
-        ]);
-    }
+/// The table asks for one axis what two others do to it; the monitor is asked once for each, the higher answer counts.
+fn group(p: &Params, mutant: Option<Mutant>) -> Adapter {
+    let esr = p.is("esr_active");
+    let next = mutant.map_or(group::next as group::Next, Mutant::group);
+    Adapter::stateless(
+        &[
+            "stop_1",
+            "internal_1",
+            "group_1",
+            "together_1",
+            "stop_2",
+            "internal_2",
+            "group_2",
+            "together_2",
+        ],
+        &["reaction"],
+        move |i, o| {
+            let reach = |k: usize| match i[k] {
+                0 => group::Reach::Channel,
+                _ => group::Reach::Interpolating,
+            };
+            let of = |first: usize| {
+                let inputs = group::Inputs {
+                    level: level(i[first]),
+                    internal: internal(i[first + 1]),
+                    interpolates: i[first + 3] != 0,
+                    esr,
+                };
+                let config = group::Config::new(reach(first + 2));
+                next(group::State::INITIAL, &config, &inputs).1.reaction
+            };
+            let worst = group::worst(&[of(0), of(4)]);
+            o.push(i64::from(ordinal(&group::Reaction::ALL, worst)));
+        },
+    )
+    .only(&["internal_1", "internal_2"], INTERNAL)
 }

@@ -1,0 +1,129 @@
+//! A peer made of a step function and the way its state lies in cells.
+
+use stillpoint_model::Domain;
+
+use super::{Numbers, Peer};
+use crate::diff::product::Values;
+
+/// A state as numbers.
+pub(super) trait Cells: Copy + Send + Sync + 'static {
+    /// How many.
+    const COUNT: usize;
+    /// The state in cells.
+    fn load(cells: &[i32]) -> Self;
+    /// Writes the state to cells.
+    fn store(self, cells: &mut [i32]);
+}
+
+/// A monitor with its configuration.
+pub(super) struct Adapter {
+    inputs: &'static [&'static str],
+    unused: &'static [&'static str],
+    outputs: &'static [&'static str],
+    allowed: Vec<(usize, Values)>,
+    domains: Vec<Domain>,
+    initial: Vec<i32>,
+    kept: Vec<(usize, &'static str)>,
+    step: Box<Step>,
+}
+
+/// One step: cells, inputs, outputs.
+type Step = dyn Fn(&mut [i32], &[i32], &mut Numbers) + Send + Sync;
+
+impl Adapter {
+    /// A monitor with these ports, as the table calls them, and a state of these cells.
+    pub(super) fn new<S: Cells>(
+        inputs: &'static [&'static str],
+        outputs: &'static [&'static str],
+        domains: Vec<Domain>,
+        initial: S,
+        step: impl Fn(S, &[i32], &mut Numbers) -> S + Send + Sync + 'static,
+    ) -> Self {
+        let mut cells = vec![0; S::COUNT];
+        initial.store(&mut cells);
+        Self {
+            inputs,
+            unused: &[],
+            outputs,
+            allowed: Vec::new(),
+            domains,
+            initial: cells,
+            kept: Vec::new(),
+            step: Box::new(move |cells, i, o| step(S::load(cells), i, o).store(cells)),
+        }
+    }
+
+    /// A monitor without a state.
+    pub(super) fn stateless(
+        inputs: &'static [&'static str],
+        outputs: &'static [&'static str],
+        step: impl Fn(&[i32], &mut Numbers) + Send + Sync + 'static,
+    ) -> Self {
+        Self::new(inputs, outputs, Vec::new(), (), move |(), i, o| step(i, o))
+    }
+
+    /// Names the inputs that only the table has, for other readings than the recommended ones.
+    pub(super) fn without(mut self, unused: &'static [&'static str]) -> Self {
+        self.unused = unused;
+        self
+    }
+
+    /// Restricts inputs to the values they have at this interface.
+    pub(super) fn only(mut self, inputs: &[&str], values: Values) -> Self {
+        for (port, name) in self.inputs.iter().enumerate() {
+            if inputs.contains(name) {
+                self.allowed.push((port, values));
+            }
+        }
+        self
+    }
+
+    /// A cell that starts with the value of a state variable of the table: non-volatile state.
+    pub(super) fn kept(mut self, cell: usize, state: &'static str) -> Self {
+        self.kept.push((cell, state));
+        self
+    }
+}
+
+impl Cells for () {
+    const COUNT: usize = 0;
+
+    fn load(_: &[i32]) -> Self {}
+
+    fn store(self, _: &mut [i32]) {}
+}
+
+impl Peer for Adapter {
+    fn inputs(&self) -> &'static [&'static str] {
+        self.inputs
+    }
+
+    fn unused(&self) -> &'static [&'static str] {
+        self.unused
+    }
+
+    fn allowed(&self, k: usize) -> Option<Values> {
+        let found = self.allowed.iter().find(|(port, _)| *port == k);
+        found.map(|(_, values)| *values)
+    }
+
+    fn outputs(&self) -> &'static [&'static str] {
+        self.outputs
+    }
+
+    fn domains(&self) -> Vec<Domain> {
+        self.domains.clone()
+    }
+
+    fn initial(&self, table: &dyn Fn(&str) -> i32) -> Vec<i32> {
+        let mut cells = self.initial.clone();
+        for (cell, name) in &self.kept {
+            cells[*cell] = table(name);
+        }
+        cells
+    }
+
+    fn step(&self, cells: &mut [i32], inputs: &[i32], outputs: &mut Numbers) {
+        (self.step)(cells, inputs, outputs);
+    }
+}

@@ -1,0 +1,51 @@
+//! Bounds that a specification records (`exactly`, `fastest`), against those found: a change of one fails the check.
+
+use std::collections::BTreeMap;
+
+use stillpoint_model::{Judgement, Verdict};
+use stillpoint_spec::bind::Bound;
+use stillpoint_spec::ir::Node;
+
+/// Compares what the properties record with their judgements, which stand in the same order. Where they differ the
+/// verdict becomes `Violated`; the answer says why, by property number.
+///
+/// A verdict that found no bound to compare, vacuous or inconclusive, stays.
+pub fn judge(bound: &Bound, judgements: &mut [Judgement]) -> BTreeMap<usize, String> {
+    let mut refuted = BTreeMap::new();
+    let both = bound.system.properties.iter().zip(judgements);
+    for (number, (property, judged)) in both.enumerate() {
+        if !matches!(judged.verdict, Verdict::Holds | Verdict::Violated) {
+            continue;
+        }
+        let recorded = &property.recorded;
+        let reasons: Vec<String> = [
+            ("least bound", &recorded.exactly, judged.bound),
+            ("fastest reaction", &recorded.fastest, judged.fastest),
+        ]
+        .into_iter()
+        .filter_map(|(what, node, found)| differs(bound, what, node.as_ref()?, found))
+        .collect();
+        if reasons.is_empty() {
+            continue;
+        }
+        if judged.verdict == Verdict::Holds {
+            // The length is that of a witness: no run shows a bound.
+            judged.length = None;
+        }
+        judged.verdict = Verdict::Violated;
+        refuted.insert(number, reasons.join("; "));
+    }
+    refuted
+}
+
+fn differs(bound: &Bound, what: &str, node: &Node, found: Option<u64>) -> Option<String> {
+    let recorded = bound.constant(node);
+    let found = match found {
+        Some(found) if i64::try_from(found) == Ok(recorded) => return None,
+        Some(found) => format!("found is {found}"),
+        None => "found is none".to_owned(),
+    };
+    Some(format!(
+        "the {what} recorded is {recorded} cycles, the one {found}"
+    ))
+}

@@ -1,0 +1,114 @@
+//! Actual position and speed of one channel, from the position of each cycle.
+//!
+//! The speed is the distance of the positions of two cycles, as the manual forms it (S840D-TIMING-512). Each channel forms
+//! it from its own position. While the axis is parked nothing is updated; the first position afterwards, like the first one
+//! after power-on, has no predecessor and gives the speed 0.
+
+use crate::kernel::{Position, Speed};
+
+/// The function has no parameters.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Config;
+
+/// The state between two cycles.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct State {
+    /// The position of the last cycle in which the axis was not parked.
+    pub last: Position,
+    /// `last` belongs to the cycle just before.
+    pub known: bool,
+}
+
+impl State {
+    /// No position read yet.
+    pub const INITIAL: Self = Self {
+        last: Position(0),
+        known: false,
+    };
+
+    /// Every state is consistent.
+    #[cfg_attr(creusot, creusot_contracts::macros::logic)]
+    pub const fn invariant(&self, _config: &Config) -> bool {
+        true
+    }
+}
+
+/// The inputs of one cycle.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Inputs {
+    /// Power-on of drive and control.
+    pub power_on: bool,
+    /// The position read in this cycle.
+    pub position: Position,
+    /// The axis is parked: the encoder may be unplugged.
+    pub parking: bool,
+}
+
+/// The outputs of one cycle.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Outputs {
+    /// The actual position; frozen while the axis is parked.
+    pub position: Position,
+    /// The magnitude of the actual speed.
+    pub speed: Speed,
+}
+
+contract! {
+    /// The speed is the distance of the positions of two cycles, in either direction and over the whole range.
+    speed_is_the_distance_of_two_cycles ["S840D-TIMING-512", "S840D-SBR-007", "S840D-KDV-711"]:
+        when |s| s.before.known && !s.inputs.power_on && !s.inputs.parking
+            => s.outputs.speed.0 == s.inputs.position.distance(s.before.last).0;
+
+    /// Without a position of the cycle before there is no speed.
+    first_position_has_no_speed ["S840D-REF-016", "S840D-INTERACT-718"]:
+        when |s| !s.before.known || s.inputs.power_on
+            => s.outputs.speed == Speed(0);
+
+    /// The position is the one read, and is kept for the next cycle.
+    position_is_the_one_read ["S840D-ARCH-501", "S840D-TIMING-501"]:
+        when |s| !s.inputs.parking
+            => s.outputs.position == s.inputs.position && s.after == State { last: s.inputs.position, known: true };
+
+    /// While the axis is parked position and speed are frozen, and the time in between is no motion.
+    parked_axis_is_frozen ["S840D-REF-016", "S840D-INTERACT-718"]:
+        when |s| s.inputs.parking && !s.inputs.power_on
+            => s.outputs.position == s.before.last && s.outputs.speed == Speed(0)
+                && s.after == State { known: false, ..s.before };
+}
+
+pub(crate) fn transition(state: State, _: &Config, inputs: &Inputs) -> (State, Outputs) {
+    let before = if inputs.power_on {
+        State::INITIAL
+    } else {
+        state
+    };
+    if inputs.parking {
+        let outputs = Outputs {
+            position: before.last,
+            speed: Speed(0),
+        };
+        return (
+            State {
+                known: false,
+                ..before
+            },
+            outputs,
+        );
+    }
+    let speed = if before.known {
+        Speed(inputs.position.distance(before.last).0)
+    } else {
+        Speed(0)
+    };
+    let after = State {
+        last: inputs.position,
+        known: true,
+    };
+    (
+        after,
+        Outputs {
+            position: inputs.position,
+            speed,
+        },
+    )
+}

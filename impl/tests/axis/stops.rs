@@ -1,0 +1,319 @@
+//! Stops, their acknowledgement and the shutdown of the pulses.
+
+use stillpoint_monitors::alarm::Alarm;
+use stillpoint_monitors::axis::Local;
+use stillpoint_monitors::kernel::{InternalStop, Level, Position, Speed};
+use stillpoint_monitors::parameters::Parameters;
+use stillpoint_monitors::selection::Mode;
+use stillpoint_monitors::stop::Phase;
+
+use crate::machine::{ENABLED, Machine, both, levels, move_to, parameters};
+
+/// S840D-SBH-005, S840D-P-04, S840D-P-05, S840D-STOP-012: the operating stop is left. STOP B in the same cycle in both
+/// channels, STOP A after t_B, RESET does not help, power-on does.
+#[test]
+fn standstill_violation_ends_in_stop_a() {
+    let mut machine = Machine::powered(&parameters(), false, None);
+    machine.both(|local| {
+        local.sge.sbh_sg_off = false;
+        local.sge.sbh_off = false;
+    });
+    assert!(machine.step().nck.sga.sbh_active);
+    machine.both(move_to(1_000));
+    assert_eq!(levels(&machine.at(9)), both(Level::None));
+    machine.both(move_to(1_001));
+    let outputs = machine.at(10);
+    assert_eq!(levels(&outputs), both(Level::B));
+    for axis in [outputs.nck, outputs.drive] {
+        assert!(axis.alarms.contains(Alarm::Standstill) && axis.alarms.contains(Alarm::StopB));
+        assert!(axis.sga.stop_ab && axis.channel.stop.n_set_zero && axis.channel.pulses.enable);
+    }
+    // The stop is raised once, the violation lasts.
+    let outputs = machine.at(18);
+    assert_eq!(levels(&outputs), both(Level::B));
+    assert!(
+        outputs
+            .nck
+            .alarms
+            .iter()
+            .eq([Alarm::NotSafelyReferenced, Alarm::Standstill])
+    );
+    let outputs = machine.at(19);
+    assert_eq!(levels(&outputs), both(Level::A));
+    assert!(!outputs.nck.channel.pulses.enable && !outputs.drive.channel.pulses.enable);
+    machine.both(move_to(0));
+    let outputs = machine.once(|local| local.reset = true);
+    assert_eq!(levels(&outputs), both(Level::A));
+    assert!(outputs.nck.channel.start_inhibit);
+    let outputs = machine.once(|local| local.power_on = true);
+    assert_eq!(levels(&outputs), both(Level::None));
+    assert!(!outputs.nck.channel.start_inhibit && outputs.nck.channel.pulses.enable);
+}
+
+/// S840D-SG-006, S840D-STOP-030, S840D-STOP-080, S840D-ACK-001: too fast in SG1. STOP C at once, the forced operating
+/// stop one cycle after t_C, RESET only then.
+#[test]
+fn speed_violation_is_acknowledged_after_its_end() {
+    let mut machine = Machine::powered(&parameters(), false, None);
+    machine.both(|local| local.sge.sbh_sg_off = false);
+    let _ = machine.at(8);
+    // 400 um a cycle are permitted.
+    machine.both(move_to(400));
+    assert_eq!(levels(&machine.at(9)), both(Level::None));
+    machine.both(move_to(801));
+    let outputs = machine.at(10);
+    assert_eq!(levels(&outputs), both(Level::C));
+    assert!(outputs.nck.alarms.contains(Alarm::SpeedLimit) && outputs.nck.sga.stop_c);
+    let early = machine.once(|local| local.reset = true);
+    assert!(!early.nck.reset_taken && early.nck.channel.stop.phase == Phase::Braking);
+    assert_eq!(machine.at(18).nck.channel.stop.phase, Phase::Braking);
+    let outputs = machine.at(19);
+    assert_eq!(outputs.nck.channel.stop.phase, Phase::SbhInt);
+    assert_eq!(outputs.nck.channel.selection.mode, Mode::Sg);
+    let outputs = machine.at(20);
+    assert_eq!(outputs.nck.channel.selection.mode, Mode::SbhForced);
+    assert_eq!(outputs.nck.channel.selection.reference, Position(801));
+    let outputs = machine.once(|local| local.reset = true);
+    assert!(outputs.nck.reset_taken && outputs.drive.reset_taken);
+    assert_eq!(levels(&outputs), both(Level::None));
+    assert_eq!(machine.step().nck.channel.selection.mode, Mode::Sg);
+}
+
+/// S840D-STOP-007, S840D-STOP-090, S840D-P-16, S840D-P-45: only one channel sees the violation. The other one has the
+/// stop one cycle later; RESET waits for both and then acknowledges both.
+#[test]
+fn stop_is_told_and_acknowledged_jointly() {
+    let mut machine = Machine::powered(&parameters(), false, None);
+    machine.both(|local| local.sge.sbh_sg_off = false);
+    let _ = machine.at(9);
+    machine.inputs.nck.position = Position(401);
+    assert_eq!(levels(&machine.at(10)), (Level::C, Level::None));
+    machine.inputs.nck.position = Position(0);
+    assert_eq!(levels(&machine.at(11)), both(Level::C));
+    let outputs = machine.at(19);
+    assert_eq!(outputs.nck.channel.stop.phase, Phase::SbhInt);
+    assert_eq!(outputs.drive.channel.stop.phase, Phase::Braking);
+    let outputs = machine.once(|local| local.reset = true);
+    assert!(!outputs.nck.reset_taken && !outputs.drive.reset_taken);
+    assert_eq!(outputs.drive.channel.stop.phase, Phase::SbhInt);
+    let outputs = machine.once(|local| local.reset = true);
+    assert!(outputs.nck.reset_taken && outputs.drive.reset_taken);
+    for _ in 0..20 {
+        assert_eq!(levels(&machine.step()), both(Level::None));
+    }
+}
+
+/// S840D-EXT-009, S840D-EXT-013, S840D-STOP-007: external STOP A of one channel acts in both, one cycle later in the
+/// other, and ends with its signal.
+#[test]
+fn external_stop_of_one_channel() {
+    let mut machine = Machine::powered(&parameters(), false, None);
+    let _ = machine.at(9);
+    machine.inputs.nck.sge.stop_a_off = false;
+    let outputs = machine.at(10);
+    assert_eq!(levels(&outputs), (Level::A, Level::None));
+    assert!(!outputs.nck.channel.pulses.enable && outputs.drive.channel.pulses.enable);
+    assert!(!outputs.nck.alarms.contains(Alarm::StopA));
+    assert_eq!(levels(&machine.at(11)), both(Level::A));
+    machine.inputs.nck.sge.stop_a_off = true;
+    assert_eq!(levels(&machine.at(12)), (Level::None, Level::A));
+    assert_eq!(levels(&machine.at(13)), both(Level::None));
+}
+
+/// S840D-SBR-003, S840D-P-11: the axis accelerates while STOP C brakes: STOP A in the cycle in which it is seen.
+#[test]
+fn braking_ramp_cancels_the_pulses() {
+    let mut machine = Machine::powered(&parameters(), false, None);
+    machine.both(|local| local.sge.sbh_sg_off = false);
+    let _ = machine.at(9);
+    machine.both(move_to(500));
+    assert_eq!(levels(&machine.at(10)), both(Level::C));
+    // The tolerance is 300 mm/min = 60 um a cycle over the 500 um of the start.
+    machine.both(move_to(1_060));
+    assert_eq!(levels(&machine.at(11)), both(Level::C));
+    machine.both(move_to(1_621));
+    let outputs = machine.at(12);
+    assert_eq!(levels(&outputs), both(Level::A));
+    assert!(outputs.nck.alarms.contains(Alarm::BrakingRamp));
+    assert!(!outputs.nck.channel.pulses.enable && !outputs.drive.channel.pulses.enable);
+}
+
+/// S840D-PARAM-504, S840D-ARCH-505: before run-up the pulses are off, whatever is selected.
+#[test]
+fn pulses_are_off_before_run_up() {
+    let mut machine = Machine::powered(&parameters(), false, None);
+    machine.both(|local| local.run_up = false);
+    let outputs = machine.step();
+    assert!(!outputs.nck.channel.pulses.enable && !outputs.drive.channel.pulses.enable);
+    machine.both(|local| local.run_up = true);
+    assert!(machine.step().nck.channel.pulses.enable);
+}
+
+/// S840D-P-34, S840D-P-44: a machine without causes comes back to work with RESET from every stop that RESET
+/// acknowledges.
+#[test]
+fn without_cause_every_stop_c_d_e_is_acknowledged() {
+    for (value, stop) in [
+        (2, InternalStop::C),
+        (3, InternalStop::D),
+        (4, InternalStop::E),
+    ] {
+        let parameters = Parameters {
+            velo_stop_mode: value,
+            function_enable: ENABLED,
+            ..parameters()
+        };
+        let mut machine = Machine::powered(&parameters, false, None);
+        machine.both(|local| local.sge.sbh_sg_off = false);
+        let _ = machine.at(9);
+        machine.both(move_to(401));
+        assert_eq!(machine.at(10).drive.channel.stop.internal, stop);
+        let _ = machine.at(30);
+        machine.both(|local| local.reset = true);
+        assert_eq!(
+            machine.first(40, |o| levels(o) == both(Level::None)),
+            Some(31)
+        );
+        assert_eq!(
+            machine.state().nck.channel.stop.internal,
+            InternalStop::None
+        );
+    }
+}
+
+/// S840D-OVR-001, S840D-OVR-003, S840D-P-08, S840D-P-09: the override lowers the limit of SG2 after t_vel and raises it
+/// at once.
+#[test]
+fn override_follows_the_rules_of_the_stages() {
+    let mut factors = [100; 16];
+    factors[3] = 50;
+    let slowed = Parameters {
+        velo_ovr_factor: factors,
+        ..parameters()
+    };
+    let mut machine = Machine::powered(&slowed, false, None);
+    machine.both(|local| {
+        local.sge.sbh_sg_off = false;
+        local.sge.sg_0 = true;
+    });
+    let _ = machine.at(9);
+    machine.both(|local| {
+        local.sge.override_0 = true;
+        local.sge.override_1 = true;
+    });
+    assert_eq!(machine.at(18).nck.channel.selection.limit, Speed(400));
+    assert_eq!(machine.at(19).drive.channel.selection.limit, Speed(200));
+    machine.both(|local| local.sge.override_0 = false);
+    assert_eq!(machine.at(20).nck.channel.selection.limit, Speed(400));
+
+    // It is the reduced limit that is watched.
+    machine.both(|local| local.sge.override_0 = true);
+    machine.both(move_to(200));
+    assert_eq!(levels(&machine.at(40)), both(Level::None));
+    machine.both(move_to(401));
+    assert_eq!(levels(&machine.at(41)), both(Level::C));
+}
+
+/// S840D-FREQ-001, S840D-FREQ-002: with one encoder its limit frequency is watched while SG or SBH is active: 300 kHz are
+/// 3600 pulses a cycle.
+#[test]
+fn encoder_limit_frequency_stops() {
+    let mut machine = Machine::powered(&parameters(), false, None);
+    machine.both(|local| local.encoder_speed = Speed(3_601));
+    assert_eq!(levels(&machine.at(9)), both(Level::None));
+    machine.both(|local| {
+        local.sge.sbh_sg_off = false;
+        local.encoder_speed = Speed(3_600);
+    });
+    assert_eq!(levels(&machine.at(10)), both(Level::None));
+    machine.both(|local| local.encoder_speed = Speed(3_601));
+    let outputs = machine.at(11);
+    assert_eq!(levels(&outputs), both(Level::C));
+    assert!(outputs.nck.alarms.contains(Alarm::SpeedLimit));
+}
+
+/// S840D-EXT-015, S840D-STOP-040: an error of the safe logic is STOP D until RESET with its cause gone.
+#[test]
+fn error_of_the_safe_logic_stops() {
+    let mut machine = Machine::powered(&parameters(), false, None);
+    let _ = machine.at(9);
+    machine.both(|local| local.spl_error = true);
+    assert_eq!(levels(&machine.at(10)), both(Level::D));
+    assert_eq!(machine.at(19).nck.channel.stop.phase, Phase::SbhInt);
+    assert_eq!(
+        levels(&machine.once(|local| local.reset = true)),
+        both(Level::D)
+    );
+    machine.both(|local| local.spl_error = false);
+    assert_eq!(levels(&machine.step()), both(Level::D));
+    // The request of the other channel is one cycle old.
+    assert_eq!(
+        levels(&machine.once(|local| local.reset = true)),
+        both(Level::D)
+    );
+    assert_eq!(levels(&machine.step()), both(Level::None));
+}
+
+/// S840D-EXT-005, S840D-EXT-010, S840D-EXT-011, S840D-EXT-012: each signal requests its stop; a stop held by one channel
+/// alone is none for the comparison, however long.
+#[test]
+fn external_stops_by_signal() {
+    type Request = fn(&mut Local);
+    let signals: [(Request, Level); 3] = [
+        (|local| local.sge.stop_c_off = false, Level::C),
+        (|local| local.sge.stop_d_off = false, Level::D),
+        (|local| local.sge.stop_e_off = false, Level::E),
+    ];
+    for (request, level) in signals {
+        let mut machine = Machine::powered(&parameters(), false, None);
+        let _ = machine.at(9);
+        request(&mut machine.inputs.nck);
+        assert_eq!(levels(&machine.at(10)), (level, Level::None));
+        assert_eq!(levels(&machine.at(11)), both(level));
+        assert_eq!(machine.first(400, |o| o.nck.channel.fault.interlock), None);
+        let outputs = machine.step();
+        assert_eq!(levels(&outputs), both(level));
+        assert_eq!(outputs.drive.channel.selection.mode, Mode::SbhForced);
+    }
+}
+
+/// S840D-SG-002, S840D-SG-009: the signals show the stage that is monitored.
+#[test]
+fn stages_are_shown() {
+    for (sg_1, sg_0) in [(false, false), (false, true), (true, false), (true, true)] {
+        let mut machine = Machine::powered(&parameters(), false, None);
+        machine.both(|local| {
+            local.sge.sbh_sg_off = false;
+            local.sge.sg_0 = sg_0;
+            local.sge.sg_1 = sg_1;
+        });
+        let sga = machine.step().drive.sga;
+        assert!(sga.sbh_sg_active && !sga.sbh_active);
+        assert_eq!((sga.sg_active_1, sga.sg_active_0), (sg_1, sg_0));
+    }
+}
+
+/// S840D-STOP-021, S840D-PARAM-024: STOP B cancels the pulses as soon as the axis is slower than STANDSTILL_VELO_TOL, here
+/// 20 mm/min = 4 um a cycle.
+#[test]
+fn stop_b_ends_at_standstill() {
+    let patient = Parameters {
+        standstill_velo_tol: 20_000,
+        pulse_disable_delay: 10_000,
+        ..parameters()
+    };
+    let mut machine = Machine::powered(&patient, false, None);
+    machine.both(|local| {
+        local.sge.sbh_sg_off = false;
+        local.sge.sbh_off = false;
+    });
+    let _ = machine.at(9);
+    machine.both(move_to(1_001));
+    assert_eq!(levels(&machine.at(10)), both(Level::B));
+    for cycle in 11..20 {
+        machine.both(|local| local.position.0 += 4);
+        assert_eq!(levels(&machine.at(cycle)), both(Level::B));
+    }
+    machine.both(|local| local.position.0 += 3);
+    assert_eq!(levels(&machine.at(20)), both(Level::A));
+}
