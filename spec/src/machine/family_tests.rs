@@ -311,8 +311,8 @@ const EXAMPLES: [(&str, &str, &str); 24] = [
     ),
     (
         "an enabled plus cam lies outside the modulo range",
-        "axis.C = { kind = \"rotary\", functions = [\"SBH/SG\", \"SN4+\"], CAM_POS_PLUS = [\"0 deg\", \"0 deg\", \"0 deg\", \"368639.9 deg\"] }",
-        "axis.C = { kind = \"rotary\", functions = [\"SBH/SG\", \"SN4+\"], CAM_POS_PLUS = [\"0 deg\", \"0 deg\", \"0 deg\", \"368639.899 deg\"] }",
+        "axis.C = { kind = \"rotary\", functions = [\"SBH/SG\", \"SN4+\"], CAM_POS_PLUS = [\"0 deg\", \"0 deg\", \"0 deg\", \"737279.9 deg\"] }",
+        "axis.C = { kind = \"rotary\", functions = [\"SBH/SG\", \"SN4+\"], CAM_POS_PLUS = [\"0 deg\", \"0 deg\", \"0 deg\", \"737279.899 deg\"] }",
     ),
     (
         "an enabled minus cam lies outside the modulo range",

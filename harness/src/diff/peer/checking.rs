@@ -223,6 +223,12 @@ fn history(p: &Params, mutant: Option<Mutant>) -> Refusable {
         vec![truth(), upto(p.value("pos_max"))],
         history::State::INITIAL,
         move |state, i, o| {
+            // The table may start with a position beside `stored` = FALSE, which nothing reads.
+            let state = if state.stored {
+                state
+            } else {
+                history::State::INITIAL
+            };
             let inputs = history::Inputs {
                 power_on: i[0] != 0,
                 save: i[1] != 0,
