@@ -2,7 +2,10 @@
 
 use std::collections::BTreeSet;
 
-use stillpoint::diff::{Compared, Pairing, exhaustive, pairings, peer, sample, to_json};
+use stillpoint::diff::product::Product;
+use stillpoint::diff::random::Random;
+use stillpoint::diff::slices::slices;
+use stillpoint::diff::{Compared, Pairing, bytes, exhaustive, pairings, peer, sample, to_json};
 use stillpoint::subject::{self, Readings};
 use stillpoint_model::Options;
 use stillpoint_monitors::mutant::Mutant;
@@ -25,9 +28,12 @@ fn all() -> Vec<Pairing> {
     all
 }
 
-/// The machines alone: what is composed of several is compared by random runs only.
-fn alone() -> Vec<Pairing> {
-    all().into_iter().filter(|p| !p.composed).collect()
+/// What is explored: the machines alone, and the slices of what is composed of several.
+fn pieces() -> Vec<Pairing> {
+    let pieces = all()
+        .into_iter()
+        .flat_map(|p| slices(&p).unwrap_or_else(|e| panic!("{e}")));
+    pieces.collect()
 }
 
 fn explore(pairing: &Pairing) -> Compared {
@@ -51,12 +57,13 @@ fn machine(mutant: Mutant) -> &'static str {
 
 #[test]
 fn no_reachable_pair_differs() {
-    let compared: Vec<Compared> = alone().iter().map(explore).collect();
+    let compared: Vec<Compared> = pieces().iter().map(explore).collect();
     let machines: BTreeSet<&str> = compared.iter().map(|c| c.machine.as_str()).collect();
+    let known = peer::MACHINES.into_iter().chain(peer::SYSTEMS);
     assert_eq!(
         machines,
-        peer::MACHINES.into_iter().map(|(name, _)| name).collect(),
-        "every machine that has a monitor"
+        known.map(|(name, _)| name).collect(),
+        "everything that has a monitor"
     );
     for one in &compared {
         assert!(
@@ -70,7 +77,7 @@ fn no_reachable_pair_differs() {
             "{one:?}"
         );
     }
-    let json = to_json(&compared, None, &[]);
+    let json = to_json(&compared, None);
     assert_eq!(json["divergences"], 0);
     assert_eq!(json["complete"], true);
     assert!(
@@ -80,26 +87,13 @@ fn no_reachable_pair_differs() {
 }
 
 #[test]
-fn the_composed_channel_is_compared() {
-    let composed: BTreeSet<String> = all()
-        .into_iter()
-        .filter(|p| p.composed)
-        .map(|p| p.machine)
-        .collect();
-    let systems = peer::SYSTEMS.into_iter().map(|(name, _)| name.to_owned());
-    assert_eq!(composed, systems.collect());
-}
-
-#[test]
 fn every_wrong_monitor_is_found_by_exploration() {
-    let pairings = all();
+    let pairings = pieces();
     assert!(Mutant::ALL.len() >= 17);
     let mut survivors = Vec::new();
     for mutant in Mutant::ALL {
         let machine = machine(*mutant);
-        let mut concerned = pairings
-            .iter()
-            .filter(|p| p.machine == machine && !p.composed);
+        let mut concerned = pairings.iter().filter(|p| p.machine == machine);
         let options = Options {
             witnesses: false,
             stop_when_decided: true,
@@ -120,9 +114,9 @@ fn every_wrong_monitor_is_found_by_exploration() {
             "{mutant:?}: no diagram with a mark\n{text}"
         );
     }
-    // Those of the composed channel, and those that need other parameters than the default ones: random runs have both.
+    // Those that need other parameters than the default ones: random runs have them.
     for mutant in survivors {
-        assert!(differs(&pairings, mutant), "{mutant:?} survives");
+        assert!(differs(&all(), mutant), "{mutant:?} survives");
     }
 }
 
@@ -156,8 +150,8 @@ fn random_runs_find_no_difference_and_repeat() {
     let cycles: u128 = once.iter().map(|c| c.cycles).sum();
     assert!(cycles >= 3_000_000, "{cycles}");
     assert_eq!(
-        to_json(&once, Some(3), &[]),
-        to_json(&runs(3), Some(3), &[]),
+        to_json(&once, Some(3)),
+        to_json(&runs(3), Some(3)),
         "the number of threads does not matter"
     );
 }
@@ -168,4 +162,30 @@ fn random_runs_find_every_wrong_monitor() {
     for mutant in Mutant::ALL {
         assert!(differs(&pairings, *mutant), "random runs miss {mutant:?}");
     }
+}
+
+/// What the fuzz target does with its bytes: the production monitors agree, a wrong one is found.
+#[test]
+fn runs_described_by_bytes_find_a_wrong_monitor() {
+    let pairings = all();
+    let pairing = pairings
+        .iter()
+        .find(|p| p.machine == "stop")
+        .expect("the machine");
+    let mut random = Random::new(5);
+    let strings: Vec<Vec<u8>> = (0..400)
+        .map(|_| (0..120).map(|_| random.below(256) as u8).collect())
+        .collect();
+    let found = |mutant| {
+        let monitor = peer::peer("stop", &pairing.bound, mutant)
+            .expect("the parameters fit")
+            .expect("a monitor");
+        let product = Product::new(&pairing.bound, monitor.as_ref()).expect("both sides fit");
+        let inputs = pairing.bound.inputs.len();
+        strings
+            .iter()
+            .any(|data| bytes::run(&product, inputs, data).is_some())
+    };
+    assert!(!found(None));
+    assert!(found(Some(Mutant::StopLowerDisplaces)));
 }

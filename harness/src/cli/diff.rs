@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use clap::Args;
+use stillpoint::diff::slices::slices;
 use stillpoint::diff::{Compared, DiffError, Pairing, exhaustive, pairings, sample, text, to_json};
 use stillpoint::subject::{self, Readings};
 use stillpoint_model::{Limits, Options};
@@ -57,9 +58,6 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
             subject.name
         )));
     }
-    let (composed, alone): (Vec<Pairing>, Vec<Pairing>) =
-        pairings.iter().cloned().partition(|p| p.composed);
-    let mut left_out = Vec::new();
     let compared = match arguments.random {
         Some(cycles) => sample(
             &pairings,
@@ -69,11 +67,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
             arguments.limits.threads,
         )
         .map_err(fail)?,
-        None => {
-            left_out = composed.iter().map(|p| p.machine.clone()).collect();
-            left_out.dedup();
-            explore(&alone, mutant, &arguments.limits).map_err(fail)?
-        }
+        None => explore(&pairings, mutant, &arguments.limits).map_err(fail)?,
     };
     let what = match arguments.random {
         Some(_) => format!("random runs, seed {}: a test, not a proof", arguments.seed),
@@ -81,9 +75,9 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     };
     let seed = arguments.random.map(|_| arguments.seed);
     if arguments.json {
-        emit(&format!("{:#}\n", to_json(&compared, seed, &left_out)));
+        emit(&format!("{:#}\n", to_json(&compared, seed)));
     } else {
-        emit(&text(&compared, &what, &left_out));
+        emit(&text(&compared, &what));
     }
     Ok(if compared.iter().any(|c| c.divergence.is_some()) {
         1
@@ -112,5 +106,11 @@ fn explore(
         };
         exhaustive(pairing, mutant, &options, &mut Line::new(&pairing.machine))
     };
-    pairings.iter().map(one).collect()
+    let mut compared = Vec::new();
+    for pairing in pairings {
+        for slice in slices(pairing)? {
+            compared.push(one(&slice)?);
+        }
+    }
+    Ok(compared)
 }

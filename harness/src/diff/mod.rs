@@ -5,6 +5,7 @@ pub mod pairing;
 pub mod peer;
 pub mod product;
 pub mod random;
+pub mod slices;
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
@@ -28,6 +29,8 @@ pub struct Compared {
     pub axes: Vec<String>,
     /// Parameters.
     pub params: Vec<(String, String)>,
+    /// Inputs that kept one value.
+    pub held: Vec<(String, i32)>,
     /// Reachable pairs of states; 0 for random runs.
     pub pairs: u64,
     /// Cycles in which both sides were compared.
@@ -71,7 +74,10 @@ pub fn exhaustive(
     progress: &mut dyn Progress,
 ) -> Result<Compared, DiffError> {
     let peer = monitor(pairing, mutant)?;
-    let product = Product::new(&pairing.bound, peer.as_ref()).map_err(DiffError::Sides)?;
+    let mut product = Product::new(&pairing.bound, peer.as_ref()).map_err(DiffError::Sides)?;
+    for (input, value) in &pairing.held {
+        product.hold(input, *value).map_err(DiffError::Sides)?;
+    }
     let claim = [Property {
         id: pairing.machine.clone(),
         form: Form::Always {
@@ -103,6 +109,7 @@ pub fn exhaustive(
         machine: pairing.machine.clone(),
         axes: pairing.axes.clone(),
         params: params(&pairing.bound),
+        held: pairing.held.clone(),
         pairs: report.states,
         cycles: report.transitions,
         outputs: report.transitions * product.outputs() as u128,
@@ -217,6 +224,7 @@ impl Compared {
             machine: pairing.machine.clone(),
             axes: pairing.axes.clone(),
             params: params(&pairing.bound),
+            held: Vec::new(),
             pairs: 0,
             cycles: 0,
             outputs: 0,
@@ -236,8 +244,8 @@ impl Compared {
     }
 }
 
-/// The report for readers; `left_out` names what was not compared.
-pub fn text(compared: &[Compared], what: &str, left_out: &[String]) -> String {
+/// The report for readers.
+pub fn text(compared: &[Compared], what: &str) -> String {
     let mut out = String::new();
     let divergences = compared.iter().filter(|c| c.divergence.is_some()).count();
     let sum = |f: &dyn Fn(&Compared) -> u128| grouped(compared.iter().map(f).sum());
@@ -252,12 +260,6 @@ pub fn text(compared: &[Compared], what: &str, left_out: &[String]) -> String {
         sum(&|c| c.cycles),
         sum(&|c| c.outputs),
     ));
-    if !left_out.is_empty() {
-        out.push_str(&format!(
-            "Not explored, several machines with too many inputs at once: {}; --random compares them.\n\n",
-            left_out.join(", ")
-        ));
-    }
     for c in compared {
         let params: Vec<String> = c.params.iter().map(|(n, v)| format!("{n} = {v}")).collect();
         let axes = if c.axes.is_empty() {
@@ -266,6 +268,10 @@ pub fn text(compared: &[Compared], what: &str, left_out: &[String]) -> String {
             format!(" of {}", c.axes.join(", "))
         };
         out.push_str(&format!("{}{axes}: {}\n", c.machine, params.join(", ")));
+        if !c.held.is_empty() {
+            let held: Vec<String> = c.held.iter().map(|(n, v)| format!("{n} = {v}")).collect();
+            out.push_str(&format!("  inputs held: {}\n", held.join(", ")));
+        }
         out.push_str(&format!(
             "  {} pairs, {} cycles, {} outputs{}\n",
             grouped(u128::from(c.pairs)),
@@ -287,7 +293,7 @@ pub fn text(compared: &[Compared], what: &str, left_out: &[String]) -> String {
 }
 
 /// The report as JSON.
-pub fn to_json(compared: &[Compared], seed: Option<u64>, left_out: &[String]) -> Value {
+pub fn to_json(compared: &[Compared], seed: Option<u64>) -> Value {
     let number = |n: u128| u64::try_from(n).unwrap_or(u64::MAX);
     json!({
         "pairs": compared.iter().map(|c| c.pairs).sum::<u64>(),
@@ -296,9 +302,9 @@ pub fn to_json(compared: &[Compared], seed: Option<u64>, left_out: &[String]) ->
         "divergences": compared.iter().filter(|c| c.divergence.is_some()).count(),
         "complete": compared.iter().all(|c| c.complete),
         "seed": seed,
-        "left_out": left_out,
         "machines": compared.iter().map(|c| json!({
             "machine": c.machine, "axes": c.axes,
+            "held": c.held.iter().cloned().collect::<BTreeMap<_, _>>(),
             "parameters": c.params.iter().cloned().collect::<BTreeMap<_, _>>(),
             "pairs": c.pairs, "cycles": number(c.cycles), "outputs_compared": number(c.outputs),
             "complete": c.complete, "diagram": c.divergence.as_ref().map(Diagram::text),

@@ -16,8 +16,10 @@ use crate::subject::{Subject, Task};
 pub struct Pairing {
     /// Machine or system.
     pub machine: String,
-    /// Several machines together: too many inputs at once to be explored, random runs only.
+    /// Several machines together: too many inputs at once to be explored in one piece, see [`super::slices`].
     pub composed: bool,
+    /// Inputs that keep one value in an exploration.
+    pub held: Vec<(String, i32)>,
     /// The axes these parameters stand for.
     pub axes: Vec<String>,
     /// It with its parameters; every input of a machine is free.
@@ -116,6 +118,7 @@ fn add(
         None => out.push(Pairing {
             machine: name.to_owned(),
             composed,
+            held: Vec::new(),
             axes: axes.to_vec(),
             bound,
         }),

@@ -68,7 +68,6 @@ pub struct Product<'a> {
     /// For each input of the monitor: the table input.
     feeds: Vec<usize>,
     compared: Vec<(Source, Ty)>,
-    combinations: u128,
 }
 
 /// The work area of a product.
@@ -139,7 +138,6 @@ impl<'a> Product<'a> {
             .map(|(lo, hi)| Domain { lo: *lo, hi: *hi })
             .collect();
         domains.extend(peer.domains());
-        let combinations = values.iter().map(|v| u128::from(v.count())).product();
         let table = Table::find(&system.name, system.fingerprint());
         Ok(Self {
             bound,
@@ -149,8 +147,19 @@ impl<'a> Product<'a> {
             values,
             feeds,
             compared,
-            combinations,
         })
+    }
+
+    /// Holds an input at one value.
+    ///
+    /// # Errors
+    /// There is no such input: a sentence.
+    pub fn hold(&mut self, input: &str, value: i32) -> Result<(), String> {
+        let system = &self.bound.system;
+        let found = system.inputs.iter().position(|i| is(&i.name, input));
+        let k = found.ok_or_else(|| format!("table {} has no input `{input}`", system.name))?;
+        self.values[k] = Values::Range(value, value);
+        Ok(())
     }
 
     /// Number of outputs compared in each cycle.
@@ -383,7 +392,7 @@ impl System for Product<'_> {
     }
 
     fn combinations(&self) -> u128 {
-        self.combinations
+        self.values.iter().map(|v| u128::from(v.count())).product()
     }
 
     fn initial<C: Choices>(&self, _: &mut Work, choices: &mut C, state: &mut [i32]) {

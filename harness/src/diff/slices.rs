@@ -1,0 +1,118 @@
+//! Parts of a composed system that can be explored: some inputs move freely, the others are held.
+//!
+//! All inputs at once are too many. What each slice leaves out another one has, and random runs move everything.
+
+use std::collections::BTreeMap;
+
+use stillpoint_spec::bind::Bound;
+
+use super::{DiffError, Pairing};
+
+/// Inputs that move together, and the parameters that make them act.
+struct Slice {
+    system: &'static str,
+    params: &'static [(&'static str, i64)],
+    free: &'static [&'static str],
+}
+
+/// The value of an input that is held: nothing is asked for, a speed stage is selected. All others are 0.
+const CALM: [(&str, i32); 5] = [
+    ("terminals.a", 1),
+    ("terminals.c", 1),
+    ("terminals.d", 1),
+    ("terminals.e", 1),
+    ("selection.sge_sbh", 1),
+];
+
+const SLICES: [Slice; 3] = [
+    // Selection, monitors and stops.
+    Slice {
+        system: "axis_core",
+        params: &[("tested", 0), ("peer", 0), ("se", 1)],
+        free: &[
+            "power_on",
+            "reset",
+            "terminals.a",
+            "terminals.c",
+            "selection.sge_sbh_sg",
+            "selection.sge_sbh",
+            "sg_select",
+            "se_active",
+            "se_select",
+            "position",
+            "discrepancy",
+        ],
+    },
+    // Test stop and pulse cancellation.
+    Slice {
+        system: "axis_core",
+        params: &[("tested", 1), ("peer", 0), ("internal", 1)],
+        free: &[
+            "power_on",
+            "reset",
+            "terminals.a",
+            "terminals.c",
+            "selection.sge_sbh_sg",
+            "position",
+            "test_select",
+            "feedback",
+            "discrepancy",
+        ],
+    },
+    // What the other channel passes on.
+    Slice {
+        system: "axis_core",
+        params: &[("tested", 0), ("peer", 1)],
+        free: &[
+            "power_on",
+            "reset",
+            "terminals.a",
+            "selection.sge_sbh_sg",
+            "position",
+            "discrepancy",
+            "rx_fault",
+            "rx_internal",
+            "rx_external",
+        ],
+    },
+];
+
+/// The slices of a composed pairing; a machine alone is one slice with all its inputs.
+///
+/// # Errors
+/// Parameters that do not fit each other.
+pub fn slices(pairing: &Pairing) -> Result<Vec<Pairing>, DiffError> {
+    if !pairing.composed {
+        return Ok(vec![pairing.clone()]);
+    }
+    let own = SLICES.iter().filter(|s| s.system == pairing.machine);
+    own.map(|slice| cut(pairing, slice)).collect()
+}
+
+fn cut(pairing: &Pairing, slice: &Slice) -> Result<Pairing, DiffError> {
+    let system = &pairing.bound.system;
+    let mut given = BTreeMap::new();
+    for (k, param) in system.params.iter().enumerate() {
+        if param.reading.is_none() {
+            let name = param.var.name.as_str();
+            let set = slice.params.iter().find(|(n, _)| *n == name);
+            let value = set.map_or(i64::from(pairing.bound.values[k]), |(_, v)| *v);
+            given.insert(name.to_owned(), vec![value]);
+        }
+    }
+    let bound = Bound::new(system.clone(), &given, &BTreeMap::new())
+        .map_err(|e| DiffError::Sides(format!("{}: {e}", pairing.machine)))?;
+    let is = |port: &str, name: &str| port == name || port.ends_with(&format!(".{name}"));
+    let mut held = Vec::new();
+    for (input, (lo, _)) in bound.system.inputs.iter().zip(&bound.inputs) {
+        if !slice.free.iter().any(|name| is(&input.name, name)) {
+            let calm = CALM.iter().find(|(name, _)| is(&input.name, name));
+            held.push((input.name.clone(), calm.map_or(*lo, |(_, v)| *v)));
+        }
+    }
+    Ok(Pairing {
+        bound,
+        held,
+        ..pairing.clone()
+    })
+}
