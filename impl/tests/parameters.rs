@@ -264,6 +264,12 @@ fn enabled_functions_reach_their_monitors() {
                 .se_sn_enabled
         );
     }
+    // There is no ninth cam, whatever an enable word that is not valid has there.
+    let beyond = Parameters {
+        function_enable: 1 << 16,
+        ..Parameters::default()
+    };
+    assert!(!beyond.cam_enabled(8));
     let mut slip = enabled(0b1001);
     slip.installation.encoders = Encoders::Two;
     let slip = slip.validate().expect("plausible");
