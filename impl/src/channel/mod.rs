@@ -202,16 +202,6 @@ pub struct Outputs {
 }
 
 impl Outputs {
-    /// A violation of a monitor is present in this cycle.
-    pub const fn violated(&self) -> bool {
-        self.standstill.violated
-            || self.speed.violated
-            || self.speed.encoder_violated
-            || self.limit_switch.upper
-            || self.limit_switch.lower
-            || self.ramp.violated
-    }
-
     /// The effective level.
     pub const fn level(&self) -> Level {
         self.stop.level
