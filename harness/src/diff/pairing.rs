@@ -9,7 +9,7 @@ use stillpoint_spec::ir::System;
 
 use super::random::Random;
 use super::{DiffError, peer};
-use crate::subject::{Subject, Task};
+use crate::subject::Subject;
 
 /// A machine or system of the specification under the parameters of one or more runs.
 #[derive(Debug, Clone)]
@@ -57,14 +57,14 @@ pub fn pairings(subject: &Subject) -> Result<Vec<Pairing>, DiffError> {
             let mut instances = task.bound.system.instances.iter();
             if instances.any(|i| i.machine == name) {
                 let system = spec.open_machine(name)?;
-                let given = parameters_of(task, &system);
+                let given = parameters_of(&task.bound, &system);
                 add(&mut out, name, false, &task.axes, system, given)?;
             }
         }
         for (name, _) in peer::SYSTEMS {
             if task.bound.system.name.ends_with(&format!("/{name}")) {
                 let system = task.bound.system.clone();
-                let given = parameters_of(task, &system);
+                let given = parameters_of(&task.bound, &system);
                 add(&mut out, name, true, &task.axes, system, given)?;
             }
         }
@@ -75,9 +75,8 @@ pub fn pairings(subject: &Subject) -> Result<Vec<Pairing>, DiffError> {
     Ok(out)
 }
 
-/// The values that the run gives to parameters of these names.
-fn parameters_of(task: &Task, system: &System) -> BTreeMap<String, Vec<i64>> {
-    let run = &task.bound;
+/// The values that a run gives to the parameters of `system`, by their names.
+pub(super) fn parameters_of(run: &Bound, system: &System) -> BTreeMap<String, Vec<i64>> {
     let mut given = BTreeMap::new();
     for param in system.params.iter().filter(|p| p.reading.is_none()) {
         let name = &param.var.name;

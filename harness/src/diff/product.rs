@@ -52,7 +52,7 @@ impl Values {
 }
 
 /// Whether a port of a table has this name: alone for a machine on its own, with its instance for a system.
-fn is(port: &str, name: &str) -> bool {
+pub(super) fn is(port: &str, name: &str) -> bool {
     port == name || port.split_once('.').is_some_and(|(_, short)| short == name)
 }
 

@@ -6,6 +6,8 @@ use std::collections::BTreeMap;
 
 use stillpoint_spec::bind::Bound;
 
+use super::pairing::parameters_of;
+use super::product::is;
 use super::{DiffError, Pairing};
 
 /// Inputs that move together, and the parameters that make them act.
@@ -91,18 +93,12 @@ pub fn slices(pairing: &Pairing) -> Result<Vec<Pairing>, DiffError> {
 
 fn cut(pairing: &Pairing, slice: &Slice) -> Result<Pairing, DiffError> {
     let system = &pairing.bound.system;
-    let mut given = BTreeMap::new();
-    for (k, param) in system.params.iter().enumerate() {
-        if param.reading.is_none() {
-            let name = param.var.name.as_str();
-            let set = slice.params.iter().find(|(n, _)| *n == name);
-            let value = set.map_or(i64::from(pairing.bound.values[k]), |(_, v)| *v);
-            given.insert(name.to_owned(), vec![value]);
-        }
+    let mut given = parameters_of(&pairing.bound, system);
+    for (name, value) in slice.params {
+        given.insert((*name).to_owned(), vec![*value]);
     }
     let bound = Bound::new(system.clone(), &given, &BTreeMap::new())
         .map_err(|e| DiffError::Sides(format!("{}: {e}", pairing.machine)))?;
-    let is = |port: &str, name: &str| port == name || port.ends_with(&format!(".{name}"));
     let mut held = Vec::new();
     for (input, (lo, _)) in bound.system.inputs.iter().zip(&bound.inputs) {
         if !slice.free.iter().any(|name| is(&input.name, name)) {

@@ -23,7 +23,7 @@ pub(super) struct Adapter {
     allowed: Vec<(usize, Values)>,
     domains: Vec<Domain>,
     initial: Vec<i32>,
-    kept: Vec<(usize, &'static str)>,
+    kept: Vec<(usize, &'static str, &'static str)>,
     step: Box<Step>,
 }
 
@@ -79,8 +79,18 @@ impl Adapter {
     }
 
     /// A cell that starts with the value of a state variable of the table: non-volatile state.
-    pub(super) fn kept(mut self, cell: usize, state: &'static str) -> Self {
-        self.kept.push((cell, state));
+    pub(super) fn kept(self, cell: usize, state: &'static str) -> Self {
+        self.kept_where(cell, state, state)
+    }
+
+    /// The same where another state variable of the table is not 0; else the cell keeps its initial value.
+    pub(super) fn kept_where(
+        mut self,
+        cell: usize,
+        state: &'static str,
+        condition: &'static str,
+    ) -> Self {
+        self.kept.push((cell, state, condition));
         self
     }
 }
@@ -117,8 +127,10 @@ impl Peer for Adapter {
 
     fn initial(&self, table: &dyn Fn(&str) -> i32) -> Vec<i32> {
         let mut cells = self.initial.clone();
-        for (cell, name) in &self.kept {
-            cells[*cell] = table(name);
+        for (cell, name, condition) in &self.kept {
+            if table(condition) != 0 {
+                cells[*cell] = table(name);
+            }
         }
         cells
     }

@@ -223,12 +223,6 @@ fn history(p: &Params, mutant: Option<Mutant>) -> Refusable {
         vec![truth(), upto(p.value("pos_max"))],
         history::State::INITIAL,
         move |state, i, o| {
-            // The table may start with a position beside `stored` = FALSE, which nothing reads.
-            let state = if state.stored {
-                state
-            } else {
-                history::State::INITIAL
-            };
             let inputs = history::Inputs {
                 power_on: i[0] != 0,
                 save: i[1] != 0,
@@ -244,7 +238,8 @@ fn history(p: &Params, mutant: Option<Mutant>) -> Refusable {
     )
     .without(&["save_sge"])
     .kept(0, "stored")
-    .kept(1, "standstill"))
+    // The table may start with a position that is not stored, which nothing reads; the monitor then has none.
+    .kept_where(1, "standstill", "stored"))
 }
 
 fn test_interval(p: &Params, mutant: Option<Mutant>) -> Refusable {
