@@ -13,6 +13,13 @@ struct Read {
     weight: u128,
 }
 
+/// A place in the reads of one run.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Mark {
+    at: usize,
+    seen: u64,
+}
+
 /// Enumerates the choices of one cycle in lexicographic order of the reads, only over what is really read.
 ///
 /// The caller runs the cycle between `begin` and `advance`, until `advance` says that no vector is left.
@@ -69,6 +76,40 @@ impl Odometer {
             self.len -= 1;
         }
         false
+    }
+
+    /// The reads of this run so far: what is read beyond them can be enumerated by itself.
+    #[inline]
+    pub(crate) fn mark(&self) -> Mark {
+        Mark {
+            at: self.at,
+            seen: self.seen,
+        }
+    }
+
+    /// The next vector of the reads beyond a mark, to be read from the mark on; false if there is none. What was read
+    /// beyond the mark is forgotten then.
+    #[inline]
+    pub(crate) fn advance_beyond(&mut self, mark: Mark) -> bool {
+        let last = self.at;
+        self.at = mark.at;
+        self.seen = mark.seen;
+        self.len = last;
+        while self.len > mark.at {
+            let read = &mut self.reads[self.len - 1];
+            read.value += 1;
+            if read.value < read.size {
+                return true;
+            }
+            self.len -= 1;
+        }
+        false
+    }
+
+    /// Whether something was read beyond a mark.
+    #[inline]
+    pub(crate) fn is_beyond(&self, mark: Mark) -> bool {
+        self.at > mark.at
     }
 
     /// How many input combinations the run just made stands for.
@@ -168,6 +209,44 @@ impl Choices for Replay<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn reads_beyond_a_mark_are_enumerated_by_themselves() {
+        let mut odometer = Odometer::new(2 * 3 * 5 * 7);
+        let (mut steps, mut first, mut second) = (0, 0, 0);
+        odometer.reset();
+        loop {
+            odometer.begin();
+            let step = odometer.choose(0, 2);
+            let mark = odometer.mark();
+            // Two observers, each of which reads an input of its own and, at times, the one the step has read.
+            loop {
+                assert_eq!(odometer.choose(0, 2), step);
+                odometer.choose(1, 3);
+                first += 1;
+                if !odometer.advance_beyond(mark) {
+                    break;
+                }
+            }
+            loop {
+                if step == 1 {
+                    odometer.choose(1, 3);
+                    odometer.choose(65, 5);
+                }
+                second += 1;
+                if !odometer.advance_beyond(mark) {
+                    break;
+                }
+            }
+            assert!(!odometer.is_beyond(mark));
+            assert_eq!(odometer.weight(), 3 * 5 * 7);
+            steps += 1;
+            if !odometer.advance() {
+                break;
+            }
+        }
+        assert_eq!((steps, first, second), (2, 2 * 3, 1 + 3 * 5));
+    }
 
     #[test]
     fn enumerates_only_what_is_read_and_the_weights_add_up() {

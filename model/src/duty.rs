@@ -43,6 +43,7 @@ pub(crate) struct DutyProcess<'a> {
     inner: AnyProcess<'a>,
     form: &'a Form,
     violated: bool,
+    saved: bool,
 }
 
 impl<'a> Origin for &'a Duty<'a> {
@@ -53,6 +54,7 @@ impl<'a> Origin for &'a Duty<'a> {
             inner: self.system.process(),
             form: self.form,
             violated: false,
+            saved: false,
         }
     }
 
@@ -123,5 +125,15 @@ impl Process for DutyProcess<'_> {
 
     fn discarded(&self) -> bool {
         self.inner.discarded()
+    }
+
+    fn save(&mut self) {
+        self.inner.save();
+        self.saved = self.violated;
+    }
+
+    fn restore(&mut self) {
+        self.inner.restore();
+        self.violated = self.saved;
     }
 }

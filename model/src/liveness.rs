@@ -6,7 +6,7 @@ use crate::explore::{Decision, Evidence, Tail, sign_test};
 use crate::graph::{Components, Edge, Graph, Mark};
 use crate::hashed::Sharded;
 use crate::pack::Key;
-use crate::process::{Any, Process};
+use crate::process::{Any, Process, beyond};
 use crate::property::Form;
 use crate::report::{Error, Verdict};
 use crate::response::Response;
@@ -231,17 +231,18 @@ pub(crate) fn recoverable<'a, K: Key>(
     let mut verdicts = Vec::new();
     for goals in goals.chunks(TOGETHER) {
         let label = |process: &mut dyn Process, choices: &mut Odometer, _: K| {
-            let mut eval = model.eval(process, choices);
-            Mark::Edge(
-                goals
-                    .iter()
-                    .enumerate()
-                    .fold(0, |mask, (number, (goal, using))| {
-                        let used = eval.given(*using);
-                        let reached = used && eval.atom(*goal);
-                        mask | (u32::from(used) | u32::from(reached) << 1) << (2 * number)
-                    }),
-            )
+            // What some choice makes possible: a path may take it, so the choices of one cycle add up.
+            let mut mask = 0;
+            process.save();
+            for (number, (goal, using)) in goals.iter().enumerate() {
+                beyond(process, choices, |process, choices| {
+                    let mut eval = model.eval(process, choices);
+                    let used = eval.given(*using);
+                    let reached = used && eval.atom(*goal);
+                    mask |= (u32::from(used) | u32::from(reached) << 1) << (2 * number);
+                });
+            }
+            Mark::Edge(mask)
         };
         let Some(graph) = Graph::build(model, &initial, &label, held).map(Arc::new) else {
             verdicts.extend(goals.iter().map(|_| None));

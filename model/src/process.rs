@@ -17,6 +17,32 @@ pub(crate) trait Process: Send {
     /// Adds `weight` to the count of each rule that fired.
     fn count(&self, weight: u64, coverage: &mut [u64]);
     fn discarded(&self) -> bool;
+    /// Keeps the work area as it is after a step, for [`Process::restore`].
+    fn save(&mut self);
+    /// Makes the work area again what it was at the last `save`.
+    fn restore(&mut self);
+}
+
+/// Calls `each` for every combination of the inputs that it reads beyond what the step has read. So what several
+/// observers of one cycle read adds up, where one enumeration for all of them would multiply. The work area must have
+/// been saved after the step; it is the saved one again at the end.
+#[inline]
+pub(crate) fn beyond<P: Process + ?Sized>(
+    process: &mut P,
+    choices: &mut Odometer,
+    mut each: impl FnMut(&mut P, &mut Odometer),
+) {
+    let mark = choices.mark();
+    loop {
+        each(process, choices);
+        // Without a further input the work area is still right: what it holds besides follows from the inputs read.
+        if choices.is_beyond(mark) {
+            process.restore();
+        }
+        if !choices.advance_beyond(mark) {
+            return;
+        }
+    }
 }
 
 /// Where processes come from.
@@ -32,6 +58,7 @@ pub(crate) trait Origin: Sync {
 pub(crate) struct Direct<'s, S: System> {
     system: &'s S,
     work: S::Work,
+    saved: S::Work,
 }
 
 impl<S: System> Process for Direct<'_, S> {
@@ -68,6 +95,18 @@ impl<S: System> Process for Direct<'_, S> {
     fn discarded(&self) -> bool {
         self.system.discarded(&self.work)
     }
+
+    #[inline]
+    fn save(&mut self) {
+        if self.system.atoms_read() {
+            self.saved.clone_from(&self.work);
+        }
+    }
+
+    #[inline]
+    fn restore(&mut self) {
+        self.work.clone_from(&self.saved);
+    }
 }
 
 /// A system of a known type.
@@ -80,6 +119,7 @@ impl<'s, S: System> Origin for Own<'s, S> {
         Direct {
             system: self.0,
             work: self.0.work(),
+            saved: self.0.work(),
         }
     }
 
@@ -123,6 +163,14 @@ impl Process for AnyProcess<'_> {
 
     fn discarded(&self) -> bool {
         (**self).discarded()
+    }
+
+    fn save(&mut self) {
+        (**self).save();
+    }
+
+    fn restore(&mut self) {
+        (**self).restore();
     }
 }
 

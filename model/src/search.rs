@@ -5,7 +5,7 @@ use crate::crew::{Crew, Watch};
 use crate::cursor::{Cursor, Leaf};
 use crate::hashed::{Batch, Sharded};
 use crate::pack::{Key, Packer};
-use crate::process::{Origin, Process};
+use crate::process::{Origin, Process, beyond};
 use crate::property::{Eval, Property};
 use crate::report::{Error, Options, Progress};
 use crate::store::Store;
@@ -273,23 +273,29 @@ impl<O: Origin, T: Store> Level<'_, O, T> {
                 Leaf::To(after) => {
                     makes = true;
                     stays &= after == key;
+                    if !self.open.is_empty() {
+                        process.save();
+                    }
                     for property in self.open.iter().copied() {
-                        let mut eval = Eval {
-                            process,
-                            choices: odometer,
-                            fault: |fault: Fault| record(faults, fault.code, key),
-                        };
-                        let sign = eval.sign(&self.properties[property].form);
-                        if sign.first {
-                            lower(&mut first[property], key);
-                        }
-                        if sign.bad {
-                            lower(&mut bad[property], key);
-                        }
-                        met[property] |= sign.met;
-                        if sign.pending {
-                            self.pending[property].insert(&mut pending[property], after, |_| ());
-                        }
+                        beyond(process, odometer, |process, choices| {
+                            let mut eval = Eval {
+                                process,
+                                choices,
+                                fault: |fault: Fault| record(faults, fault.code, key),
+                            };
+                            let sign = eval.sign(&self.properties[property].form);
+                            if sign.first {
+                                lower(&mut first[property], key);
+                            }
+                            if sign.bad {
+                                lower(&mut bad[property], key);
+                            }
+                            met[property] |= sign.met;
+                            if sign.pending {
+                                let batch = &mut pending[property];
+                                self.pending[property].insert(batch, after, |_| ());
+                            }
+                        });
                     }
                     if after != last {
                         self.store.visit(local, after);

@@ -44,7 +44,7 @@ impl Fault {
 /// one cycle again and again with other answers, and relies on getting the same questions for the same answers.
 pub trait System: Sync {
     /// The work area of one thread, for example the frame of values of the cycle just made.
-    type Work: Send;
+    type Work: Send + Clone;
 
     /// A new work area.
     fn work(&self) -> Self::Work;
@@ -80,6 +80,12 @@ pub trait System: Sync {
         atom: usize,
         choices: &mut C,
     ) -> Result<bool, Fault>;
+
+    /// Whether an atom may read an input that `next` did not read. Where none does, the explorer need not keep a copy of
+    /// the work area for the further values of such inputs.
+    fn atoms_read(&self) -> bool {
+        true
+    }
 
     /// The number of rules whose coverage is counted.
     fn rules(&self) -> usize {

@@ -4,7 +4,7 @@
 use crate::choices::Odometer;
 use crate::cursor::{Cursor, Leaf};
 use crate::pack::Key;
-use crate::process::{Origin, Process};
+use crate::process::{Origin, Process, beyond};
 use crate::report::{Error, Trace};
 use crate::search::{Model, initial, lower};
 use crate::store::{PIECE, Store};
@@ -129,10 +129,15 @@ fn forward<O: Origin, T: Store>(
             |(cursor, local, hits), piece| {
                 now.each(piece, |key| {
                     cursor.leaves(&model.packer, key, |process, odometer, leaf| {
+                        if !open.is_empty() {
+                            process.save();
+                        }
                         for request in open.iter().copied() {
-                            if (requests[request].test)(process, odometer, leaf) {
-                                lower(&mut hits[request], key);
-                            }
+                            beyond(process, odometer, |process, odometer| {
+                                if (requests[request].test)(process, odometer, leaf) {
+                                    lower(&mut hits[request], key);
+                                }
+                            });
                         }
                         if let Leaf::To(after) = leaf {
                             now.visit(local, after);

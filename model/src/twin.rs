@@ -31,6 +31,23 @@ pub struct TwinWork<W> {
     discarded: bool,
 }
 
+impl<W: Clone> Clone for TwinWork<W> {
+    fn clone(&self) -> Self {
+        TwinWork {
+            runs: self.runs.clone(),
+            values: self.values.clone(),
+            ..*self
+        }
+    }
+
+    // Without new memory: the explorer copies work areas all the time.
+    fn clone_from(&mut self, other: &Self) {
+        self.runs.clone_from(&other.runs);
+        self.values.clone_from(&other.values);
+        (self.equal, self.both, self.discarded) = (other.equal, other.both, other.discarded);
+    }
+}
+
 impl<'a, S: System> Twin<'a, S> {
     /// Atom: where the condition holds in both runs, all observed expressions agree.
     pub const AGREE: usize = 0;

@@ -7,7 +7,7 @@ use crate::ir::{BinaryOp, Lazy, Node, Space, Stmt};
 pub const UNSET: i32 = i32::MIN;
 
 /// The values of one cycle.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, PartialEq, Eq)]
 pub struct Frame {
     /// State at the start of the cycle.
     pub before: Vec<i32>,
@@ -19,6 +19,27 @@ pub struct Frame {
     pub lazies: Vec<i32>,
     /// For each instance the number of the rule that fired, from 1; 0 for none.
     pub fired: Vec<i32>,
+}
+
+impl Clone for Frame {
+    fn clone(&self) -> Self {
+        Self {
+            before: self.before.clone(),
+            now: self.now.clone(),
+            inputs: self.inputs.clone(),
+            lazies: self.lazies.clone(),
+            fired: self.fired.clone(),
+        }
+    }
+
+    // The explorer copies frames all the time: without new memory.
+    fn clone_from(&mut self, other: &Self) {
+        self.before.clone_from(&other.before);
+        self.now.clone_from(&other.now);
+        self.inputs.clone_from(&other.inputs);
+        self.lazies.clone_from(&other.lazies);
+        self.fired.clone_from(&other.fired);
+    }
 }
 
 impl Frame {

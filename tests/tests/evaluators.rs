@@ -56,6 +56,7 @@ struct Both<'a> {
     difference: std::sync::Mutex<Option<String>>,
 }
 
+#[derive(Clone)]
 struct Work {
     frame: Frame,
     cells: Box<[i32]>,
@@ -259,6 +260,10 @@ impl System for Both<'_> {
 
     fn atom<C: Choices>(&self, work: &mut Work, _: usize, _: &mut C) -> Result<bool, Fault> {
         Ok(work.equal)
+    }
+
+    fn atoms_read(&self) -> bool {
+        false
     }
 }
 

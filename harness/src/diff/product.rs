@@ -71,6 +71,7 @@ pub struct Product<'a> {
 }
 
 /// The work area of a product.
+#[derive(Clone)]
 pub struct Work {
     frame: Frame,
     generated: Box<[i32]>,
@@ -425,5 +426,9 @@ impl System for Product<'_> {
 
     fn atom<C: Choices>(&self, work: &mut Work, _: usize, _: &mut C) -> Result<bool, Fault> {
         Ok(self.agree(work))
+    }
+
+    fn atoms_read(&self) -> bool {
+        false
     }
 }
