@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 
 use stillpoint_model::{Error, Limits, Options, Progress, Trace, Verdict};
 
+use crate::keep::Keep;
 use crate::engine::{self, Outcome, label};
 use crate::subject::{Subject, Task};
 
@@ -19,6 +20,8 @@ pub struct Settings {
     pub time: Option<Duration>,
     /// Use the interpreter even where there is generated code.
     pub interpret: bool,
+    /// Where to keep the explorations, so that the check can be continued.
+    pub keep: Option<Keep>,
 }
 
 /// What exploring one task gave.
@@ -65,7 +68,7 @@ pub fn check(
 ) -> Result<Vec<Checked>, (String, Error)> {
     let start = Instant::now();
     let mut out = Vec::new();
-    for task in &subject.tasks {
+    for (number, task) in subject.tasks.iter().enumerate() {
         let options = Options {
             limits: Limits {
                 memory: settings.memory,
@@ -74,6 +77,7 @@ pub fn check(
             },
             // Witnesses are told by their length only; rebuilding their runs would take as long as the search.
             witnesses: false,
+            checkpoint: settings.keep.as_ref().map(|k| k.of(number, &task.bound)),
             ..Options::default()
         };
         let outcome = engine::run(

@@ -11,6 +11,7 @@ use stillpoint_spec::bind::Bound;
 use stillpoint_spec::eval::{Frame, UNSET};
 use stillpoint_spec::ir;
 
+use crate::keep::beside;
 use crate::recorded;
 
 /// Which evaluator ran the table.
@@ -102,6 +103,7 @@ pub fn run(
             None => claim.explore(&Interpreted::new(bound))?,
         };
         report.complete &= outcome.complete;
+        report.resumable &= outcome.resumable;
         report.seconds += outcome.seconds;
         judged[k] = outcome.properties.into_iter().next();
         pairs.insert(k, pair);
@@ -152,12 +154,16 @@ impl Claim<'_> {
             when: Some(Twin::<S>::BOTH),
             then: Twin::<S>::AGREE,
         };
-        let mut report = explore(
-            &twin,
-            &[Property { id: self.id, form }],
-            self.options,
-            &mut (),
-        )?;
+        let options = Options {
+            checkpoint: self
+                .options
+                .checkpoint
+                .as_ref()
+                .map(|c| beside(c, &self.id)),
+            ..self.options.clone()
+        };
+        let property = Property { id: self.id, form };
+        let mut report = explore(&twin, &[property], &options, &mut ())?;
         let mut pair = Pair {
             states: report.states,
             second: None,

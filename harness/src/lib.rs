@@ -7,6 +7,7 @@ pub mod check;
 pub mod diff;
 pub mod engine;
 pub mod export;
+pub mod keep;
 pub mod matrix;
 pub mod readings;
 pub mod recorded;

@@ -8,7 +8,7 @@ use stillpoint_model::{Storage, Trace, Verdict};
 use stillpoint_spec::bind::Bound;
 use stillpoint_spec::ir::Topic;
 
-use crate::check::{Checked, Summary, Unfired, exit_status, violations};
+use crate::check::{Checked, Settings, Summary, Unfired, exit_status, violations};
 use crate::engine::{Evaluator, replay};
 use crate::subject::{Subject, Task};
 use crate::timing::Diagram;
@@ -433,6 +433,7 @@ pub fn to_json(subject: &Subject, checked: &[Checked], summaries: &[Summary]) ->
                 "readings": task.bound.readings().into_iter().collect::<BTreeMap<_, _>>(),
                 "states": report.states, "transitions": number(report.transitions),
                 "depth": report.depth, "seconds": report.seconds, "complete": report.complete,
+                "resumable": report.resumable,
                 "absorbing": report.absorbing, "memory": report.memory,
                 "bytes_per_state": report.bytes_per_state(),
                 "index_space": number(report.index_space),
@@ -465,4 +466,45 @@ pub fn to_json(subject: &Subject, checked: &[Checked], summaries: &[Summary]) ->
 /// A count; beyond 64 bits a float, since JSON readers would lose digits anyway.
 fn number(n: u128) -> Value {
     u64::try_from(n).map_or(json!(n as f64), |n| json!(n))
+}
+
+/// What would help where a limit was reached; nothing if none was.
+pub fn further(checked: &[Checked], settings: &Settings) -> String {
+    let short: Vec<_> = checked
+        .iter()
+        .map(|c| &c.outcome.report)
+        .filter(|r| !r.complete)
+        .collect();
+    if short.is_empty() {
+        return String::new();
+    }
+    let covered: u64 = short.iter().map(|r| r.states).sum();
+    let mut out = format!(
+        "\nA limit ended {} of {} explorations; in them {} states were found, those up to the depth told explored.\n",
+        short.len(),
+        checked.len(),
+        grouped(u128::from(covered))
+    );
+    let hashed = short.iter().filter(|r| r.storage != Storage::Bitmap);
+    let needs = hashed.map(|r| r.index_space.div_ceil(4)).max();
+    if let Some(bytes) = needs.filter(|b| settings.memory.is_some() && *b < 1 << 34) {
+        out.push_str(&format!(
+            "  With --memory {}MiB the states of each system fit a bitmap.\n",
+            (bytes / 3 * 4 + (1 << 24)) >> 20
+        ));
+    }
+    match (&settings.keep, short.iter().all(|r| r.resumable)) {
+        (Some(keep), true) => out.push_str(&format!(
+            "  To continue with other limits: the same command with --resume {}\n",
+            keep.folder().display()
+        )),
+        (Some(_), false) => out.push_str(
+            "  The last checkpoint could not be written; an earlier one may be there to resume from.\n",
+        ),
+        (None, _) => out.push_str(
+            "  With --checkpoint DIR the next check can be continued with other limits (--resume DIR).\n",
+        ),
+    }
+    out.push_str("  Smaller domains, or one system or property at a time (--reduce slice), need less.\n");
+    out
 }

@@ -1,5 +1,7 @@
 //! A bitmap for many writers whose pages are made when a bit in them is set.
 
+use crate::checkpoint::{In, Out};
+use std::io;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -69,6 +71,33 @@ impl Bitmap {
                 }
             }
         }
+    }
+
+    /// Writes the pages made, each with its number.
+    pub(crate) fn write(&self, out: &mut Out) -> io::Result<()> {
+        out.number(self.made.load(Ordering::Relaxed))?;
+        for (number, page) in self.pages.iter().enumerate() {
+            let Some(page) = page.get() else { continue };
+            out.number(number as u64)?;
+            for word in page.iter() {
+                out.number(word.load(Ordering::Relaxed))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Reads the pages into an empty bitmap.
+    pub(crate) fn read(&mut self, input: &mut In) -> io::Result<()> {
+        for _ in 0..input.count()? {
+            let first = input.count()?.saturating_mul(PAGE);
+            if first >= self.words {
+                return Err(io::ErrorKind::InvalidData.into());
+            }
+            for word in first..first + PAGE {
+                self.set(word, input.number()?, Ordering::Relaxed);
+            }
+        }
+        Ok(())
     }
 
     pub(crate) fn bytes(&self) -> u64 {

@@ -24,7 +24,7 @@ pub(crate) struct Mark {
 ///
 /// The caller runs the cycle between `begin` and `advance`, until `advance` says that no vector is left.
 #[derive(Clone, Debug)]
-pub(crate) struct Odometer {
+pub struct Odometer {
     /// The reads of the present vector, `len` of them; what follows is left over, and saves some divisions.
     reads: Vec<Read>,
     len: usize,
@@ -121,6 +121,13 @@ impl Odometer {
         }
     }
 
+    /// The inputs read in the run just made: number, size, value.
+    pub(crate) fn reads(&self) -> impl Iterator<Item = (u32, u32, u32)> + '_ {
+        self.reads[..self.at]
+            .iter()
+            .map(|r| (r.input, r.size, r.value))
+    }
+
     /// The inputs read and their values.
     pub(crate) fn values(&self) -> Step {
         self.reads[..self.at]
@@ -162,6 +169,11 @@ impl Odometer {
 }
 
 impl Choices for Odometer {
+    #[inline(always)]
+    fn odometer(&mut self) -> Option<&mut Odometer> {
+        Some(self)
+    }
+
     #[inline(always)]
     fn choose(&mut self, input: u32, size: u32) -> u32 {
         let bit = 1u64 << (input & 63);

@@ -2,7 +2,7 @@
 
 use crate::report::{Error, Limits};
 use std::sync::atomic::{AtomicU8, AtomicU64, AtomicUsize, Ordering};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// Why work ended early.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,6 +14,8 @@ pub(crate) enum Stop {
 /// The limits of one exploration, and whether one was reached.
 pub(crate) struct Watch {
     start: Instant,
+    /// Time spent before this run, in nanoseconds.
+    earlier: AtomicU64,
     limits: Limits,
     stopped: AtomicU8,
     peak: AtomicU64,
@@ -23,14 +25,21 @@ impl Watch {
     pub(crate) fn new(limits: Limits) -> Self {
         Watch {
             start: Instant::now(),
+            earlier: AtomicU64::new(0),
             limits,
             stopped: AtomicU8::new(0),
             peak: AtomicU64::new(0),
         }
     }
 
-    pub(crate) fn seconds(&self) -> f64 {
-        self.start.elapsed().as_secs_f64()
+    /// The time spent, also in the runs that this one continues.
+    pub(crate) fn elapsed(&self) -> Duration {
+        self.start.elapsed() + Duration::from_nanos(self.earlier.load(Ordering::Relaxed))
+    }
+
+    pub(crate) fn continues(&self, earlier: Duration) {
+        self.earlier
+            .store(earlier.as_nanos() as u64, Ordering::Relaxed);
     }
 
     /// True if work must end; `bytes` are held now.
@@ -39,7 +48,7 @@ impl Watch {
         if self.stopped.load(Ordering::Relaxed) != 0 {
             return true;
         }
-        let reason = if self.limits.memory.is_some_and(|most| bytes > most) {
+        let reason = if bytes > self.limits.memory.unwrap_or(u64::MAX / 8) {
             2
         } else if self
             .limits

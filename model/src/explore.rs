@@ -2,9 +2,9 @@
 
 use crate::crew::{Crew, Watch};
 use crate::cursor::Leaf;
-use crate::hashed::Hashed;
+use crate::hashed::{Halves, Hashed, Plain};
 use crate::liveness::{fair, recoverable, recovery};
-use crate::pack::{Key, space};
+use crate::pack::{Key, Wide, space};
 use crate::process::{Any, Origin, Own, Process};
 use crate::property::{Eval, Form, Property, Sign, validate};
 use crate::report::{
@@ -53,11 +53,11 @@ pub(crate) fn on_store<O: Origin, J: Job<O>>(
         }
         Ok(_) => {
             let model = Model::new(origin, crew, watch)?;
-            job.run(&model, Hashed::<u64>::new(), Storage::Hash64)
+            job.run(&model, Hashed::<Plain>::new(), Storage::Hash64)
         }
         Err(_) => {
             let model = Model::new(origin, crew, watch)?;
-            job.run(&model, Hashed::<u128>::new(), Storage::Hash128)
+            job.run(&model, Hashed::<Halves>::new(), Storage::Hash128)
         }
     }
 }
@@ -176,14 +176,14 @@ impl Stage for Dense {
     }
 }
 
-impl Stage for Hashed<u64> {
+impl Stage for Hashed<Plain> {
     fn finish(self, finish: Finish<u64>) -> Result<Report, Error> {
         finish.report(self)
     }
 }
 
-impl Stage for Hashed<u128> {
-    fn finish(self, finish: Finish<u128>) -> Result<Report, Error> {
+impl Stage for Hashed<Halves> {
+    fn finish(self, finish: Finish<Wide>) -> Result<Report, Error> {
         finish.report(self)
     }
 }
@@ -207,6 +207,7 @@ impl<K: Key> Finish<'_, K> {
             storage,
         } = self;
         let model = &model;
+        let tally = &found.tally;
         let decisions = decide(model, &found, properties, options, store.bytes())?;
         let mut requests = Vec::new();
         let mut judgements = Vec::new();
@@ -248,14 +249,14 @@ impl<K: Key> Finish<'_, K> {
             .clone();
         let codes: Vec<u32> = late
             .into_iter()
-            .chain(found.faults.keys().copied())
+            .chain(tally.faults.keys().copied())
             .collect::<BTreeSet<_>>()
             .into_iter()
             .collect();
         for code in &codes {
             let test = fault_test(properties, *code);
             requests.push(Request {
-                at: found.faults.get(code).copied(),
+                at: tally.faults.get(code).copied(),
                 test,
                 state: None,
             });
@@ -278,6 +279,7 @@ impl<K: Key> Finish<'_, K> {
             length: match run {
                 Some(run) => Some(run.trace.steps.len() as u64),
                 None => found
+                    .tally
                     .faults
                     .get(&code)
                     .map(|(depth, _)| u64::from(*depth) + 1),
@@ -290,21 +292,23 @@ impl<K: Key> Finish<'_, K> {
             .map(fault)
             .collect();
         Ok(Report {
-            states: found.states,
-            transitions: found.transitions,
-            depth: found.depth,
-            seconds: model.watch.seconds(),
-            complete: found.complete
+            states: tally.states,
+            transitions: tally.transitions,
+            depth: tally.depth,
+            seconds: model.watch.elapsed().as_secs_f64(),
+            resumable: found.resumable,
+            complete: tally.complete
                 && judgements
                     .iter()
                     .all(|j| j.verdict != Verdict::Inconclusive),
             absorbing_examples: found
+                .tally
                 .examples
                 .iter()
                 .map(|key| model.packer.state(*key))
                 .collect(),
-            coverage: found.coverage,
-            absorbing: found.absorbing,
+            coverage: tally.coverage.clone(),
+            absorbing: tally.absorbing,
             memory: found.bytes.max(model.watch.peak()),
             storage,
             index_space: space(model.origin.domains())?,
@@ -384,8 +388,9 @@ fn decide<'a, K: Key>(
     options: &Options,
     held: u64,
 ) -> Result<Vec<Decision<'a, K>>, Error> {
+    let tally = &found.tally;
     let mut goals = Vec::new();
-    if found.complete {
+    if tally.complete {
         for property in properties {
             if let Form::CanAlwaysReach { goal, using } = property.form {
                 goals.push((goal, using));
@@ -395,7 +400,7 @@ fn decide<'a, K: Key>(
     let mut lost = recoverable(model, &goals, held)?.into_iter();
     let mut decisions = Vec::new();
     for (number, Property { form, .. }) in properties.iter().enumerate() {
-        let signs = found.signs[number];
+        let signs = tally.signs[number];
         let pending = &found.pending[number];
         let witness = match options.witnesses {
             true => seen(form, signs.first, |s| s.first),
@@ -417,7 +422,7 @@ fn decide<'a, K: Key>(
             Form::Reachable { .. } if signs.first.is_some() => {
                 decision(Verdict::Reached, seen(form, signs.first, |s| s.first))
             }
-            Form::Unless { holds, unless, .. } if found.complete || signs.bad.is_some() => {
+            Form::Unless { holds, unless, .. } if tally.complete || signs.bad.is_some() => {
                 match signs.first {
                     None => Verdict::Vacuous.into(),
                     Some(_) => until(
@@ -432,7 +437,7 @@ fn decide<'a, K: Key>(
                     )?,
                 }
             }
-            _ if !found.complete => Verdict::Inconclusive.into(),
+            _ if !tally.complete => Verdict::Inconclusive.into(),
             Form::Reachable { .. } => Verdict::Unreachable.into(),
             Form::Always { when: None, .. } => Verdict::Holds.into(),
             Form::CanAlwaysReach { .. } => recovery(lost.next().flatten(), witness),

@@ -1,219 +1,259 @@
-//! An exact hash set of state indices, in shards, and the store built on it.
+//! The states of a sparse space, in an exact hash set; the frontier is the end of its lists.
 
-use crate::pack::Key;
+use crate::checkpoint::{In, Out};
+use crate::pack::{Key, Wide};
+use crate::set::{Batch, SHARDS, Set};
 use crate::store::{PIECE, Store};
-use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Mutex, PoisonError};
+use std::io;
+use std::sync::atomic::{AtomicBool, Ordering};
 
-const SHARDS: usize = 64;
-/// Keys of one shard a worker gathers before it takes the shard's lock.
-const BATCH: usize = 64;
-
-/// Open addressing with linear probing; any capacity, so that growth by half keeps the table compact.
-struct Shard<K> {
-    slots: Vec<K>,
-    used: usize,
+/// How a key is stored in 64 bits.
+pub(crate) trait Code: Sync + Sized {
+    type Key: Key;
+    /// What a worker remembers of the coding.
+    type Memory: Send;
+    fn new() -> Self;
+    fn memory(&self) -> Self::Memory;
+    /// None if there are more keys than can be coded.
+    fn encode(&self, memory: &mut Self::Memory, key: Self::Key) -> Option<u64>;
+    fn decode(&self, code: u64) -> Self::Key;
+    fn bytes(&self) -> u64;
+    /// What a checkpoint calls a storage of such codes.
+    const NAME: &'static str;
+    /// Writes what decoding needs.
+    fn save(&self, out: &mut Out) -> io::Result<()>;
+    /// Reads it.
+    fn load(&mut self, input: &mut In) -> io::Result<()>;
 }
 
-impl<K: Key> Shard<K> {
-    /// True if the key is new.
+/// A key of 64 bits is its own code.
+pub(crate) struct Plain;
+
+impl Code for Plain {
+    type Key = u64;
+    type Memory = ();
+    fn new() -> Self {
+        Plain
+    }
+    fn memory(&self) {}
     #[inline]
-    fn insert(&mut self, key: K, bytes: &AtomicU64) -> bool {
-        if self.used * 5 >= self.slots.len() * 4 {
-            self.grow(bytes);
-        }
-        let slot = self.find(key);
-        if self.slots[slot] == key {
-            return false;
-        }
-        self.slots[slot] = key;
-        self.used += 1;
-        true
+    fn encode(&self, _: &mut (), key: u64) -> Option<u64> {
+        Some(key)
     }
-
-    /// The slot of the key, or the empty one where it belongs. The table is never full.
     #[inline]
-    fn find(&self, key: K) -> usize {
-        let size = self.slots.len();
-        let mut slot = ((u128::from(key.hash()) * size as u128) >> 64) as usize;
-        while self.slots[slot] != key && self.slots[slot] != K::EMPTY {
-            slot += 1;
-            if slot == size {
-                slot = 0;
-            }
-        }
-        slot
+    fn decode(&self, code: u64) -> u64 {
+        code
     }
-
-    fn grow(&mut self, bytes: &AtomicU64) {
-        let before = self.slots.len();
-        let old = std::mem::replace(
-            &mut self.slots,
-            vec![K::EMPTY; (before + before / 2).max(16)],
-        );
-        let more = (self.slots.len() - before) * size_of::<K>();
-        bytes.fetch_add(more as u64, Ordering::Relaxed);
-        for key in old.into_iter().filter(|key| *key != K::EMPTY) {
-            let slot = self.find(key);
-            self.slots[slot] = key;
-        }
+    fn bytes(&self) -> u64 {
+        0
+    }
+    const NAME: &'static str = "a hash set of 64-bit indices";
+    fn save(&self, _: &mut Out) -> io::Result<()> {
+        Ok(())
+    }
+    fn load(&mut self, _: &mut In) -> io::Result<()> {
+        Ok(())
     }
 }
 
-/// A set of indices for many writers.
-pub(crate) struct Sharded<K> {
-    shards: Vec<Mutex<Shard<K>>>,
-    bytes: AtomicU64,
-}
+/// The halves of a wide key, each of which gets a number: many states share a half.
+pub(crate) struct Halves([Set<u64>; 2]);
 
-/// Keys on their way into a set, by shard.
-pub(crate) struct Batch<K>(Vec<Vec<K>>);
+/// What a worker remembers: for some halves their numbers.
+pub(crate) struct Memory([Vec<(u64, u32)>; 2]);
 
-impl<K: Key> Batch<K> {
-    pub(crate) fn new() -> Self {
-        Batch((0..SHARDS).map(|_| Vec::new()).collect())
-    }
-}
+/// Entries of such a memory.
+const REMEMBERED: usize = 1 << 12;
+/// No number: places and shards do not make it up.
+const NONE: u32 = u32::MAX;
 
-impl<K: Key> Sharded<K> {
-    pub(crate) fn new() -> Self {
-        let shards = (0..SHARDS)
-            .map(|_| {
-                Mutex::new(Shard {
-                    slots: Vec::new(),
-                    used: 0,
-                })
-            })
-            .collect();
-        Sharded {
-            shards,
-            bytes: AtomicU64::new(0),
+impl Halves {
+    fn number(&self, memory: &mut Memory, half: usize, value: u64) -> Option<u64> {
+        let entry = &mut memory.0[half][value.hash() as usize % REMEMBERED];
+        if entry.1 == NONE || entry.0 != value {
+            let (shard, place, _) = self.0[half].add(value)?;
+            *entry = (value, place * SHARDS as u32 + shard as u32);
         }
+        Some(u64::from(entry.1))
     }
 
-    /// Adds the key at once or later; `found` gets each key that is new when it is added.
+    fn value(&self, half: usize, number: u32) -> u64 {
+        let (shard, place) = (number as usize % SHARDS, number as usize / SHARDS);
+        self.0[half].shard(shard).keys[place]
+    }
+}
+
+impl Code for Halves {
+    type Key = Wide;
+    type Memory = Memory;
+
+    fn new() -> Self {
+        Halves([Set::new(), Set::new()])
+    }
+
+    fn memory(&self) -> Memory {
+        let empty = || vec![(0, NONE); REMEMBERED];
+        Memory([empty(), empty()])
+    }
+
     #[inline]
-    pub(crate) fn insert(&self, batch: &mut Batch<K>, key: K, found: impl FnMut(K)) {
-        // The table position uses the upper bits of the hash, the shard the lower ones.
-        let shard = key.hash() as usize % SHARDS;
-        batch.0[shard].push(key);
-        if batch.0[shard].len() >= BATCH {
-            self.flush_shard(shard, &mut batch.0[shard], found);
-        }
+    fn encode(&self, memory: &mut Memory, key: Wide) -> Option<u64> {
+        let [first, second] = key.halves();
+        let first = self.number(memory, 0, first)?;
+        Some(first << 32 | self.number(memory, 1, second)?)
     }
 
-    fn flush_shard(&self, shard: usize, keys: &mut Vec<K>, mut found: impl FnMut(K)) {
-        let mut table = self.shards[shard]
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner);
-        for key in keys.drain(..) {
-            if table.insert(key, &self.bytes) {
-                found(key);
-            }
-        }
+    #[inline]
+    fn decode(&self, code: u64) -> Wide {
+        Wide::of([self.value(0, (code >> 32) as u32), self.value(1, code as u32)])
     }
 
-    /// Adds everything still in the batch.
-    pub(crate) fn flush(&self, batch: &mut Batch<K>, mut found: impl FnMut(K)) {
-        for (shard, keys) in batch
-            .0
-            .iter_mut()
-            .enumerate()
-            .filter(|(_, keys)| !keys.is_empty())
-        {
-            self.flush_shard(shard, keys, &mut found);
-        }
+    fn bytes(&self) -> u64 {
+        self.0.iter().map(Set::bytes).sum()
     }
 
-    pub(crate) fn bytes(&self) -> u64 {
-        self.bytes.load(Ordering::Relaxed)
+    const NAME: &'static str = "a hash set of 128-bit indices";
+
+    fn save(&self, out: &mut Out) -> io::Result<()> {
+        self.0.iter().try_for_each(|set| set.save(out))
     }
 
-    /// All keys in ascending order.
-    pub(crate) fn sorted(&self) -> Vec<K> {
-        let mut keys = Vec::new();
-        for shard in &self.shards {
-            let table = shard.lock().unwrap_or_else(PoisonError::into_inner);
-            keys.extend(table.slots.iter().filter(|key| **key != K::EMPTY));
-        }
-        keys.sort_unstable();
-        keys
+    fn load(&mut self, input: &mut In) -> io::Result<()> {
+        self.0.iter_mut().try_for_each(|set| set.load(input))
     }
 }
 
-/// States in a hash set, the frontier in a list.
-pub(crate) struct Hashed<K> {
-    set: Sharded<K>,
-    list: Vec<K>,
-    lists: AtomicU64,
+/// States in a hash set of their codes. In the list of each shard stand the states explored, then the frontier, then what
+/// the level being explored has found.
+pub(crate) struct Hashed<C> {
+    code: C,
+    set: Set<u64>,
+    /// By shard: where the frontier starts and ends.
+    from: Vec<usize>,
+    to: Vec<usize>,
+    /// Pieces of the frontier: shard, first place.
+    pieces: Vec<(usize, usize)>,
+    full: AtomicBool,
 }
 
-/// What a worker found in a level.
-pub(crate) struct HashedLocal<K> {
-    batch: Batch<K>,
-    found: Vec<K>,
+/// What a worker found in a level and has not yet added, and what it remembers of the coding.
+pub(crate) struct HashedLocal<M> {
+    batch: Batch<u64>,
+    memory: M,
 }
 
-impl<K: Key> Hashed<K> {
+impl<C: Code> Hashed<C> {
     pub(crate) fn new() -> Self {
         Hashed {
-            set: Sharded::new(),
-            list: Vec::new(),
-            lists: AtomicU64::new(0),
+            code: C::new(),
+            set: Set::new(),
+            from: vec![0; SHARDS],
+            to: vec![0; SHARDS],
+            pieces: Vec::new(),
+            full: AtomicBool::new(false),
         }
     }
+
+    /// Makes the states from `from` to `to` the frontier and gives their number.
+    fn set_frontier(&mut self, from: Vec<usize>, to: Vec<usize>) -> u64 {
+        self.pieces.clear();
+        let mut count = 0;
+        for (shard, (from, to)) in from.iter().zip(&to).enumerate() {
+            let starts = (*from..*to).step_by(PIECE);
+            self.pieces.extend(starts.map(|start| (shard, start)));
+            count += (to - from) as u64;
+        }
+        (self.from, self.to) = (from, to);
+        count
+    }
+
 }
 
-impl<K: Key> Store for Hashed<K> {
-    type Key = K;
-    type Local = HashedLocal<K>;
+impl<C: Code> Store for Hashed<C> {
+    type Key = C::Key;
+    type Local = HashedLocal<C::Memory>;
 
-    fn local(&self) -> HashedLocal<K> {
+    fn local(&self) -> Self::Local {
         HashedLocal {
             batch: Batch::new(),
-            found: Vec::new(),
+            memory: self.code.memory(),
         }
     }
 
     #[inline]
-    fn visit(&self, local: &mut HashedLocal<K>, key: K) {
-        let found = &mut local.found;
-        let before = found.capacity();
-        self.set
-            .insert(&mut local.batch, key, |key| found.push(key));
-        if found.capacity() > before {
-            self.lists.fetch_add(
-                ((found.capacity() - before) * size_of::<K>()) as u64,
-                Ordering::Relaxed,
-            );
+    fn visit(&self, local: &mut Self::Local, key: C::Key) {
+        match self.code.encode(&mut local.memory, key) {
+            Some(code) => self.set.insert(&mut local.batch, code),
+            None => self.full.store(true, Ordering::Relaxed),
         }
     }
 
-    fn advance(&mut self, locals: Vec<&mut HashedLocal<K>>) -> u64 {
-        self.list = Vec::new();
+    fn advance(&mut self, locals: Vec<&mut Self::Local>) -> u64 {
         for local in locals {
-            let found = &mut local.found;
-            self.set.flush(&mut local.batch, |key| found.push(key));
-            self.list.append(&mut std::mem::take(found));
+            self.set.flush(&mut local.batch);
         }
-        self.lists = AtomicU64::new((self.list.capacity() * size_of::<K>()) as u64);
-        self.list.len() as u64
+        let (from, to) = (std::mem::take(&mut self.to), self.set.counts());
+        self.set_frontier(from, to)
+    }
+
+    fn undo(&mut self, locals: Vec<&mut Self::Local>) -> u64 {
+        for local in locals {
+            local.batch.clear();
+        }
+        let mut count = 0;
+        for (shard, to) in self.to.iter().enumerate() {
+            let mut table = self.set.shard(shard);
+            count += (table.keys.len() - to) as u64;
+            table.truncate(*to);
+        }
+        count
+    }
+
+    const NAME: &'static str = C::NAME;
+
+    fn save(&self, out: &mut Out) -> io::Result<()> {
+        self.code.save(out)?;
+        self.set.save(out)?;
+        self.from.iter().try_for_each(|n| out.number(*n as u64))
+    }
+
+    fn load(&mut self, input: &mut In) -> io::Result<()> {
+        self.code.load(input)?;
+        self.set.load(input)?;
+        let mut from = Vec::with_capacity(SHARDS);
+        for _ in 0..SHARDS {
+            from.push(input.count()?);
+        }
+        self.set_frontier(from, self.set.counts());
+        Ok(())
     }
 
     fn pieces(&self) -> usize {
-        self.list.len().div_ceil(PIECE)
+        self.pieces.len()
+    }
+
+    fn size(&self) -> u64 {
+        let pairs = self.from.iter().zip(&self.to);
+        pairs.map(|(from, to)| (to - from) as u64).sum()
     }
 
     #[inline]
-    fn each(&self, piece: usize, mut visit: impl FnMut(K)) {
-        let end = self.list.len().min((piece + 1) * PIECE);
-        for key in &self.list[piece * PIECE..end] {
-            visit(*key);
+    fn each(&self, piece: usize, mut visit: impl FnMut(C::Key)) {
+        let (shard, start) = self.pieces[piece];
+        let end = self.to[shard].min(start + PIECE);
+        let mut codes = [0; PIECE];
+        let codes = &mut codes[..end - start];
+        codes.copy_from_slice(&self.set.shard(shard).keys[start..end]);
+        for code in codes {
+            visit(self.code.decode(*code));
         }
     }
 
     fn bytes(&self) -> u64 {
-        self.set.bytes() + self.lists.load(Ordering::Relaxed)
+        match self.full.load(Ordering::Relaxed) {
+            false => self.set.bytes() + self.code.bytes(),
+            true => u64::MAX / 4,
+        }
     }
 
     fn clear(&mut self) {

@@ -26,6 +26,7 @@
 #![forbid(unsafe_code)]
 
 mod bitmap;
+mod checkpoint;
 mod choices;
 mod control;
 mod crew;
@@ -36,11 +37,13 @@ mod graph;
 mod hashed;
 mod liveness;
 mod pack;
+mod parts;
 mod process;
 mod property;
 mod report;
 mod response;
 mod search;
+mod set;
 mod store;
 mod system;
 pub mod table;
@@ -50,9 +53,10 @@ mod twin;
 pub use choices::Replay;
 pub use control::{ControlGraph, control_graph, reachable};
 pub use explore::explore;
+pub use parts::Part;
 pub use property::{Form, Property};
 pub use report::{
-    Error, FaultReport, Judgement, Limits, Options, Progress, Report, Step, Storage, Trace, Verdict,
+    Checkpoint, Error, FaultReport, Judgement, Limits, Options, Progress, Report, Step, Storage, Trace, Verdict,
 };
 pub use system::{Choices, Domain, Fault, System};
 pub use twin::{Twin, TwinWork};

@@ -4,7 +4,7 @@ use crate::choices::Odometer;
 use crate::cursor::{Cursor, Leaf};
 use crate::explore::{Decision, Evidence, Tail, sign_test};
 use crate::graph::{Components, Edge, Graph, Mark};
-use crate::hashed::Sharded;
+use crate::set::Set;
 use crate::pack::Key;
 use crate::process::{Any, Process, beyond};
 use crate::property::Form;
@@ -35,7 +35,7 @@ pub(crate) fn fair<'a, K: Key>(
     form: &'a Form,
     response: Response,
     fair: &'a [usize],
-    pending: &Sharded<K>,
+    pending: &Set<K>,
     witness: Evidence<'a, K>,
     held: u64,
 ) -> Decision<'a, K> {

@@ -3,15 +3,18 @@
 use crate::report::Error;
 use crate::system::Domain;
 use std::fmt::Debug;
+use std::marker::PhantomData;
 
-/// An index of states. Its greatest value is never an index, so that a table can use it for "empty".
+/// An index of states: a number in one half or two, the first one being the more significant.
 pub(crate) trait Key: Copy + Ord + Debug + Send + Sync + 'static {
-    const ZERO: Self;
-    const EMPTY: Self;
-    /// None if the value does not fit.
-    fn of(value: u128) -> Option<Self>;
-    fn add_digit(self, stride: Self, digit: u64) -> Self;
-    fn split(self, size: u64) -> (Self, u64);
+    /// How many halves it has.
+    const HALVES: usize;
+    fn of(halves: [u64; 2]) -> Self;
+    fn halves(self) -> [u64; 2];
+    /// The sum; differences of indices wrap.
+    fn plus(self, other: Self) -> Self;
+    /// The difference.
+    fn minus(self, other: Self) -> Self;
     /// A mixed 64-bit hash.
     fn hash(self) -> u64;
 }
@@ -24,18 +27,22 @@ fn mix(value: u64) -> u64 {
 }
 
 impl Key for u64 {
-    const ZERO: Self = 0;
-    const EMPTY: Self = u64::MAX;
-    fn of(value: u128) -> Option<Self> {
-        u64::try_from(value).ok()
+    const HALVES: usize = 1;
+    #[inline]
+    fn of([key, _]: [u64; 2]) -> Self {
+        key
     }
     #[inline]
-    fn add_digit(self, stride: Self, digit: u64) -> Self {
-        self.wrapping_add(stride.wrapping_mul(digit))
+    fn halves(self) -> [u64; 2] {
+        [self, 0]
     }
     #[inline]
-    fn split(self, size: u64) -> (Self, u64) {
-        (self / size, self % size)
+    fn plus(self, other: Self) -> Self {
+        self.wrapping_add(other)
+    }
+    #[inline]
+    fn minus(self, other: Self) -> Self {
+        self.wrapping_sub(other)
     }
     #[inline]
     fn hash(self) -> u64 {
@@ -43,39 +50,65 @@ impl Key for u64 {
     }
 }
 
-impl Key for u128 {
-    const ZERO: Self = 0;
-    const EMPTY: Self = u128::MAX;
-    fn of(value: u128) -> Option<Self> {
-        Some(value)
+/// An index that needs more than 64 bits: some variables make up its first half, the others its second one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Wide {
+    first: u64,
+    second: u64,
+}
+
+impl Key for Wide {
+    const HALVES: usize = 2;
+    #[inline]
+    fn of([first, second]: [u64; 2]) -> Self {
+        Wide { first, second }
     }
     #[inline]
-    fn add_digit(self, stride: Self, digit: u64) -> Self {
-        self.wrapping_add(stride.wrapping_mul(u128::from(digit)))
+    fn halves(self) -> [u64; 2] {
+        [self.first, self.second]
     }
     #[inline]
-    fn split(self, size: u64) -> (Self, u64) {
-        let size = u128::from(size);
-        // The remainder is below `size`, which fits 64 bits.
-        (self / size, (self % size) as u64)
+    fn plus(self, other: Self) -> Self {
+        Wide {
+            first: self.first.wrapping_add(other.first),
+            second: self.second.wrapping_add(other.second),
+        }
+    }
+    #[inline]
+    fn minus(self, other: Self) -> Self {
+        Wide {
+            first: self.first.wrapping_sub(other.first),
+            second: self.second.wrapping_sub(other.second),
+        }
     }
     #[inline]
     fn hash(self) -> u64 {
-        mix((self as u64) ^ mix((self >> 64) as u64))
+        mix(self.second ^ mix(self.first.wrapping_add(0x9e37_79b9_7f4a_7c15)))
     }
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Digit<K> {
+struct Digit {
     lo: i32,
     size: u64,
-    stride: K,
+    stride: u64,
+    half: usize,
 }
 
-/// Packs the values of one list of domains; the first variable is the most significant.
+impl Digit {
+    /// The place of a value in its domain; the size or more if it lies outside: a domain has at most 2^32 values, so that
+    /// a value below `lo` wraps to a number from there on.
+    #[inline]
+    fn offset(&self, value: i32) -> u64 {
+        u64::from((value as u32).wrapping_sub(self.lo as u32))
+    }
+}
+
+/// Packs the values of one list of domains; in each half the first variable is the most significant.
 #[derive(Clone, Debug)]
 pub(crate) struct Packer<K> {
-    digits: Vec<Digit<K>>,
+    digits: Vec<Digit>,
+    key: PhantomData<K>,
 }
 
 /// The number of indices of a list of domains.
@@ -95,44 +128,77 @@ pub(crate) fn space(domains: &[Domain]) -> Result<u128, Error> {
 impl<K: Key> Packer<K> {
     /// Fails if an index does not fit `K`.
     pub(crate) fn new(domains: &[Domain]) -> Result<Self, Error> {
-        // With the number of indices itself representable, the greatest value is not an index.
-        K::of(space(domains)?).ok_or(Error::SpaceTooLarge)?;
-        let mut stride: u128 = 1;
+        space(domains)?;
+        let mut spaces = [1u128; 2];
+        let mut halves = Vec::with_capacity(domains.len());
+        for domain in domains {
+            let size = u128::from(domain.size());
+            let half = (0..K::HALVES).find(|half| spaces[*half] * size <= 1 << 64);
+            let half = half.ok_or(Error::SpaceTooLarge)?;
+            spaces[half] *= size;
+            halves.push(half);
+        }
+        let mut strides = [1u64; 2];
         let mut digits = Vec::with_capacity(domains.len());
-        for domain in domains.iter().rev() {
-            let size = domain.size();
+        for (domain, half) in domains.iter().zip(halves).rev() {
+            let (lo, size, stride) = (domain.lo, domain.size(), strides[half]);
             digits.push(Digit {
-                lo: domain.lo,
+                lo,
                 size,
-                stride: K::of(stride).ok_or(Error::SpaceTooLarge)?,
+                stride,
+                half,
             });
-            stride *= u128::from(size);
+            // After the first variable of a half nothing uses the stride, which may be 2^64 then.
+            strides[half] = stride.wrapping_mul(size);
         }
         digits.reverse();
-        Ok(Packer { digits })
+        Ok(Packer {
+            digits,
+            key: PhantomData,
+        })
     }
 
     /// The index of a state; None if a value is outside its domain.
     #[inline]
     pub(crate) fn pack(&self, state: &[i32]) -> Option<K> {
-        let mut key = K::ZERO;
+        let mut key = [0u64; 2];
         let mut inside = state.len() == self.digits.len();
         for (digit, value) in self.digits.iter().zip(state) {
-            // A value below `lo` wraps to a number from `size` on: a domain has at most 2^32 values.
-            let offset = u64::from((*value as u32).wrapping_sub(digit.lo as u32));
+            let offset = digit.offset(*value);
             inside &= offset < digit.size;
-            key = key.add_digit(digit.stride, offset);
+            let half = if K::HALVES == 1 { 0 } else { digit.half & 1 };
+            key[half] = key[half].wrapping_add(digit.stride.wrapping_mul(offset));
         }
-        if inside { Some(key) } else { None }
+        if inside { Some(K::of(key)) } else { None }
+    }
+
+    /// The number of variables.
+    pub(crate) fn variables(&self) -> usize {
+        self.digits.len()
+    }
+
+    /// What the given variables contribute to the index of a state; none if a value is outside its domain.
+    pub(crate) fn share(&self, variables: &[usize], state: &[i32]) -> Option<K> {
+        let mut key = [0u64; 2];
+        for variable in variables {
+            let (digit, value) = (self.digits.get(*variable)?, state.get(*variable)?);
+            let offset = digit.offset(*value);
+            if offset >= digit.size {
+                return None;
+            }
+            key[digit.half] = key[digit.half].wrapping_add(digit.stride.wrapping_mul(offset));
+        }
+        Some(K::of(key))
     }
 
     /// The state of an index.
     #[inline]
     pub(crate) fn unpack(&self, key: K, state: &mut [i32]) {
-        let mut rest = key;
+        let mut rest = key.halves();
         for (digit, value) in self.digits.iter().zip(state.iter_mut()).rev() {
-            let (quotient, offset) = rest.split(digit.size);
-            rest = quotient;
+            let half = if K::HALVES == 1 { 0 } else { digit.half & 1 };
+            let offset = rest[half] % digit.size;
+            rest[half] /= digit.size;
             *value = (i64::from(digit.lo) + offset as i64) as i32;
         }
     }
@@ -149,12 +215,13 @@ impl<K: Key> Packer<K> {
 mod tests {
     use super::*;
 
-    fn round_trip<K: Key>(domains: &[Domain], keys: impl Iterator<Item = u128>) {
-        let packer = Packer::<K>::new(domains).unwrap();
-        for wide in keys {
-            let key = K::of(wide).unwrap();
-            assert_eq!(packer.pack(&packer.state(key)), Some(key));
-        }
+    const FULL: Domain = Domain {
+        lo: i32::MIN,
+        hi: i32::MAX,
+    };
+
+    fn packer<K: Key>(domains: &[Domain]) -> Packer<K> {
+        Packer::new(domains).unwrap()
     }
 
     #[test]
@@ -165,31 +232,56 @@ mod tests {
             Domain { lo: 0, hi: 2 },
         ];
         assert_eq!(space(&domains), Ok(24));
-        round_trip::<u64>(&domains, 0..24);
-        round_trip::<u128>(&domains, 0..24);
-        let packer = Packer::<u64>::new(&domains).unwrap();
-        assert_eq!(packer.pack(&[-3, 7, 0]), Some(0));
-        assert_eq!(packer.pack(&[-3, 7, 1]), Some(1));
-        assert_eq!(packer.pack(&[4, 7, 2]), Some(23));
+        let (narrow, wide) = (packer::<u64>(&domains), packer::<Wide>(&domains));
+        for key in 0..24 {
+            assert_eq!(narrow.pack(&narrow.state(key)), Some(key));
+            let same = Wide::of([key, 0]);
+            assert_eq!(wide.pack(&narrow.state(key)), Some(same));
+            assert_eq!(wide.state(same), narrow.state(key));
+        }
+        assert_eq!(narrow.pack(&[-3, 7, 0]), Some(0));
+        assert_eq!(narrow.pack(&[-3, 7, 1]), Some(1));
+        assert_eq!(narrow.pack(&[4, 7, 2]), Some(23));
         for outside in [[-4, 7, 0], [5, 7, 0], [0, 8, 0], [0, 7, 3], [0, 6, 0]] {
-            assert_eq!(packer.pack(&outside), None);
+            assert_eq!(narrow.pack(&outside), None);
+            assert_eq!(wide.pack(&outside), None);
         }
     }
 
     #[test]
-    fn wide_spaces() {
-        let full = Domain {
-            lo: i32::MIN,
-            hi: i32::MAX,
+    fn shares_add_up_and_their_differences_move_a_state() {
+        let domains = [Domain { lo: -3, hi: 4 }, Domain { lo: 0, hi: 2 }, FULL];
+        let packer = packer::<u64>(&domains);
+        let (before, after) = ([1, 2, -5], [-2, 0, 77]);
+        let parts = |state: &[i32; 3]| {
+            let share = |variables: &[usize]| packer.share(variables, state).unwrap();
+            (share(&[0, 2]), share(&[1]))
         };
-        round_trip::<u128>(
-            &[full, full, full],
-            [0, 1, 1 << 95, (1 << 96) - 1].into_iter(),
-        );
-        assert!(Packer::<u64>::new(&[full, full]).is_err());
-        assert_eq!(space(&[full; 4]), Err(Error::SpaceTooLarge));
+        let (old, new) = (parts(&before), parts(&after));
+        let key = packer.pack(&before).unwrap();
+        assert_eq!(old.0.plus(old.1), key);
+        let moved = key.plus(new.0.minus(old.0)).plus(new.1.minus(old.1));
+        assert_eq!(Some(moved), packer.pack(&after));
+        assert_eq!(packer.share(&[1], &[0, 3, 0]), None);
+    }
+
+    #[test]
+    fn wide_spaces() {
+        let ends = [i32::MIN, -1, 0, i32::MAX];
+        let three = packer::<Wide>(&[FULL; 3]);
+        let states: Vec<[i32; 3]> = (0..64)
+            .map(|n| [ends[n / 16], ends[n / 4 % 4], ends[n % 4]])
+            .collect();
+        let keys: Vec<Wide> = states.iter().map(|s| three.pack(s).unwrap()).collect();
+        assert!(keys.windows(2).all(|pair| pair[0] < pair[1]));
+        for (state, key) in states.iter().zip(keys) {
+            assert_eq!(three.state(key), state);
+        }
+        assert!(Packer::<u64>::new(&[FULL, FULL]).is_err());
+        assert!(Packer::<Wide>::new(&[FULL; 4]).is_err());
+        assert_eq!(space(&[FULL; 4]), Err(Error::SpaceTooLarge));
         assert_eq!(
-            space(&[full, Domain { lo: 1, hi: 0 }]),
+            space(&[FULL, Domain { lo: 1, hi: 0 }]),
             Err(Error::EmptyDomain { variable: 1 })
         );
     }

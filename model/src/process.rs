@@ -2,6 +2,7 @@
 //! a pointer, so that a new system costs little compile time.
 
 use crate::choices::Odometer;
+use crate::parts::Part;
 use crate::system::{Domain, Fault, System};
 
 /// A system and a work area. The methods are those of [`System`] with the choices of an odometer.
@@ -16,6 +17,8 @@ pub(crate) trait Process: Send {
     fn atom(&mut self, atom: usize, choices: &mut Odometer) -> Result<bool, Fault>;
     /// Adds `weight` to the count of each rule that fired.
     fn count(&self, weight: u64, coverage: &mut [u64]);
+    /// Calls `each` with the number of every rule that fired.
+    fn fired(&self, each: &mut dyn FnMut(usize));
     fn discarded(&self) -> bool;
     /// Keeps the work area as it is after a step, for [`Process::restore`].
     fn save(&mut self);
@@ -52,6 +55,9 @@ pub(crate) trait Origin: Sync {
     fn domains(&self) -> &[Domain];
     fn combinations(&self) -> u128;
     fn rules(&self) -> usize;
+    fn parts(&self) -> Vec<Part<'_>> {
+        Vec::new()
+    }
 }
 
 /// A process of a system of a known type.
@@ -89,6 +95,10 @@ impl<S: System> Process for Direct<'_, S> {
                 *count = count.saturating_add(weight);
             }
         });
+    }
+
+    fn fired(&self, mut each: &mut dyn FnMut(usize)) {
+        self.system.fired(&self.work, &mut each);
     }
 
     #[inline]
@@ -134,6 +144,10 @@ impl<'s, S: System> Origin for Own<'s, S> {
     fn rules(&self) -> usize {
         self.0.rules()
     }
+
+    fn parts(&self) -> Vec<Part<'_>> {
+        self.0.parts()
+    }
 }
 
 /// A process of a system behind a pointer.
@@ -161,6 +175,10 @@ impl Process for AnyProcess<'_> {
         (**self).count(weight, coverage);
     }
 
+    fn fired(&self, each: &mut dyn FnMut(usize)) {
+        (**self).fired(each);
+    }
+
     fn discarded(&self) -> bool {
         (**self).discarded()
     }
@@ -175,7 +193,7 @@ impl Process for AnyProcess<'_> {
 }
 
 /// A system that can be put behind a pointer: any.
-trait Source: Sync {
+pub(crate) trait Source: Sync {
     fn process(&self) -> AnyProcess<'_>;
     fn domains(&self) -> &[Domain];
     fn combinations(&self) -> u128;
@@ -207,6 +225,10 @@ pub(crate) struct Any<'s>(&'s dyn Source);
 impl<'s> Any<'s> {
     pub(crate) fn new<S: System>(system: &'s S) -> Self {
         Any(system)
+    }
+
+    pub(crate) fn of(source: &'s dyn Source) -> Self {
+        Any(source)
     }
 }
 

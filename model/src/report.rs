@@ -1,5 +1,6 @@
 //! What an exploration is asked and what it answers.
 
+use std::path::PathBuf;
 use std::time::Duration;
 
 /// Bounds on an exploration. Reaching one ends it early with `complete = false`; it is no error.
@@ -13,6 +14,19 @@ pub struct Limits {
     pub threads: usize,
 }
 
+/// Where to keep an exploration between two levels, so that it can be continued.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Checkpoint {
+    /// The file; its folder must exist.
+    pub file: PathBuf,
+    /// Says what is explored: the checkpoint of another identity is not continued.
+    pub identity: String,
+    /// The least time between two checkpoints. One more is written when a limit ends the search, and at its end.
+    pub every: Duration,
+    /// Whether to continue from the file, if it is there.
+    pub resume: bool,
+}
+
 /// How to explore.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Options {
@@ -24,6 +38,8 @@ pub struct Options {
     pub stop_when_decided: bool,
     /// The most absorbing states listed.
     pub examples: usize,
+    /// Where to keep the exploration; none to keep it nowhere.
+    pub checkpoint: Option<Checkpoint>,
 }
 
 impl Default for Options {
@@ -33,6 +49,7 @@ impl Default for Options {
             witnesses: true,
             stop_when_decided: false,
             examples: 8,
+            checkpoint: None,
         }
     }
 }
@@ -43,6 +60,11 @@ pub trait Progress {
     /// unread inputs), and the number of states found in the level just made.
     fn on_level(&mut self, depth: u32, states: u64, transitions: u128, frontier: u64) {
         let _ = (depth, states, transitions, frontier);
+    }
+
+    /// Called when a checkpoint could not be written; the search goes on, and the last one is still there.
+    fn on_lost_checkpoint(&mut self, error: &Error) {
+        let _ = error;
     }
 }
 
@@ -84,6 +106,14 @@ pub enum Error {
     TooManyFair {
         /// The property.
         id: String,
+    },
+    /// A checkpoint cannot be used or written.
+    #[error("checkpoint {file}: {reason}")]
+    Checkpoint {
+        /// The file.
+        file: String,
+        /// Why.
+        reason: String,
     },
     /// The operating system gave no threads.
     #[error("cannot start the worker threads: {0}")]
@@ -175,6 +205,8 @@ pub struct Report {
     pub seconds: f64,
     /// Whether every reachable state was explored and every property decided.
     pub complete: bool,
+    /// Whether a checkpoint was written from which the search can be continued where it ended.
+    pub resumable: bool,
     /// For each rule in how many transitions (weighted as above, saturating) it fired.
     pub coverage: Vec<u64>,
     /// The number of states whose only successor is the state itself.

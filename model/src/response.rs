@@ -5,7 +5,7 @@ use crate::cursor::{Cursor, Leaf};
 use crate::duty::Duty;
 use crate::explore::{Decision, Evidence, Job, Stage, Tail, on_store, seen, sign_test};
 use crate::graph::{Graph, Mark};
-use crate::hashed::Sharded;
+use crate::set::Set;
 use crate::pack::Key;
 use crate::process::{Any, Process};
 use crate::property::{Form, Property};
@@ -35,7 +35,7 @@ pub(crate) fn bounded<'a, K: Key>(
     form: &'a Form,
     response: Response,
     within: u32,
-    pending: &Sharded<K>,
+    pending: &Set<K>,
     witness: Evidence<'a, K>,
     held: u64,
 ) -> Decision<'a, K> {
@@ -120,7 +120,7 @@ pub(crate) fn until<'a, K: Key>(
     form: &'a Form,
     (holds, unless): (usize, usize),
     signs: Signs<K>,
-    pending: &Sharded<K>,
+    pending: &Set<K>,
     witness: Evidence<'a, K>,
     options: &Options,
     held: u64,
@@ -216,7 +216,7 @@ impl Job<&Duty<'_>> for Counterexample<'_> {
             form: form.clone(),
         }];
         let found = search(model, &mut store, &property, self.options, &mut ())?;
-        let Some(at) = found.signs[0].bad else {
+        let Some(at) = found.tally.signs[0].bad else {
             return Ok(None);
         };
         let test = sign_test(&form, |sign, _| sign.bad);

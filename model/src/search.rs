@@ -1,10 +1,12 @@
 //! The one breadth-first search: counts, coverage, faults, and what every property needs to know.
 
+use crate::checkpoint::Keeper;
 use crate::choices::Odometer;
 use crate::crew::{Crew, Watch};
 use crate::cursor::{Cursor, Leaf};
-use crate::hashed::{Batch, Sharded};
+use crate::set::{Batch, Set};
 use crate::pack::{Key, Packer};
+use crate::parts::{Event, Joined, Tables};
 use crate::process::{Origin, Process, beyond};
 use crate::property::{Eval, Property};
 use crate::report::{Error, Options, Progress};
@@ -65,22 +67,58 @@ pub(crate) struct Signs<K> {
     pub(crate) met: bool,
 }
 
-/// What a search found.
-pub(crate) struct Found<K> {
+/// What a search counted and noted.
+#[derive(Clone)]
+pub(crate) struct Tally<K> {
     pub(crate) states: u64,
     pub(crate) transitions: u128,
+    /// Of all leaves, modulo 2^128; must be the declared combinations for each state explored.
+    pub(crate) weights: u128,
+    pub(crate) explored: u64,
     pub(crate) depth: u32,
     /// Every reachable state was explored.
     pub(crate) complete: bool,
     pub(crate) signs: Vec<Signs<K>>,
-    /// For each property the states in which a duty that just began is pending.
-    pub(crate) pending: Vec<Sharded<K>>,
     /// By code: the first place.
     pub(crate) faults: BTreeMap<u32, (u32, K)>,
     pub(crate) coverage: Vec<u64>,
     pub(crate) absorbing: u64,
     pub(crate) examples: Vec<K>,
+}
+
+impl<K: Key> Tally<K> {
+    /// Nothing yet, for so many properties and rules.
+    pub(crate) fn new(properties: usize, rules: usize) -> Self {
+        let none = Signs {
+            first: None,
+            bad: None,
+            met: false,
+        };
+        Tally {
+            states: 0,
+            transitions: 0,
+            weights: 0,
+            explored: 0,
+            depth: 0,
+            complete: false,
+            signs: vec![none; properties],
+            faults: BTreeMap::new(),
+            coverage: vec![0; rules],
+            absorbing: 0,
+            examples: Vec::new(),
+        }
+    }
+}
+
+/// What a search found.
+pub(crate) struct Found<K> {
+    pub(crate) tally: Tally<K>,
+    /// For each property the states in which a duty that just began is pending.
+    pub(crate) pending: Vec<Set<K>>,
+    /// The most bytes held.
     pub(crate) bytes: u64,
+    /// Whether a checkpoint of the end was written.
+    pub(crate) resumable: bool,
 }
 
 // The alignment keeps the counters of two threads out of one cache line.
@@ -89,7 +127,6 @@ struct Worker<P, K, L> {
     cursor: Cursor<P>,
     local: L,
     transitions: u128,
-    /// Of all leaves, modulo 2^128; must be the declared combinations for each state explored.
     weights: u128,
     explored: u64,
     first: Vec<Option<K>>,
@@ -100,6 +137,7 @@ struct Worker<P, K, L> {
     coverage: Vec<u64>,
     absorbing: u64,
     examples: Vec<K>,
+    joined: Option<Joined>,
 }
 
 #[inline]
@@ -118,6 +156,7 @@ pub(crate) fn search<O: Origin, T: Store>(
     progress: &mut dyn Progress,
 ) -> Result<Found<T::Key>, Error> {
     let origin = &model.origin;
+    let parts = Tables::new(origin, &model.packer, properties);
     let mut workers: Vec<_> = (0..model.crew.size())
         .map(|_| Worker {
             cursor: Cursor::new(origin),
@@ -133,33 +172,40 @@ pub(crate) fn search<O: Origin, T: Store>(
             coverage: vec![0; origin.rules()],
             absorbing: 0,
             examples: Vec::new(),
+            joined: parts.as_ref().map(Tables::worker),
         })
         .collect();
-    let mut found = Found {
-        states: initial(model, store)?,
-        transitions: 0,
-        depth: 0,
-        complete: false,
-        signs: vec![
-            Signs {
-                first: None,
-                bad: None,
-                met: false,
-            };
-            properties.len()
-        ],
-        pending: properties.iter().map(|_| Sharded::new()).collect(),
-        faults: BTreeMap::new(),
-        coverage: vec![0; origin.rules()],
-        absorbing: 0,
-        examples: Vec::new(),
-        bytes: store.bytes(),
+    let mut keeper = options.checkpoint.as_ref().map(Keeper::new);
+    let resumed = match &keeper {
+        Some(keeper) if options.checkpoint.as_ref().is_some_and(|c| c.resume) => {
+            keeper.load(store)?
+        }
+        _ => None,
     };
-    progress.on_level(0, found.states, 0, found.states);
-    loop {
+    let mut found = match resumed {
+        Some((found, earlier)) => {
+            model.watch.continues(earlier);
+            found
+        }
+        None => {
+            let mut tally = Tally::new(properties.len(), origin.rules());
+            tally.states = initial(model, store)?;
+            Found {
+                tally,
+                pending: properties.iter().map(|_| Set::new()).collect(),
+                bytes: store.bytes(),
+                resumable: false,
+            }
+        }
+    };
+    {
+        let Tally { depth, states, transitions, .. } = found.tally;
+        progress.on_level(depth, states, transitions, store.size());
+    }
+    while !found.tally.complete {
         let open: Vec<usize> = (0..properties.len())
             .filter(|p| {
-                let signs = found.signs[*p];
+                let signs = found.tally.signs[*p];
                 !properties[*p]
                     .form
                     .settled(signs.first.is_some(), signs.bad.is_some())
@@ -172,44 +218,56 @@ pub(crate) fn search<O: Origin, T: Store>(
             open: &open,
             pending: &found.pending,
             options,
+            parts: parts.as_ref(),
         };
         model
             .crew
             .share(&mut workers, store.pieces(), |worker, piece| {
                 level.explore(worker, piece)
             });
+        // A level that a limit broke off is explored again when the search is continued.
+        let stopped = model.watch.stopped().is_some();
+        let before = (stopped && keeper.is_some()).then(|| found.tally.clone());
         for worker in &mut workers {
+            if let (Some(parts), Some(joined)) = (&parts, &mut worker.joined) {
+                parts.count(joined, &mut worker.coverage);
+            }
             gather(&mut found, worker, options.examples);
         }
         found.bytes = found.bytes.max(bytes(store, &found.pending));
-        let frontier = store.advance(workers.iter_mut().map(|w| &mut w.local).collect());
-        found.bytes = found.bytes.max(bytes(store, &found.pending));
-        found.states += frontier;
-        let transitions = workers
-            .iter()
-            .fold(0u128, |sum, w| sum.saturating_add(w.transitions));
-        if frontier > 0 {
-            found.depth += 1;
-            progress.on_level(found.depth, found.states, transitions, frontier);
+        let locals = workers.iter_mut().map(|w| &mut w.local).collect();
+        if stopped {
+            found.tally.states += store.undo(locals);
+            if let (Some(keeper), Some(before)) = (&mut keeper, before) {
+                found.resumable = keep(keeper, model, store, &before, &found, progress);
+            }
+            break;
         }
+        let frontier = store.advance(locals);
+        found.bytes = found.bytes.max(bytes(store, &found.pending));
+        let tally = &mut found.tally;
+        tally.states += frontier;
+        if frontier > 0 {
+            tally.depth += 1;
+            progress.on_level(tally.depth, tally.states, tally.transitions, frontier);
+        }
+        tally.complete = frontier == 0;
         let decided = options.stop_when_decided
             && properties
                 .iter()
-                .zip(&found.signs)
+                .zip(&tally.signs)
                 .all(|(p, s)| p.form.decided_by(s.first.is_some(), s.bad.is_some()));
-        if model.watch.stopped().is_some() || frontier == 0 || decided {
-            found.complete = model.watch.stopped().is_none() && frontier == 0;
-            found.transitions = transitions;
+        if let Some(keeper) = &mut keeper {
+            if tally.complete || decided || keeper.is_due() {
+                found.resumable = keep(keeper, model, store, &found.tally, &found, progress);
+            }
+        }
+        if decided {
             break;
         }
     }
-    let explored = workers
-        .iter()
-        .fold(0u128, |sum, w| sum + u128::from(w.explored));
-    let weights = workers
-        .iter()
-        .fold(0u128, |sum, w| sum.wrapping_add(w.weights));
-    if weights != explored.wrapping_mul(origin.combinations()) {
+    let Tally { weights, explored, .. } = found.tally;
+    if weights != u128::from(explored).wrapping_mul(origin.combinations()) {
         return Err(Error::Combinations {
             declared: origin.combinations(),
         });
@@ -217,8 +275,24 @@ pub(crate) fn search<O: Origin, T: Store>(
     Ok(found)
 }
 
-fn bytes<T: Store>(store: &T, pending: &[Sharded<T::Key>]) -> u64 {
-    store.bytes() + pending.iter().map(Sharded::bytes).sum::<u64>()
+/// Writes a checkpoint; true if it is there.
+fn keep<O, T: Store>(
+    keeper: &mut Keeper,
+    model: &Model<O, T::Key>,
+    store: &T,
+    tally: &Tally<T::Key>,
+    found: &Found<T::Key>,
+    progress: &mut dyn Progress,
+) -> bool {
+    let saved = keeper.save(store, tally, &found.pending, model.watch.elapsed());
+    if let Err(error) = &saved {
+        progress.on_lost_checkpoint(error);
+    }
+    saved.is_ok()
+}
+
+fn bytes<T: Store>(store: &T, pending: &[Set<T::Key>]) -> u64 {
+    store.bytes() + pending.iter().map(Set::bytes).sum::<u64>()
 }
 
 /// Makes the initial states the frontier of an empty store.
@@ -240,8 +314,9 @@ struct Level<'a, O, T: Store> {
     store: &'a T,
     properties: &'a [Property],
     open: &'a [usize],
-    pending: &'a [Sharded<T::Key>],
+    pending: &'a [Set<T::Key>],
     options: &'a Options,
+    parts: Option<&'a Tables<T::Key>>,
 }
 
 impl<O: Origin, T: Store> Level<'_, O, T> {
@@ -249,7 +324,66 @@ impl<O: Origin, T: Store> Level<'_, O, T> {
         if self.model.watch.over(bytes(self.store, self.pending)) {
             return;
         }
-        self.store.each(piece, |key| self.state(worker, key));
+        self.store.each(piece, |key| {
+            let joined = self.parts.is_some_and(|parts| self.joined(parts, worker, key));
+            if !joined {
+                self.state(worker, key);
+            }
+        });
+    }
+
+    /// One state of a system that falls into parts; false if its cycles are not in their tables.
+    #[inline]
+    fn joined(
+        &self,
+        parts: &Tables<T::Key>,
+        worker: &mut Worker<O::Process, T::Key, T::Local>,
+        key: T::Key,
+    ) -> bool {
+        let Worker {
+            local,
+            first,
+            bad,
+            met,
+            pending,
+            joined: Some(joined),
+            ..
+        } = worker
+        else {
+            return false;
+        };
+        let mut stays = true;
+        let known = parts.cycles(&self.model.packer, joined, key, |event| match event {
+            Event::First(property) => lower(&mut first[property], key),
+            Event::Bad(property) => lower(&mut bad[property], key),
+            Event::Met(property) => met[property] = true,
+            Event::Pending(property, after) => {
+                let batch = &mut pending[property];
+                self.pending[property].insert(batch, after);
+            }
+            Event::To(after) => {
+                stays &= after == key;
+                self.store.visit(local, after);
+            }
+        });
+        if known {
+            let combinations = parts.combinations();
+            worker.explored += 1;
+            worker.weights = worker.weights.wrapping_add(combinations);
+            worker.transitions = worker.transitions.saturating_add(combinations);
+            if stays {
+                self.absorbing(worker, key);
+            }
+        }
+        known
+    }
+
+    fn absorbing(&self, worker: &mut Worker<O::Process, T::Key, T::Local>, key: T::Key) {
+        worker.absorbing += 1;
+        worker.examples.push(key);
+        if worker.examples.len() > 2 * self.options.examples + 64 {
+            least(&mut worker.examples, self.options.examples);
+        }
     }
 
     #[inline]
@@ -293,7 +427,7 @@ impl<O: Origin, T: Store> Level<'_, O, T> {
                             met[property] |= sign.met;
                             if sign.pending {
                                 let batch = &mut pending[property];
-                                self.pending[property].insert(batch, after, |_| ());
+                                self.pending[property].insert(batch, after);
                             }
                         });
                     }
@@ -322,11 +456,7 @@ impl<O: Origin, T: Store> Level<'_, O, T> {
             .transitions
             .saturating_add(weights.wrapping_sub(discarded));
         if stays && makes {
-            worker.absorbing += 1;
-            worker.examples.push(key);
-            if worker.examples.len() > 2 * self.options.examples + 64 {
-                least(&mut worker.examples, self.options.examples);
-            }
+            self.absorbing(worker, key);
         }
     }
 }
@@ -341,10 +471,11 @@ fn least<K: Ord>(keys: &mut Vec<K>, most: usize) {
     keys.truncate(most);
 }
 
-/// Takes over what a worker found in the level just explored (at depth `found.depth`).
+/// Takes over what a worker found in the level just explored (at depth `tally.depth`).
 fn gather<P, K: Key, L>(found: &mut Found<K>, worker: &mut Worker<P, K, L>, examples: usize) {
-    let depth = found.depth;
-    for (property, signs) in found.signs.iter_mut().enumerate() {
+    let tally = &mut found.tally;
+    let depth = tally.depth;
+    for (property, signs) in tally.signs.iter_mut().enumerate() {
         if let Some(key) = worker.first[property].take() {
             lower(&mut signs.first, (depth, key));
         }
@@ -352,16 +483,20 @@ fn gather<P, K: Key, L>(found: &mut Found<K>, worker: &mut Worker<P, K, L>, exam
             lower(&mut signs.bad, (depth, key));
         }
         signs.met |= worker.met[property];
-        found.pending[property].flush(&mut worker.pending[property], |_| ());
+        found.pending[property].flush(&mut worker.pending[property]);
     }
     for (code, key) in std::mem::take(&mut worker.faults) {
-        let least = found.faults.entry(code).or_insert((depth, key));
+        let least = tally.faults.entry(code).or_insert((depth, key));
         *least = (depth, key).min(*least);
     }
-    for (sum, count) in found.coverage.iter_mut().zip(&mut worker.coverage) {
+    for (sum, count) in tally.coverage.iter_mut().zip(&mut worker.coverage) {
         *sum = sum.saturating_add(std::mem::take(count));
     }
-    found.absorbing += std::mem::take(&mut worker.absorbing);
-    found.examples.append(&mut worker.examples);
-    least(&mut found.examples, examples);
+    let transitions = std::mem::take(&mut worker.transitions);
+    tally.transitions = tally.transitions.saturating_add(transitions);
+    tally.weights = tally.weights.wrapping_add(std::mem::take(&mut worker.weights));
+    tally.explored += std::mem::take(&mut worker.explored);
+    tally.absorbing += std::mem::take(&mut worker.absorbing);
+    tally.examples.append(&mut worker.examples);
+    least(&mut tally.examples, examples);
 }

@@ -1,7 +1,9 @@
 //! The set of states found and the frontier of the level being explored.
 
 use crate::bitmap::{Bitmap, place};
+use crate::checkpoint::{In, Out};
 use crate::pack::Key;
+use std::io;
 use std::sync::atomic::Ordering;
 
 /// A set of states that grows level by level. `visit` runs in all workers at once, the rest between levels.
@@ -14,9 +16,19 @@ pub(crate) trait Store: Sync {
     fn visit(&self, local: &mut Self::Local, key: Self::Key);
     /// Ends the level: what the workers found is the frontier now. Gives its size.
     fn advance(&mut self, locals: Vec<&mut Self::Local>) -> u64;
+    /// Forgets what the workers found in a level that was not explored to its end. Gives how many states that were.
+    fn undo(&mut self, locals: Vec<&mut Self::Local>) -> u64;
+    /// What a checkpoint calls this storage.
+    const NAME: &'static str;
+    /// Writes the states and the frontier.
+    fn save(&self, out: &mut Out) -> io::Result<()>;
+    /// Reads them into an empty store.
+    fn load(&mut self, input: &mut In) -> io::Result<()>;
     /// The frontier in pieces, to be shared out.
     fn pieces(&self) -> usize;
     fn each(&self, piece: usize, visit: impl FnMut(Self::Key));
+    /// The number of states in the frontier.
+    fn size(&self) -> u64;
     /// Bytes held.
     fn bytes(&self) -> u64;
     /// Empties the set.
@@ -47,6 +59,8 @@ pub(crate) struct Dense {
     /// The frontier is in the wave bitmap, else in the list.
     in_wave: bool,
     list: Vec<u64>,
+    /// States in the frontier.
+    size: u64,
     /// The longest list of one worker.
     most: usize,
     peak: u64,
@@ -72,6 +86,7 @@ impl Dense {
             wave: Bitmap::new(words),
             in_wave: false,
             list: Vec::new(),
+            size: 0,
             // Lists of 64-bit indices that together take at most a quarter bit an index.
             most: (words / 4 / threads.max(1)).max(4096),
             peak: 0,
@@ -145,7 +160,47 @@ impl Store for Dense {
             local.count = 0;
             local.spilled = false;
         }
+        self.size = count;
         count
+    }
+
+    fn undo(&mut self, locals: Vec<&mut DenseLocal>) -> u64 {
+        let count = locals.iter().map(|l| l.count).sum();
+        if locals.iter().any(|l| l.spilled) {
+            // Both bits: found in this level.
+            self.visited.change(&mut self.wave, |visited, wave| {
+                let next = *visited & *wave;
+                (*visited, *wave) = (*visited & !next, *wave & !next);
+            });
+        }
+        for local in locals {
+            for key in local.found.drain(..) {
+                let (word, bit) = place(key);
+                self.visited.clear(word, bit);
+            }
+            local.count = 0;
+            local.spilled = false;
+        }
+        count
+    }
+
+    const NAME: &'static str = "a bitmap";
+
+    fn save(&self, out: &mut Out) -> io::Result<()> {
+        self.visited.write(out)?;
+        self.wave.write(out)?;
+        out.number(u64::from(self.in_wave))?;
+        out.number(self.size)?;
+        out.numbers(&self.list)
+    }
+
+    fn load(&mut self, input: &mut In) -> io::Result<()> {
+        self.visited.read(input)?;
+        self.wave.read(input)?;
+        self.in_wave = input.number()? != 0;
+        self.size = input.number()?;
+        self.list = input.numbers()?;
+        Ok(())
     }
 
     fn pieces(&self) -> usize {
@@ -154,6 +209,10 @@ impl Store for Dense {
         } else {
             self.list.len().div_ceil(PIECE)
         }
+    }
+
+    fn size(&self) -> u64 {
+        self.size
     }
 
     #[inline]

@@ -1,11 +1,20 @@
 //! What can be explored: a finite system of states that makes one step a cycle.
 
+use crate::choices::Odometer;
+use crate::parts::Part;
+
 /// The environment of one cycle: it answers each input the system asks for.
 ///
 /// Within one cycle the same input always gets the same answer, however often it is asked for.
 pub trait Choices {
     /// The value of input number `input`, in `0..size`. `size` is at least 1 and belongs to the input.
     fn choose(&mut self, input: u32, size: u32) -> u32;
+
+    /// The explorer's own enumeration, if these are its choices: generated code is compiled for it.
+    #[doc(hidden)]
+    fn odometer(&mut self) -> Option<&mut Odometer> {
+        None
+    }
 }
 
 /// The values of one state variable.
@@ -109,6 +118,12 @@ pub trait System: Sync {
     ) -> Result<i64, Fault> {
         let _ = (work, expression, choices);
         Err(Fault::NO_OBSERVATION)
+    }
+
+    /// The parts of the system that share nothing but inputs, if it falls into several: together they have every state
+    /// variable, and a cycle of the system is a cycle of each of them under the same inputs. None is discarded.
+    fn parts(&self) -> Vec<Part<'_>> {
+        Vec::new()
     }
 
     /// Whether the answers of the cycle just made by `next` are no input at all, so that the cycle does not exist.

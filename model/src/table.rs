@@ -3,8 +3,10 @@
 use stillpoint_spec::bind::Bound;
 use stillpoint_spec::eval;
 use stillpoint_spec::ir;
-use stillpoint_tables::Table;
+use stillpoint_tables::{Steps, Table, Visitor};
 
+use crate::choices::Odometer;
+use crate::parts::Part;
 use crate::property::{Form, Property};
 use crate::system::{Choices, Domain, Fault, System};
 
@@ -153,6 +155,10 @@ impl System for Interpreted<'_> {
         self.shape.fired(&work.fired, each);
     }
 
+    fn parts(&self) -> Vec<Part<'_>> {
+        parts(self.bound)
+    }
+
     fn observe<C: Choices>(
         &self,
         work: &mut Self::Work,
@@ -165,11 +171,113 @@ impl System for Interpreted<'_> {
     }
 }
 
+/// Some instances of a table, run by the interpreter as if there were no others.
+struct PartOf<'a> {
+    whole: Interpreted<'a>,
+    instances: Vec<usize>,
+}
+
+impl System for PartOf<'_> {
+    type Work = eval::Frame;
+
+    fn work(&self) -> Self::Work {
+        self.whole.work()
+    }
+
+    fn domains(&self) -> &[Domain] {
+        self.whole.domains()
+    }
+
+    fn combinations(&self) -> u128 {
+        self.whole.combinations()
+    }
+
+    fn initial<C: Choices>(&self, work: &mut Self::Work, choices: &mut C, state: &mut [i32]) {
+        self.whole.initial(work, choices, state);
+    }
+
+    fn next<C: Choices>(
+        &self,
+        work: &mut Self::Work,
+        before: &[i32],
+        choices: &mut C,
+        after: &mut [i32],
+    ) -> Result<(), Fault> {
+        work.start(before);
+        let mut read = |k| self.whole.shape.read(choices, k);
+        for k in &self.instances {
+            let step = self.whole.bound.step_instance(*k, work, &mut read);
+            step.map_err(|code| Fault { code })?;
+        }
+        after.copy_from_slice(&work.now);
+        Ok(())
+    }
+
+    fn atom<C: Choices>(
+        &self,
+        work: &mut Self::Work,
+        atom: usize,
+        choices: &mut C,
+    ) -> Result<bool, Fault> {
+        self.whole.atom(work, atom, choices)
+    }
+
+    fn rules(&self) -> usize {
+        self.whole.rules()
+    }
+
+    fn fired(&self, work: &Self::Work, each: &mut impl FnMut(usize)) {
+        self.whole.fired(work, each);
+    }
+}
+
+fn parts(bound: &Bound) -> Vec<Part<'_>> {
+    let part = |part: stillpoint_spec::parts::Part| {
+        let system = PartOf {
+            whole: Interpreted::new(bound),
+            instances: part.instances,
+        };
+        Part::new(part.states, part.atoms, system)
+    };
+    let found = stillpoint_spec::parts::parts(&bound.system);
+    found.into_iter().map(part).collect()
+}
+
 /// A table run by its generated step function.
 pub struct Generated<'a> {
     bound: &'a Bound,
     table: &'static Table,
+    native: Native,
     shape: Shape,
+}
+
+/// The inputs as generated code reads them from the explorer.
+type Inputs<'a> = (&'a Shape, &'a mut Odometer);
+
+/// The functions of a table with the explorer's enumeration compiled in: a call for each cycle, none for each input.
+struct Native {
+    step: fn(&[i32], &mut [i32], &mut [i32], &[i32], Inputs) -> Result<(), u32>,
+    atom: fn(usize, &mut [i32], &[i32], Inputs) -> Result<bool, u32>,
+}
+
+/// Makes them for one table.
+struct Compile;
+
+impl Visitor for Compile {
+    type Output = Native;
+
+    fn visit<T: Steps>(self) -> Native {
+        Native {
+            step: |before, after, frame, params, (shape, odometer)| {
+                T::step(before, after, frame, params, &mut |k| {
+                    shape.read(odometer, k)
+                })
+            },
+            atom: |number, frame, params, (shape, odometer)| {
+                T::atom(number, frame, params, &mut |k| shape.read(odometer, k))
+            },
+        }
+    }
 }
 
 impl<'a> Generated<'a> {
@@ -179,6 +287,7 @@ impl<'a> Generated<'a> {
         Some(Self {
             bound,
             table,
+            native: table.visit(Compile)?,
             shape: Shape::new(bound),
         })
     }
@@ -211,10 +320,16 @@ impl System for Generated<'_> {
         choices: &mut C,
         after: &mut [i32],
     ) -> Result<(), Fault> {
+        let fault = |code| Fault { code };
+        if let Some(odometer) = choices.odometer() {
+            let inputs = (&self.shape, odometer);
+            return (self.native.step)(before, after, work, &self.bound.values, inputs)
+                .map_err(fault);
+        }
         (self.table.step)(before, work, &self.bound.values, &mut |k| {
             self.shape.read(choices, k)
         })
-        .map_err(|code| Fault { code })?;
+        .map_err(fault)?;
         after.copy_from_slice(&work[..after.len()]);
         Ok(())
     }
@@ -226,6 +341,11 @@ impl System for Generated<'_> {
         atom: usize,
         choices: &mut C,
     ) -> Result<bool, Fault> {
+        if let Some(odometer) = choices.odometer() {
+            let inputs = (&self.shape, odometer);
+            return (self.native.atom)(atom, work, &self.bound.values, inputs)
+                .map_err(|code| Fault { code });
+        }
         (self.table.atom)(atom, work, &self.bound.values, &mut |k| {
             self.shape.read(choices, k)
         })
@@ -240,6 +360,10 @@ impl System for Generated<'_> {
     fn fired(&self, work: &Self::Work, each: &mut impl FnMut(usize)) {
         self.shape
             .fired(&work[self.table.cells - self.table.fired..], each);
+    }
+
+    fn parts(&self) -> Vec<Part<'_>> {
+        parts(self.bound)
     }
 
     fn observe<C: Choices>(

@@ -99,21 +99,33 @@ impl Bound {
     /// # Errors
     /// The index of the assignment (in `system.sites`) whose value left its range.
     pub fn step(&self, f: &mut Frame, read: &mut impl Read) -> Result<(), u32> {
+        (0..self.system.instances.len()).try_for_each(|k| self.step_instance(k, f, read))
+    }
+
+    /// The step of instance `k` alone, after those of the instances before it.
+    ///
+    /// # Errors
+    /// As [`Bound::step`].
+    pub fn step_instance(
+        &self,
+        k: usize,
+        f: &mut Frame,
+        read: &mut impl Read,
+    ) -> Result<(), u32> {
         let cells = self.cells();
-        for (k, instance) in self.system.instances.iter().enumerate() {
-            let mut fired = 0;
-            for (n, rule) in instance.rules.iter().enumerate() {
-                if value(&rule.when, cells, f, read) != 0 {
-                    fired = n + 1;
-                    break;
-                }
-            }
-            f.fired[k] = fired as i32;
-            if fired > 0 {
-                self.run(&instance.rules[fired - 1].then, f, read)?;
+        let rules = &self.system.instances[k].rules;
+        let mut fired = 0;
+        for (n, rule) in rules.iter().enumerate() {
+            if value(&rule.when, cells, f, read) != 0 {
+                fired = n + 1;
+                break;
             }
         }
-        Ok(())
+        f.fired[k] = fired as i32;
+        match fired {
+            0 => Ok(()),
+            _ => self.run(&rules[fired - 1].then, f, read),
+        }
     }
 
     fn run(&self, list: &[Stmt], f: &mut Frame, read: &mut impl Read) -> Result<(), u32> {

@@ -16,6 +16,7 @@ mod interval;
 pub mod ir;
 pub mod lang;
 pub mod machine;
+pub mod parts;
 mod property;
 mod schema;
 mod scope;

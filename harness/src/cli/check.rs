@@ -2,9 +2,11 @@
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
+use std::time::Duration;
 
 use clap::Args;
 use stillpoint::check::{Settings, check, exit_status, summarise};
+use stillpoint::keep::Keep;
 use stillpoint::readings::compare;
 use stillpoint::report;
 use stillpoint::subject::{self, Subject};
@@ -29,13 +31,29 @@ pub struct Arguments {
     /// Use the interpreter even where there is generated code
     #[arg(long)]
     interpret: bool,
+    /// Keep the exploration in this new folder, so that it can be continued after a limit, a kill or a power failure
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["resume", "readings"])]
+    checkpoint: Option<PathBuf>,
+    /// Continue from the checkpoints in this folder, and go on keeping them there
+    #[arg(long, value_name = "DIR", conflicts_with = "readings")]
+    resume: Option<PathBuf>,
+    /// The least time between two checkpoints
+    #[arg(long, value_name = "DURATION", value_parser = values::duration, default_value = "30s")]
+    checkpoint_every: Duration,
 }
 
 pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let choice = values::readings(&arguments.readings).map_err(Failure::Other)?;
     let subject = subject::load(&arguments.file, &choice.chosen)?;
     known_readings(&subject, &choice.chosen)?;
+    let every = arguments.checkpoint_every;
+    let keep = match (&arguments.checkpoint, &arguments.resume) {
+        (Some(folder), _) => Some(Keep::create(folder, every)),
+        (None, Some(folder)) => Some(Keep::resume(folder, every)),
+        (None, None) => None,
+    };
     let settings = Settings {
+        keep: keep.transpose().map_err(Failure::Other)?,
         threads: arguments.limits.threads,
         memory: arguments.limits.memory,
         time: arguments.limits.time,
@@ -79,6 +97,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         emit(&format!("{json:#}\n"));
     } else {
         emit(&report::text(&subject, &checked, &summaries));
+        emit(&report::further(&checked, &settings));
         if let Some(compared) = &compared {
             emit(&stillpoint::readings::text(compared));
         }

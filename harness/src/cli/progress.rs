@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 use stillpoint::report::grouped;
-use stillpoint_model::Progress;
+use stillpoint_model::{Error, Progress};
 
 /// Shorter explorations show nothing.
 const PATIENCE: Duration = Duration::from_secs(2);
@@ -50,6 +50,21 @@ impl Progress for Line {
             grouped(u128::from(frontier)),
         ));
         bar.tick();
+    }
+
+    fn on_lost_checkpoint(&mut self, error: &Error) {
+        self.warn(&format!(
+            "warning: {error}; the exploration goes on, and an earlier checkpoint is still there"
+        ));
+    }
+}
+
+impl Line {
+    fn warn(&self, text: &str) {
+        match &self.bar {
+            Some(bar) => bar.println(text),
+            None => eprintln!("{text}"),
+        }
     }
 }
 
