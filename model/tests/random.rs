@@ -3,10 +3,9 @@
 mod common;
 
 use common::naive::Naive;
-use common::{Cycle, Random, Table, padding, random_table, replay};
-use stillpoint_model::{
-    Form, Judgement, Limits, Options, Property, Report, Storage, Trace, Verdict, explore,
-};
+use common::shown::check_trace;
+use common::{Random, padding, random_table, replay};
+use stillpoint_model::{Form, Limits, Options, Property, Report, Storage, explore};
 
 const ATOMS: usize = 6;
 const SYSTEMS: u64 = 4000;
@@ -112,64 +111,6 @@ fn options(threads: usize) -> Options {
     }
 }
 
-/// That a counterexample or witness shows what it claims.
-fn check_trace(table: &Table, form: &Form, judgement: &Judgement, trace: &Trace) {
-    assert_eq!(judgement.length, Some(trace.steps.len() as u64));
-    let cycles = replay(table, trace, ATOMS);
-    assert!(cycles.iter().all(|c| c.after.is_ok()));
-    let Some(last) = cycles.last() else {
-        assert!(matches!(form, Form::CanAlwaysReach { .. }));
-        return;
-    };
-    let violated = judgement.verdict == Verdict::Violated;
-    match form {
-        Form::Always { when, then } => {
-            assert!(when.is_none_or(|w| last.atoms[w]));
-            assert_eq!(last.atoms[*then], !violated);
-        }
-        Form::Reachable { goal } => assert!(last.atoms[*goal]),
-        Form::CanAlwaysReach { .. } => (),
-        Form::Unless { when, .. } | Form::LeadsTo { when, .. } if !violated => {
-            assert!(last.atoms[*when])
-        }
-        Form::Unless {
-            when,
-            holds,
-            unless,
-        } => {
-            assert!(!last.atoms[*unless] && !last.atoms[*holds]);
-            let duty = |c: &Cycle| !c.atoms[*unless] && c.atoms[*holds];
-            let begins =
-                |k: usize| cycles[k].atoms[*when] && cycles[k..cycles.len() - 1].iter().all(duty);
-            assert!((0..cycles.len()).any(begins));
-        }
-        Form::LeadsTo {
-            when,
-            goal,
-            within,
-            fair,
-            assuming,
-        } => {
-            let pending = |c: &Cycle| !c.atoms[*goal] && assuming.is_none_or(|a| c.atoms[a]);
-            let begins = |k: usize| {
-                cycles[k].atoms[*when]
-                    && !cycles[k].atoms[*goal]
-                    && cycles[k + 1..].iter().all(pending)
-            };
-            if let Some(within) = within {
-                assert!(begins(cycles.len() - 1 - *within as usize));
-                return;
-            }
-            let start = trace.loop_start.expect("a run forever");
-            assert!((0..start).any(begins));
-            assert_eq!(cycles[start].before, *last.after.as_ref().unwrap());
-            for atom in fair {
-                assert!(cycles[start..].iter().any(|c| c.atoms[*atom]));
-            }
-        }
-    }
-}
-
 fn compare(seed: u64, padded: usize, storage: Storage) -> Report {
     let table = random_table(seed, ATOMS, padding(padded));
     let naive = Naive::new(&table);
@@ -223,7 +164,7 @@ fn compare(seed: u64, padded: usize, storage: Storage) -> Report {
             assert_eq!(judgement.length, answer.length, "{place}");
         }
         match &judgement.trace {
-            Some(trace) => check_trace(&table, &property.form, judgement, trace),
+            Some(trace) => check_trace(&table, &property.form, judgement, trace, ATOMS),
             None => assert!(judgement.length.is_none(), "{place}"),
         }
     }

@@ -1,7 +1,9 @@
 //! What several tests share: systems given by explicit tables, and the replay of traces.
 #![allow(dead_code)]
 
+pub mod large;
 pub mod naive;
+pub mod shown;
 pub mod yardstick;
 
 use stillpoint_model::{Choices, Domain, Fault, Replay, System, Trace};
