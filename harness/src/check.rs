@@ -5,8 +5,8 @@ use std::time::{Duration, Instant};
 
 use stillpoint_model::{Error, Limits, Options, Progress, Trace, Verdict};
 
-use crate::keep::Keep;
 use crate::engine::{self, Outcome, label};
+use crate::keep::Keep;
 use crate::subject::{Subject, Task};
 
 /// How to check.

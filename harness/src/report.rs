@@ -278,6 +278,7 @@ fn run(out: &mut String, n: usize, task: &Task, done: &Checked) {
     let storage = match report.storage {
         Storage::Bitmap => "exact bitmap",
         Storage::Hash64 | Storage::Hash128 => "exact hash set",
+        Storage::Intervals => "intervals of a timer's values",
     };
     let evaluator = match done.outcome.evaluator {
         Evaluator::Generated => "generated step",
@@ -505,6 +506,8 @@ pub fn further(checked: &[Checked], settings: &Settings) -> String {
             "  With --checkpoint DIR the next check can be continued with other limits (--resume DIR).\n",
         ),
     }
-    out.push_str("  Smaller domains, or one system or property at a time (--reduce slice), need less.\n");
+    out.push_str(
+        "  Smaller domains, or one system or property at a time (--reduce slice), need less.\n",
+    );
     out
 }

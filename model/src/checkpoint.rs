@@ -212,7 +212,8 @@ impl<'a> Keeper<'a> {
         self.read(&mut input, store)
             .map_err(|e| fail(path, format!("it cannot be understood: {e}")))?
             .ok_or_else(|| {
-                let reason = "it belongs to another specification, other parameters, properties or limits";
+                let reason =
+                    "it belongs to another specification, other parameters, properties or limits";
                 fail(path, reason.to_owned())
             })
             .map(Some)

@@ -4,7 +4,7 @@ use crate::crew::{Crew, Watch};
 use crate::cursor::Leaf;
 use crate::hashed::{Halves, Hashed, Plain};
 use crate::liveness::{fair, recoverable, recovery};
-use crate::pack::{Key, Wide, space};
+use crate::pack::{Key, Packer, Wide, space};
 use crate::process::{Any, Origin, Own, Process};
 use crate::property::{Eval, Form, Property, Sign, validate};
 use crate::report::{
@@ -14,6 +14,7 @@ use crate::response::{Response, bounded, until};
 use crate::search::{Found, Model, search};
 use crate::store::{Dense, Store};
 use crate::system::System;
+use crate::ticks::Ticked;
 use crate::trace::{Request, Run, Test, runs};
 use std::collections::BTreeSet;
 use std::sync::{Arc, PoisonError};
@@ -46,7 +47,15 @@ pub(crate) fn on_store<O: Origin, J: Job<O>>(
         .limits
         .memory
         .map_or(DEFAULT_BITMAP, |most| most / 4 * 3);
+    let timer = origin.timer().filter(|_| options.intervals);
     match u64::try_from(space) {
+        Ok(_) if timer.is_some() => {
+            let domain = timer.and_then(|timer| origin.domains().get(timer).copied());
+            let size = domain.map_or(1, |d| u32::try_from(d.size()).unwrap_or(u32::MAX));
+            let packer = Packer::with_least(origin.domains(), timer)?;
+            let model = Model::with(origin, packer, crew, watch);
+            job.run(&model, Ticked::new(size), Storage::Intervals)
+        }
         Ok(small) if Dense::need(space) <= u128::from(bitmap) => {
             let model = Model::new(origin, crew, watch)?;
             job.run(&model, Dense::new(small, crew.size()), Storage::Bitmap)
@@ -150,7 +159,7 @@ impl<O: Origin> Job<O> for Explore<'_> {
             self.options,
             self.progress,
         )?;
-        let model = Model::new(self.any, model.crew, model.watch)?;
+        let model = Model::with(self.any, model.packer.clone(), model.crew, model.watch);
         T::finish(
             store,
             Finish {
@@ -171,6 +180,12 @@ pub(crate) trait Stage: Store + Sized {
 }
 
 impl Stage for Dense {
+    fn finish(self, finish: Finish<u64>) -> Result<Report, Error> {
+        finish.report(self)
+    }
+}
+
+impl Stage for Ticked {
     fn finish(self, finish: Finish<u64>) -> Result<Report, Error> {
         finish.report(self)
     }

@@ -105,7 +105,10 @@ impl Code for Halves {
 
     #[inline]
     fn decode(&self, code: u64) -> Wide {
-        Wide::of([self.value(0, (code >> 32) as u32), self.value(1, code as u32)])
+        Wide::of([
+            self.value(0, (code >> 32) as u32),
+            self.value(1, code as u32),
+        ])
     }
 
     fn bytes(&self) -> u64 {
@@ -166,7 +169,6 @@ impl<C: Code> Hashed<C> {
         (self.from, self.to) = (from, to);
         count
     }
-
 }
 
 impl<C: Code> Store for Hashed<C> {

@@ -47,6 +47,7 @@ mod set;
 mod store;
 mod system;
 pub mod table;
+mod ticks;
 mod trace;
 mod twin;
 
@@ -56,7 +57,8 @@ pub use explore::explore;
 pub use parts::Part;
 pub use property::{Form, Property};
 pub use report::{
-    Checkpoint, Error, FaultReport, Judgement, Limits, Options, Progress, Report, Step, Storage, Trace, Verdict,
+    Checkpoint, Error, FaultReport, Judgement, Limits, Options, Progress, Report, Step, Storage,
+    Trace, Verdict,
 };
 pub use system::{Choices, Domain, Fault, System};
 pub use twin::{Twin, TwinWork};

@@ -87,7 +87,7 @@ impl Key for Wide {
     }
 }
 
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 struct Digit {
     lo: i32,
     size: u64,
@@ -108,6 +108,8 @@ impl Digit {
 #[derive(Clone, Debug)]
 pub(crate) struct Packer<K> {
     digits: Vec<Digit>,
+    /// The variables from the least significant one on.
+    order: Vec<usize>,
     key: PhantomData<K>,
 }
 
@@ -128,6 +130,11 @@ pub(crate) fn space(domains: &[Domain]) -> Result<u128, Error> {
 impl<K: Key> Packer<K> {
     /// Fails if an index does not fit `K`.
     pub(crate) fn new(domains: &[Domain]) -> Result<Self, Error> {
+        Self::with_least(domains, None)
+    }
+
+    /// With a variable that is less significant than all others.
+    pub(crate) fn with_least(domains: &[Domain], least: Option<usize>) -> Result<Self, Error> {
         space(domains)?;
         let mut spaces = [1u128; 2];
         let mut halves = Vec::with_capacity(domains.len());
@@ -138,22 +145,25 @@ impl<K: Key> Packer<K> {
             spaces[half] *= size;
             halves.push(half);
         }
+        let others = (0..domains.len()).rev().filter(|v| Some(*v) != least);
+        let order: Vec<usize> = least.into_iter().chain(others).collect();
         let mut strides = [1u64; 2];
-        let mut digits = Vec::with_capacity(domains.len());
-        for (domain, half) in domains.iter().zip(halves).rev() {
-            let (lo, size, stride) = (domain.lo, domain.size(), strides[half]);
-            digits.push(Digit {
-                lo,
+        let mut digits = vec![Digit::default(); domains.len()];
+        for variable in &order {
+            let (domain, half) = (domains[*variable], halves[*variable]);
+            let (size, stride) = (domain.size(), strides[half]);
+            digits[*variable] = Digit {
+                lo: domain.lo,
                 size,
                 stride,
                 half,
-            });
+            };
             // After the first variable of a half nothing uses the stride, which may be 2^64 then.
             strides[half] = stride.wrapping_mul(size);
         }
-        digits.reverse();
         Ok(Packer {
             digits,
+            order,
             key: PhantomData,
         })
     }
@@ -195,11 +205,12 @@ impl<K: Key> Packer<K> {
     #[inline]
     pub(crate) fn unpack(&self, key: K, state: &mut [i32]) {
         let mut rest = key.halves();
-        for (digit, value) in self.digits.iter().zip(state.iter_mut()).rev() {
+        for variable in &self.order {
+            let digit = &self.digits[*variable];
             let half = if K::HALVES == 1 { 0 } else { digit.half & 1 };
             let offset = rest[half] % digit.size;
             rest[half] /= digit.size;
-            *value = (i64::from(digit.lo) + offset as i64) as i32;
+            state[*variable] = (i64::from(digit.lo) + offset as i64) as i32;
         }
     }
 
@@ -266,6 +277,22 @@ mod tests {
     }
 
     #[test]
+    fn a_variable_can_be_the_least_significant_one() {
+        let domains = [
+            Domain { lo: -3, hi: 4 },
+            Domain { lo: 5, hi: 9 },
+            Domain { lo: 0, hi: 2 },
+        ];
+        let packer = Packer::<u64>::with_least(&domains, Some(1)).unwrap();
+        assert_eq!(packer.pack(&[-3, 6, 0]), Some(1));
+        assert_eq!(packer.pack(&[-3, 5, 1]), Some(5));
+        assert_eq!(packer.pack(&[-2, 5, 0]), Some(15));
+        for key in 0..120 {
+            assert_eq!(packer.pack(&packer.state(key)), Some(key));
+        }
+    }
+
+    #[test]
     fn wide_spaces() {
         let ends = [i32::MIN, -1, 0, i32::MAX];
         let three = packer::<Wide>(&[FULL; 3]);
@@ -277,7 +304,7 @@ mod tests {
         for (state, key) in states.iter().zip(keys) {
             assert_eq!(three.state(key), state);
         }
-        assert!(Packer::<u64>::new(&[FULL, FULL]).is_err());
+        assert!(Packer::<u64>::new(&[FULL; 3]).is_err());
         assert!(Packer::<Wide>::new(&[FULL; 4]).is_err());
         assert_eq!(space(&[FULL; 4]), Err(Error::SpaceTooLarge));
         assert_eq!(

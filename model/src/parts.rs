@@ -131,7 +131,9 @@ impl<K: Key> Tables<K> {
         let parts = origin.parts();
         let domains = origin.domains();
         let number = parts.len();
-        if !(2..=MOST_PARTS).contains(&number) || properties.iter().any(|p| part_of(&parts, p).is_none()) {
+        if !(2..=MOST_PARTS).contains(&number)
+            || properties.iter().any(|p| part_of(&parts, p).is_none())
+        {
             return None;
         }
         let mut initial = vec![0; domains.len()];
@@ -147,14 +149,16 @@ impl<K: Key> Tables<K> {
             let own: Vec<usize> = (0..properties.len())
                 .filter(|p| part_of(&parts, &properties[*p]) == Some(number))
                 .collect();
-            rough.push(Builder {
-                part,
-                domains,
-                packer,
-                properties,
-                own: &own,
-            }
-            .build(&initial, origin, &mut budget)?);
+            rough.push(
+                Builder {
+                    part,
+                    domains,
+                    packer,
+                    properties,
+                    own: &own,
+                }
+                .build(&initial, origin, &mut budget)?,
+            );
         }
         let shared = Shared::new(&rough)?;
         let mut patterns: Vec<Pattern> = Vec::new();

@@ -58,6 +58,9 @@ pub(crate) trait Origin: Sync {
     fn parts(&self) -> Vec<Part<'_>> {
         Vec::new()
     }
+    fn timer(&self) -> Option<usize> {
+        None
+    }
 }
 
 /// A process of a system of a known type.
@@ -148,6 +151,10 @@ impl<'s, S: System> Origin for Own<'s, S> {
     fn parts(&self) -> Vec<Part<'_>> {
         self.0.parts()
     }
+
+    fn timer(&self) -> Option<usize> {
+        self.0.timer()
+    }
 }
 
 /// A process of a system behind a pointer.
@@ -198,6 +205,7 @@ pub(crate) trait Source: Sync {
     fn domains(&self) -> &[Domain];
     fn combinations(&self) -> u128;
     fn rules(&self) -> usize;
+    fn timer(&self) -> Option<usize>;
 }
 
 impl<S: System> Source for S {
@@ -215,6 +223,10 @@ impl<S: System> Source for S {
 
     fn rules(&self) -> usize {
         System::rules(self)
+    }
+
+    fn timer(&self) -> Option<usize> {
+        System::timer(self)
     }
 }
 
@@ -249,5 +261,9 @@ impl<'s> Origin for Any<'s> {
 
     fn rules(&self) -> usize {
         self.0.rules()
+    }
+
+    fn timer(&self) -> Option<usize> {
+        self.0.timer()
     }
 }

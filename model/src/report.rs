@@ -38,6 +38,9 @@ pub struct Options {
     pub stop_when_decided: bool,
     /// The most absorbing states listed.
     pub examples: usize,
+    /// Whether the values of a timer ([`crate::System::timer`]) are stored as intervals where an index of the state fits
+    /// 64 bits. The report stays the same, but for traces of the same length and the examples of absorbing states.
+    pub intervals: bool,
     /// Where to keep the exploration; none to keep it nowhere.
     pub checkpoint: Option<Checkpoint>,
 }
@@ -49,6 +52,7 @@ impl Default for Options {
             witnesses: true,
             stop_when_decided: false,
             examples: 8,
+            intervals: false,
             checkpoint: None,
         }
     }
@@ -190,6 +194,8 @@ pub enum Storage {
     Hash64,
     /// An exact hash set of 128-bit indices.
     Hash128,
+    /// Intervals of the values of one timer, for each state of everything else.
+    Intervals,
 }
 
 /// The answer of an exploration.

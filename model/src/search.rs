@@ -4,12 +4,12 @@ use crate::checkpoint::Keeper;
 use crate::choices::Odometer;
 use crate::crew::{Crew, Watch};
 use crate::cursor::{Cursor, Leaf};
-use crate::set::{Batch, Set};
 use crate::pack::{Key, Packer};
 use crate::parts::{Event, Joined, Tables};
 use crate::process::{Origin, Process, beyond};
 use crate::property::{Eval, Property};
 use crate::report::{Error, Options, Progress};
+use crate::set::{Batch, Set};
 use crate::store::Store;
 use crate::system::Fault;
 use std::collections::{BTreeMap, BTreeSet};
@@ -29,13 +29,18 @@ pub(crate) struct Model<'a, O, K> {
 impl<'a, O: Origin, K: Key> Model<'a, O, K> {
     pub(crate) fn new(origin: O, crew: &'a Crew, watch: &'a Watch) -> Result<Self, Error> {
         let packer = Packer::new(origin.domains())?;
-        Ok(Model {
+        Ok(Model::with(origin, packer, crew, watch))
+    }
+
+    /// With a packing of its own.
+    pub(crate) fn with(origin: O, packer: Packer<K>, crew: &'a Crew, watch: &'a Watch) -> Self {
+        Model {
             origin,
             packer,
             crew,
             watch,
             late: Mutex::default(),
-        })
+        }
     }
 
     /// Evaluates atoms after the search; faults are noted and count as FALSE.
@@ -199,7 +204,12 @@ pub(crate) fn search<O: Origin, T: Store>(
         }
     };
     {
-        let Tally { depth, states, transitions, .. } = found.tally;
+        let Tally {
+            depth,
+            states,
+            transitions,
+            ..
+        } = found.tally;
         progress.on_level(depth, states, transitions, store.size());
     }
     while !found.tally.complete {
@@ -266,7 +276,9 @@ pub(crate) fn search<O: Origin, T: Store>(
             break;
         }
     }
-    let Tally { weights, explored, .. } = found.tally;
+    let Tally {
+        weights, explored, ..
+    } = found.tally;
     if weights != u128::from(explored).wrapping_mul(origin.combinations()) {
         return Err(Error::Combinations {
             declared: origin.combinations(),
@@ -325,7 +337,9 @@ impl<O: Origin, T: Store> Level<'_, O, T> {
             return;
         }
         self.store.each(piece, |key| {
-            let joined = self.parts.is_some_and(|parts| self.joined(parts, worker, key));
+            let joined = self
+                .parts
+                .is_some_and(|parts| self.joined(parts, worker, key));
             if !joined {
                 self.state(worker, key);
             }
@@ -494,7 +508,9 @@ fn gather<P, K: Key, L>(found: &mut Found<K>, worker: &mut Worker<P, K, L>, exam
     }
     let transitions = std::mem::take(&mut worker.transitions);
     tally.transitions = tally.transitions.saturating_add(transitions);
-    tally.weights = tally.weights.wrapping_add(std::mem::take(&mut worker.weights));
+    tally.weights = tally
+        .weights
+        .wrapping_add(std::mem::take(&mut worker.weights));
     tally.explored += std::mem::take(&mut worker.explored);
     tally.absorbing += std::mem::take(&mut worker.absorbing);
     tally.examples.append(&mut worker.examples);

@@ -33,7 +33,7 @@ fn tag_of(hash: u64) -> u32 {
 }
 
 impl<K: Key> Shard<K> {
-    const fn new() -> Self {
+    pub(crate) const fn new() -> Self {
         Shard {
             keys: Vec::new(),
             slots: Vec::new(),
@@ -46,7 +46,7 @@ impl<K: Key> Shard<K> {
 
     /// The place of the key in the list, and whether it is new; none if there is no place left.
     #[inline]
-    fn insert(&mut self, key: K, bytes: &AtomicU64) -> Option<(u32, bool)> {
+    pub(crate) fn insert(&mut self, key: K, bytes: &AtomicU64) -> Option<(u32, bool)> {
         if self.keys.len() * 5 >= self.slots.len() * 4 {
             let before = self.bytes();
             let slots = self.slots.len();
@@ -190,7 +190,9 @@ impl<K: Key> Set<K> {
 
     /// The number of keys in each shard.
     pub(crate) fn counts(&self) -> Vec<usize> {
-        (0..SHARDS).map(|shard| self.shard(shard).keys.len()).collect()
+        (0..SHARDS)
+            .map(|shard| self.shard(shard).keys.len())
+            .collect()
     }
 
     /// All keys in ascending order.

@@ -120,6 +120,12 @@ pub trait System: Sync {
         Err(Fault::NO_OBSERVATION)
     }
 
+    /// A state variable that merely counts down and is set anew: with [`crate::Options::intervals`] its values are stored
+    /// as intervals.
+    fn timer(&self) -> Option<usize> {
+        None
+    }
+
     /// The parts of the system that share nothing but inputs, if it falls into several: together they have every state
     /// variable, and a cycle of the system is a cycle of each of them under the same inputs. None is discarded.
     fn parts(&self) -> Vec<Part<'_>> {

@@ -159,6 +159,10 @@ impl System for Interpreted<'_> {
         parts(self.bound)
     }
 
+    fn timer(&self) -> Option<usize> {
+        timer(self.bound)
+    }
+
     fn observe<C: Choices>(
         &self,
         work: &mut Self::Work,
@@ -229,6 +233,13 @@ impl System for PartOf<'_> {
     fn fired(&self, work: &Self::Work, each: &mut impl FnMut(usize)) {
         self.whole.fired(work, each);
     }
+}
+
+/// Of the variables that merely count down the one with the most values.
+fn timer(bound: &Bound) -> Option<usize> {
+    let size = |k: &usize| i64::from(bound.states[*k].1) - i64::from(bound.states[*k].0);
+    let all = stillpoint_spec::timers::countdowns(&bound.system);
+    all.into_iter().max_by_key(size)
 }
 
 fn parts(bound: &Bound) -> Vec<Part<'_>> {
@@ -364,6 +375,10 @@ impl System for Generated<'_> {
 
     fn parts(&self) -> Vec<Part<'_>> {
         parts(self.bound)
+    }
+
+    fn timer(&self) -> Option<usize> {
+        timer(self.bound)
     }
 
     fn observe<C: Choices>(

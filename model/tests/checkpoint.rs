@@ -2,6 +2,7 @@
 
 mod common;
 
+use common::large::large_table;
 use common::{padding, random_table};
 use std::path::PathBuf;
 use std::time::Duration;
@@ -90,20 +91,30 @@ fn a_run_broken_off_again_and_again_gives_the_same_report() {
     let mut broken = 0;
     for (padded, storage) in [
         (0, Storage::Bitmap),
+        (0, Storage::Intervals),
         (1, Storage::Hash64),
         (3, Storage::Hash128),
     ] {
         for seed in 0..12 {
-            let table = random_table(seed, 40, padding(padded));
+            let mut table = large_table(seed, 6);
+            table.domains.extend(padding(padded));
+            table.timer = Some((seed % 2) as usize);
+            let intervals = storage == Storage::Intervals;
             let place = Place::new(&format!("{padded}-{seed}"));
-            let undisturbed = Options::default();
+            let undisturbed = Options {
+                intervals,
+                ..Options::default()
+            };
             let whole = explore(&table, &properties(), &undisturbed, &mut ()).unwrap();
             assert_eq!(whole.storage, storage);
             // No time at all ends the first run before its first level, more and more time later ones.
             let mut time = Duration::ZERO;
             let mut resume = false;
             let last = loop {
-                let options = options(&place, "it", Some(time), resume);
+                let options = Options {
+                    intervals,
+                    ..options(&place, "it", Some(time), resume)
+                };
                 let report = explore(&table, &properties(), &options, &mut ()).unwrap();
                 assert!(report.resumable && report.states <= whole.states);
                 if report.complete {
@@ -116,12 +127,12 @@ fn a_run_broken_off_again_and_again_gives_the_same_report() {
             assert_eq!(plain(last), plain(whole), "{padded} {seed}");
         }
     }
-    assert!(broken > 36, "{broken}");
+    assert!(broken > 48, "{broken}");
 }
 
 #[test]
 fn a_checkpoint_of_something_else_or_damaged_is_refused() {
-    let table = random_table(3, 40, padding(1));
+    let table = random_table(3, 6, padding(1));
     let place = Place::new("damaged");
     let run = |identity: &str, resume| {
         let options = options(&place, identity, None, resume);
@@ -159,7 +170,7 @@ fn a_checkpoint_that_cannot_be_written_does_not_end_the_search() {
             self.0 += 1;
         }
     }
-    let table = random_table(5, 40, padding(0));
+    let table = random_table(5, 6, padding(0));
     let mut place = Place::new("nowhere");
     place.0.push("no-such-folder");
     let mut lost = Lost(0);

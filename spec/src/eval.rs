@@ -106,12 +106,7 @@ impl Bound {
     ///
     /// # Errors
     /// As [`Bound::step`].
-    pub fn step_instance(
-        &self,
-        k: usize,
-        f: &mut Frame,
-        read: &mut impl Read,
-    ) -> Result<(), u32> {
+    pub fn step_instance(&self, k: usize, f: &mut Frame, read: &mut impl Read) -> Result<(), u32> {
         let cells = self.cells();
         let rules = &self.system.instances[k].rules;
         let mut fired = 0;

@@ -22,6 +22,7 @@ mod schema;
 mod scope;
 mod spec;
 mod text;
+pub mod timers;
 
 pub use spec::Spec;
 pub use text::read_text;

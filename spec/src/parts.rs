@@ -150,7 +150,11 @@ impl<'a> Reader<'a> {
     fn targets(&mut self, statement: &Stmt) {
         match statement {
             Stmt::Assign { base, index, .. } => {
-                self.cells(Space::Now, *base, index.as_ref().map_or(1, |(_, _, len)| *len));
+                self.cells(
+                    Space::Now,
+                    *base,
+                    index.as_ref().map_or(1, |(_, _, len)| *len),
+                );
             }
             Stmt::If(branches, rest) => {
                 let bodies = branches.iter().flat_map(|(_, body)| body).chain(rest);

@@ -25,6 +25,8 @@ pub struct Table {
     /// For each atom: which inputs it depends on, and its value by state and inputs (0 where not read).
     pub atoms: Vec<([bool; 3], Vec<bool>)>,
     pub domains: Vec<Domain>,
+    /// The variable whose values may be stored as intervals.
+    pub timer: Option<usize>,
 }
 
 /// The state before, and the state after.
@@ -84,6 +86,7 @@ impl Table {
             next: Vec::new(),
             atoms: Vec::new(),
             domains: own.into_iter().chain(padding).collect(),
+            timer: None,
         };
         table.next = vec![Ok(0); table.cells()];
         table
@@ -117,6 +120,10 @@ impl System for Table {
 
     fn domains(&self) -> &[Domain] {
         &self.domains
+    }
+
+    fn timer(&self) -> Option<usize> {
+        self.timer
     }
 
     fn combinations(&self) -> u128 {

@@ -1,0 +1,196 @@
+//! A check that is killed again and again and continued gives the report of an undisturbed one; nothing that happens to
+//! its checkpoints goes unnoticed.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+use std::time::Duration;
+
+use serde_json::Value;
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+const BINARY: &str = env!("CARGO_BIN_EXE_stillpoint");
+const SUBJECT: &str = "spec/sinumerik-840d/faults.toml";
+
+/// A folder that goes away with the value.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(name: &str) -> Self {
+        let name = format!("survival-{name}-{}", std::process::id());
+        let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+        let _ = std::fs::remove_dir_all(&path);
+        Folder(path)
+    }
+
+    /// The checkpoints in it.
+    fn files(&self) -> Vec<PathBuf> {
+        let entries = std::fs::read_dir(&self.0).into_iter().flatten().flatten();
+        let mut files: Vec<PathBuf> = entries.map(|e| e.path()).collect();
+        files.retain(|p| p.extension().is_some_and(|e| e == "checkpoint"));
+        files.sort();
+        files
+    }
+
+    /// The option that starts or continues.
+    fn option(&self) -> [&str; 2] {
+        let option = match self.files().is_empty() {
+            true => "--checkpoint",
+            false => "--resume",
+        };
+        [option, self.0.to_str().expect("a path in UTF-8")]
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
+fn check(subject: &str, options: &[&str]) -> Command {
+    let mut command = Command::new(BINARY);
+    command
+        .current_dir(root())
+        .args(["check", subject, "--json"]);
+    command.args(options);
+    command
+}
+
+fn run(subject: &str, options: &[&str]) -> Output {
+    check(subject, options).output().expect("runs")
+}
+
+/// A report without what differs from run to run.
+fn plain(output: &Output) -> Value {
+    fn strip(value: &mut Value) {
+        match value {
+            Value::Object(map) => {
+                for key in ["seconds", "memory", "bytes_per_state", "resumable"] {
+                    map.remove(key);
+                }
+                map.values_mut().for_each(strip);
+            }
+            Value::Array(list) => list.iter_mut().for_each(strip),
+            _ => (),
+        }
+    }
+    let text = String::from_utf8_lossy(&output.stdout);
+    let errors = String::from_utf8_lossy(&output.stderr);
+    let mut report = serde_json::from_str(&text).unwrap_or_else(|e| panic!("{e}: {text}{errors}"));
+    strip(&mut report);
+    report
+}
+
+#[test]
+fn ten_kills_in_a_row_change_nothing() {
+    let folder = Folder::new("kill");
+    let whole = run(SUBJECT, &[]);
+    let mut killed = 0;
+    // Other moments each time, from before the first checkpoint to late in the check.
+    for n in 1..=10u64 {
+        let mut command = check(SUBJECT, &folder.option());
+        command.args(["--checkpoint-every", "10ms"]);
+        let child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn();
+        let mut child = child.expect("starts");
+        std::thread::sleep(Duration::from_millis(37 * n));
+        if child.try_wait().expect("waits").is_none() {
+            // SIGKILL: nothing can be tidied up.
+            child.kill().expect("kills");
+            killed += 1;
+        }
+        child.wait().expect("ends");
+    }
+    assert!(
+        killed >= 5,
+        "only {killed} checks were still running when they were to be killed"
+    );
+    assert!(!folder.files().is_empty());
+    let last = run(SUBJECT, &folder.option());
+    assert_eq!(last.status.code(), whole.status.code());
+    assert_eq!(plain(&last), plain(&whole));
+}
+
+#[test]
+fn too_little_memory_or_time_leaves_something_to_continue_from() {
+    let folder = Folder::new("limits");
+    let whole = run(SUBJECT, &[]);
+    let option = folder.option().map(str::to_owned);
+    let small = run(SUBJECT, &[&option[0], &option[1], "--memory", "1MiB"]);
+    assert_eq!(small.status.code(), Some(3));
+    let report: Value = serde_json::from_slice(&small.stdout).expect("JSON");
+    let runs = report["runs"].as_array().expect("runs");
+    assert!(runs.iter().any(|r| r["complete"] == false));
+    assert!(runs.iter().all(|r| r["resumable"] == true));
+    // Within a tenth of what was allowed, plus the least that the tables of the workers take.
+    let most = runs.iter().filter_map(|r| r["memory"].as_u64()).max();
+    assert!(most.is_some_and(|m| m < (1 << 20) * 11 / 10), "{most:?}");
+    let option = folder.option().map(str::to_owned);
+    let last = run(SUBJECT, &[&option[0], &option[1]]);
+    assert_eq!(plain(&last), plain(&whole));
+}
+
+#[test]
+fn checkpoints_of_something_else_are_refused() {
+    let folder = Folder::new("refused");
+    let subject = "spec/sinumerik-840d/comparison.toml";
+    let option = folder.option().map(str::to_owned);
+    assert_eq!(
+        run(subject, &[&option[0], &option[1]]).status.code(),
+        Some(0)
+    );
+    let refused = |options: &[&str], reason: &str| {
+        let output = run(subject, options);
+        let errors = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(2), "{errors}");
+        assert!(errors.contains(reason), "{errors}");
+    };
+    let path = folder.0.to_str().expect("a path in UTF-8");
+    refused(&["--checkpoint", path], "already holds checkpoints");
+    refused(&["--resume", "no/such/folder"], "cannot be read");
+    let first = &folder.files()[0];
+    let good = std::fs::read(first).expect("readable");
+    let name = first.to_str().expect("a path in UTF-8");
+    for (bytes, reason) in [
+        (good[..good.len() / 2].to_vec(), "damaged"),
+        (
+            [&good[..40], &[good[40] ^ 1], &good[41..]].concat(),
+            "damaged",
+        ),
+        (
+            std::fs::read(&folder.files()[1]).expect("readable"),
+            "another specification",
+        ),
+    ] {
+        std::fs::write(first, bytes).expect("written");
+        refused(&["--resume", path], reason);
+        refused(&["--resume", path], name);
+    }
+}
+
+#[test]
+fn a_full_disk_loses_a_checkpoint_but_not_the_check() {
+    let folder = Folder::new("full");
+    let whole = run(SUBJECT, &[]);
+    // Files of more than 8 KiB cannot be written, as on a disk that is full.
+    let command = format!(
+        "trap '' XFSZ; ulimit -f 8; exec \"$0\" check {SUBJECT} --json --checkpoint \"$1\" --checkpoint-every 1ms"
+    );
+    let output = Command::new("bash")
+        .args(["-c", &command])
+        .args([Path::new(BINARY), &folder.0])
+        .current_dir(root())
+        .output()
+        .expect("runs");
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(errors.contains("cannot be written"), "{errors}");
+    assert_eq!(output.status.code(), whole.status.code());
+    assert_eq!(plain(&output), plain(&whole));
+    let left = std::fs::read_dir(&folder.0).expect("readable").flatten();
+    assert!(
+        left.map(|e| e.path())
+            .all(|p| p.extension().is_some_and(|e| e == "checkpoint"))
+    );
+}
