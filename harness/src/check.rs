@@ -5,7 +5,8 @@ use std::time::{Duration, Instant};
 
 use stillpoint_model::{Error, Limits, Options, Progress, Trace, Verdict};
 
-use crate::engine::{self, Outcome, label};
+use crate::engine::{Outcome, label};
+use crate::reduce::{self, Reductions};
 use crate::subject::{Subject, Task};
 
 /// How to check.
@@ -19,6 +20,8 @@ pub struct Settings {
     pub time: Option<Duration>,
     /// Use the interpreter even where there is generated code.
     pub interpret: bool,
+    /// Explore less where that keeps the verdicts.
+    pub reductions: Reductions,
 }
 
 /// What exploring one task gave.
@@ -76,10 +79,11 @@ pub fn check(
             witnesses: false,
             ..Options::default()
         };
-        let outcome = engine::run(
+        let outcome = reduce::run(
             &task.bound,
             &options,
             settings.interpret,
+            settings.reductions,
             progress(task).as_mut(),
         )
         .map_err(|e| (task.title.clone(), e))?;
@@ -92,6 +96,14 @@ pub fn check(
 fn unfired(task: &Task, outcome: &Outcome) -> Vec<(String, Unfired)> {
     let system = &task.bound.system;
     let mut out = Vec::new();
+    if outcome
+        .reduction
+        .as_ref()
+        .is_some_and(|r| r.whole.is_none())
+    {
+        // Slices and orbits tell nothing about rules.
+        return out;
+    }
     for (k, rule) in system.rules().enumerate() {
         if outcome.report.coverage.get(k).is_some_and(|n| *n > 0) {
             continue;

@@ -10,6 +10,7 @@ pub mod export;
 pub mod matrix;
 pub mod readings;
 pub mod recorded;
+pub mod reduce;
 pub mod report;
 pub mod subject;
 pub mod timing;

@@ -10,6 +10,7 @@ use stillpoint_spec::ir::Topic;
 
 use crate::check::{Checked, Summary, Unfired, exit_status, violations};
 use crate::engine::{Evaluator, replay};
+use crate::reduce;
 use crate::subject::{Subject, Task};
 use crate::timing::Diagram;
 use crate::topics;
@@ -283,16 +284,22 @@ fn run(out: &mut String, n: usize, task: &Task, done: &Checked) {
         Evaluator::Generated => "generated step",
         Evaluator::Interpreter => "interpreter",
     };
-    let _ = writeln!(
-        out,
-        "  {} states of {} ({storage}, {evaluator}), {} transitions, depth {}, {} absorbing, {:.2} s",
-        grouped(u128::from(report.states)),
-        grouped(report.index_space),
-        grouped(report.transitions),
-        report.depth,
-        grouped(u128::from(report.absorbing)),
-        report.seconds,
-    );
+    let reduced = done.outcome.reduction.as_ref();
+    if let Some(reduction) = reduced {
+        reduce::text(out, &task.bound, reduction);
+    }
+    if reduced.is_none_or(|r| r.whole.is_some()) {
+        let _ = writeln!(
+            out,
+            "  {} states of {} ({storage}, {evaluator}), {} transitions, depth {}, {} absorbing, {:.2} s",
+            grouped(u128::from(report.states)),
+            grouped(report.index_space),
+            grouped(report.transitions),
+            report.depth,
+            grouped(u128::from(report.absorbing)),
+            report.seconds,
+        );
+    }
     unfired(out, done);
     for warning in &task.bound.system.warnings {
         wrapped(out, "  warning: ", warning);
@@ -440,6 +447,7 @@ pub fn to_json(subject: &Subject, checked: &[Checked], summaries: &[Summary]) ->
                     Evaluator::Generated => "generated", Evaluator::Interpreter => "interpreter",
                 },
                 "properties": properties, "rules": rules, "unfired": unfired,
+                "reduction": done.outcome.reduction.as_ref().map(|r| reduce::to_json(&task.bound, r)),
                 "warnings": system.warnings,
             })
         })

@@ -19,6 +19,7 @@
 //!   counterexample.
 //! * `trace`: shortest runs. The search keeps no parents; a second search keeps its levels, and a walk back through them
 //!   finds the least predecessors.
+//! * `symmetry`, `narrow`: a system up to a group of permutations, and a part of a system; both systems again.
 //! * `twin`, `control`: two runs side by side; views of the reachable states.
 //!
 //! A cycle whose evaluation meets a fault has no successor and is reported. A fault in a property's atom makes that atom
@@ -35,6 +36,7 @@ mod explore;
 mod graph;
 mod hashed;
 mod liveness;
+mod narrow;
 mod pack;
 mod process;
 mod property;
@@ -42,6 +44,7 @@ mod report;
 mod response;
 mod search;
 mod store;
+mod symmetry;
 mod system;
 pub mod table;
 mod trace;
@@ -50,9 +53,11 @@ mod twin;
 pub use choices::Replay;
 pub use control::{ControlGraph, control_graph, reachable};
 pub use explore::explore;
+pub use narrow::{Narrow, NarrowWork, Part};
 pub use property::{Form, Property};
 pub use report::{
     Error, FaultReport, Judgement, Limits, Options, Progress, Report, Step, Storage, Trace, Verdict,
 };
+pub use symmetry::{Group, Permutation, Symmetric, SymmetricWork};
 pub use system::{Choices, Domain, Fault, System};
 pub use twin::{Twin, TwinWork};

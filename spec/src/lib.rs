@@ -19,7 +19,9 @@ pub mod machine;
 mod property;
 mod schema;
 mod scope;
+pub mod slice;
 mod spec;
+pub mod symmetry;
 mod text;
 
 pub use spec::Spec;

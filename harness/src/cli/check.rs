@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 use stillpoint::check::{Settings, check, exit_status, summarise};
 use stillpoint::readings::compare;
+use stillpoint::reduce::Reductions;
 use stillpoint::report;
 use stillpoint::subject::{self, Subject};
 
@@ -29,6 +30,11 @@ pub struct Arguments {
     /// Use the interpreter even where there is generated code
     #[arg(long)]
     interpret: bool,
+    /// Explore less where that keeps the verdicts: `slice` (each property on what it depends on), `symmetry` (identical
+    /// axes), both with a comma, or `all`. Rule coverage, absorbing states and the number of states of the whole system
+    /// need the full exploration and are not told then
+    #[arg(long, value_name = "slice,symmetry|all|none", default_value = "none")]
+    reduce: Reductions,
 }
 
 pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
@@ -40,6 +46,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         memory: arguments.limits.memory,
         time: arguments.limits.time,
         interpret: arguments.interpret,
+        reductions: arguments.reduce,
     };
     let fail =
         |(title, e): (String, stillpoint_model::Error)| Failure::Other(format!("{title}: {e}"));
