@@ -267,6 +267,10 @@ impl Runner<'_> {
             let judged = orbits(&system, bound, group, options, progress)?;
             return Ok((judged, Evaluator::Interpreter));
         };
+        if slice.is_whole(self.bound) {
+            let judged = orbits(&generated, bound, group, options, progress)?;
+            return Ok((judged, Evaluator::Generated));
+        }
         let part = Part {
             states: slice.states.clone(),
             inputs: slice.inputs.clone(),

@@ -52,10 +52,11 @@ pub(super) fn plan(
             narrow: false,
         });
     }
-    if shares.is_empty() {
+    if shares.is_empty() && images.group().is_trivial() {
         return Err("no property is stated and no assignment can leave its range");
     }
-    if !reductions.slice {
+    // Without a claim the orbits are counted all the same.
+    if !reductions.slice || shares.is_empty() {
         let cone = slicer.all();
         let properties = shares.iter().flat_map(|s| s.properties.clone()).collect();
         return Ok(vec![Share {

@@ -27,16 +27,19 @@ pub fn text(out: &mut String, bound: &Bound, reduction: &Reduction) {
     }
     let _ = writeln!(
         out,
-        "  reduction ({names}): {} explorations; rule coverage and absorbing states are not told",
-        reduction.parts.len()
+        "  reduction ({names}): {}; rule coverage and absorbing states are not told",
+        match reduction.parts.len() {
+            1 => "1 exploration".to_owned(),
+            n => format!("{n} explorations"),
+        }
     );
     for part in &reduction.parts {
-        wrapped(out, "    ", &line(bound, part));
+        wrapped(out, "   ", &line(bound, part));
     }
     for (id, other) in &reduction.images {
         wrapped(
             out,
-            "    ",
+            "   ",
             &format!("{id}: by symmetry as {other}, not judged again"),
         );
     }

@@ -49,6 +49,17 @@ pub struct Slice {
     pub properties: Vec<usize>,
 }
 
+impl Slice {
+    /// Whether it has every cell and every expression of `whole`, so that all have the numbers they have there.
+    pub fn is_whole(&self, whole: &Bound) -> bool {
+        let system = &whole.system;
+        self.states.len() == system.states.len()
+            && self.inputs.len() == system.inputs.len()
+            && self.atoms.len() == system.atoms.len()
+            && self.observed.len() == system.observed.len()
+    }
+}
+
 impl Slicer {
     /// Prepares a system: puts the parameter values into it, so that what they exclude influences nothing.
     pub fn new(bound: &Bound) -> Self {
