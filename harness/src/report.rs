@@ -284,11 +284,10 @@ fn run(out: &mut String, n: usize, task: &Task, done: &Checked) {
         Evaluator::Generated => "generated step",
         Evaluator::Interpreter => "interpreter",
     };
-    let reduced = done.outcome.reduction.as_ref();
-    if let Some(reduction) = reduced {
+    if let Some(reduction) = &done.outcome.reduction {
         reduce::text(out, &task.bound, reduction);
     }
-    if reduced.is_none_or(|r| r.whole.is_some()) {
+    if !reduced(done) {
         let _ = writeln!(
             out,
             "  {} states of {} ({storage}, {evaluator}), {} transitions, depth {}, {} absorbing, {:.2} s",
@@ -312,6 +311,12 @@ fn run(out: &mut String, n: usize, task: &Task, done: &Checked) {
         );
     }
     out.push('\n');
+}
+
+/// Whether less than the whole system was explored.
+fn reduced(done: &Checked) -> bool {
+    let reduction = done.outcome.reduction.as_ref();
+    reduction.is_some_and(|r| r.whole.is_none())
 }
 
 /// Rules that never fired, one line for each reason; the copies of one machine's rule are named once.
@@ -440,7 +445,7 @@ pub fn to_json(subject: &Subject, checked: &[Checked], summaries: &[Summary]) ->
                 "readings": task.bound.readings().into_iter().collect::<BTreeMap<_, _>>(),
                 "states": report.states, "transitions": number(report.transitions),
                 "depth": report.depth, "seconds": report.seconds, "complete": report.complete,
-                "absorbing": report.absorbing, "memory": report.memory,
+                "absorbing": (!reduced(done)).then_some(report.absorbing), "memory": report.memory,
                 "bytes_per_state": report.bytes_per_state(),
                 "index_space": number(report.index_space),
                 "evaluator": match done.outcome.evaluator {

@@ -338,3 +338,146 @@ impl<S: System> System for Symmetric<'_, S> {
         self.system.discarded(&work.inner)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Variables and inputs k of three: exchange of a and b; the values a and b of input 3 change places too.
+    fn exchange(a: u32, b: u32) -> Permutation {
+        let mut out = Permutation::identity(3, 4);
+        out.states.swap(a as usize, b as usize);
+        out.inputs.swap(a as usize, b as usize);
+        out.values[3] = BTreeMap::from([(a, b), (b, a)]);
+        out
+    }
+
+    #[test]
+    fn permutations_compose_and_invert() {
+        let (p, q) = (exchange(0, 1), exchange(1, 2));
+        let both = p.then(&q);
+        assert_eq!(both.states, [2, 0, 1]);
+        let step = vec![(0, 7), (3, 0), (2, 5)];
+        assert_eq!(both.step(&step), q.step(&p.step(&step)));
+        assert_eq!(both.step(&step), [(2, 7), (3, 2), (1, 5)]);
+        assert_eq!(both.initial(&vec![(0, 7)]), [(2, 7)]);
+        assert_eq!(both.then(&both.inverse()), Permutation::identity(3, 4));
+        assert_eq!(both.inverse(), q.then(&p));
+        assert_ne!(both.inverse(), both);
+    }
+
+    #[test]
+    fn a_group_is_closed_and_leaves_out_what_makes_it_too_large() {
+        let group = Group::new(3, 4, &[exchange(0, 1), exchange(1, 2)]);
+        assert_eq!(
+            (group.elements().len(), group.generators()),
+            (6, &[0, 1][..])
+        );
+        for a in group.elements() {
+            for b in group.elements() {
+                assert!(group.elements().contains(&a.then(b)));
+            }
+        }
+        let swap = |k: u32| {
+            let mut out = Permutation::identity(8, 0);
+            out.states.swap(k as usize, k as usize + 1);
+            out
+        };
+        // Seven variables in any order are 5040 permutations: too many; the last exchange still goes with the first five.
+        let chain: Vec<Permutation> = (0..6).map(swap).collect();
+        let group = Group::new(8, 0, &chain);
+        assert_eq!(
+            (group.elements().len(), group.generators()),
+            (720, &[0, 1, 2, 3, 4][..])
+        );
+        assert!(Group::new(8, 0, &[]).is_trivial());
+    }
+
+    /// Two bits; a cycle turns the one that input 0 names. Variable 2 counts the cycles modulo 3.
+    struct Bits([Domain; 3]);
+
+    impl System for Bits {
+        type Work = Vec<i32>;
+
+        fn work(&self) -> Vec<i32> {
+            Vec::new()
+        }
+
+        fn domains(&self) -> &[Domain] {
+            &self.0
+        }
+
+        fn combinations(&self) -> u128 {
+            2
+        }
+
+        fn initial<C: Choices>(&self, _: &mut Vec<i32>, _: &mut C, state: &mut [i32]) {
+            state.fill(0);
+        }
+
+        fn next<C: Choices>(
+            &self,
+            work: &mut Vec<i32>,
+            before: &[i32],
+            choices: &mut C,
+            after: &mut [i32],
+        ) -> Result<(), Fault> {
+            after.copy_from_slice(before);
+            after[choices.choose(0, 2) as usize] ^= 1;
+            after[2] = (before[2] + 1) % 3;
+            *work = after.to_vec();
+            Ok(())
+        }
+
+        fn atom<C: Choices>(
+            &self,
+            work: &mut Vec<i32>,
+            atom: usize,
+            _: &mut C,
+        ) -> Result<bool, Fault> {
+            Ok(work[atom] == 1)
+        }
+    }
+
+    #[test]
+    fn a_run_of_orbits_is_unfolded_to_a_run_with_a_closed_loop() {
+        let domain = |hi| Domain { lo: 0, hi };
+        let bits = Bits([domain(1), domain(1), domain(2)]);
+        let mut swap = Permutation::identity(3, 1);
+        swap.states.swap(0, 1);
+        swap.values[0] = BTreeMap::from([(0, 1), (1, 0)]);
+        let group = Group::new(3, 1, &[swap]);
+        let orbits = Symmetric::new(&bits, &group);
+        // Orbits: the least of 00, 01, 11. From 01 turning bit 0 gives 11, turning bit 0 again gives 01.
+        let trace = Trace {
+            initial: vec![],
+            steps: [0, 0, 0, 1, 1, 0, 0].map(|v| vec![(0, v)]).to_vec(),
+            loop_start: Some(1),
+        };
+        let run = orbits.unfold(&trace).expect("it closes");
+        let mut state = vec![0; 3];
+        let mut seen = vec![state.clone()];
+        for step in &run.steps {
+            let mut after = state.clone();
+            let made = bits.next(&mut Vec::new(), &state, &mut Replay::new(step), &mut after);
+            assert_eq!(made, Ok(()));
+            state = after;
+            seen.push(state.clone());
+        }
+        let start = run.loop_start.expect("a loop");
+        assert_eq!(seen[start], seen[seen.len() - 1]);
+        assert!(run.steps.len() >= trace.steps.len());
+        // Up to the exchange it is the run that was found.
+        let mut work = orbits.work();
+        let mut orbit = vec![0; 3];
+        for (k, step) in trace.steps.iter().enumerate() {
+            let mut least = seen[k].clone();
+            least[..2].sort_unstable();
+            assert_eq!(orbit, least, "cycle {k}");
+            let mut after = orbit.clone();
+            let made = orbits.next(&mut work, &orbit, &mut Replay::new(step), &mut after);
+            assert_eq!(made, Ok(()));
+            orbit = after;
+        }
+    }
+}

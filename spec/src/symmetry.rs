@@ -409,14 +409,14 @@ impl Names<'_> {
             return Some(format!("{op:?}(input{}={value})", self.input(input)));
         }
         match op {
-            // The same operator below itself: one list of operands. Arithmetic stays in pairs, so that its ranges do.
-            And | Or => {
+            // The same operator below itself: one list of operands.
+            And | Or | Add => {
                 let mut parts = Vec::new();
                 flat(op, a, &mut parts);
                 flat(op, b, &mut parts);
                 self.call(&format!("{op:?}"), &parts, true)
             }
-            Xor | Eq | Ne | Add | Mul => self.call(&format!("{op:?}"), &[a, b], true),
+            Xor | Eq | Ne | Mul => self.call(&format!("{op:?}"), &[a, b], true),
             Gt => self.call(&format!("{Lt:?}"), &[b, a], false),
             Ge => self.call(&format!("{Le:?}"), &[b, a], false),
             _ => self.call(&format!("{op:?}"), &[a, b], false),

@@ -20,7 +20,7 @@ pub(super) struct Share {
     pub(super) narrow: bool,
 }
 
-/// The explorations to make, the one that shows the absence of faults first; or why the whole system is explored.
+/// The explorations to make, the smallest first, so that a limit leaves most verdicts; or why the whole system is explored.
 ///
 /// Each property that stands for its images has its cone, the absence of faults too. Two cones become one where exploring their
 /// union is estimated to be no more work than exploring both: so nested cones are always explored together, and
@@ -76,7 +76,7 @@ pub(super) fn plan(
         share.narrow = faults.as_ref().is_none_or(|f| share.cone.contains(f));
         share.properties.sort_unstable();
     }
-    shares.sort_by_key(|s| (!s.faults, s.properties.first().copied()));
+    shares.sort_by(|a, b| work(slicer, &a.cone).total_cmp(&work(slicer, &b.cone)));
     Ok(shares)
 }
 
