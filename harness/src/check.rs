@@ -5,8 +5,9 @@ use std::time::{Duration, Instant};
 
 use stillpoint_model::{Error, Limits, Options, Progress, Trace, Verdict};
 
-use crate::engine::{self, Outcome, label};
+use crate::engine::{Outcome, label};
 use crate::keep::Keep;
+use crate::reduce::{self, Reductions};
 use crate::subject::{Subject, Task};
 
 /// How to check.
@@ -22,6 +23,8 @@ pub struct Settings {
     pub interpret: bool,
     /// Where to keep the explorations, so that the check can be continued.
     pub keep: Option<Keep>,
+    /// Explore less where that keeps the verdicts.
+    pub reductions: Reductions,
 }
 
 /// What exploring one task gave.
@@ -80,10 +83,11 @@ pub fn check(
             checkpoint: settings.keep.as_ref().map(|k| k.of(number, &task.bound)),
             ..Options::default()
         };
-        let outcome = engine::run(
+        let outcome = reduce::run(
             &task.bound,
             &options,
             settings.interpret,
+            settings.reductions,
             progress(task).as_mut(),
         )
         .map_err(|e| (task.title.clone(), e))?;
@@ -96,6 +100,14 @@ pub fn check(
 fn unfired(task: &Task, outcome: &Outcome) -> Vec<(String, Unfired)> {
     let system = &task.bound.system;
     let mut out = Vec::new();
+    if outcome
+        .reduction
+        .as_ref()
+        .is_some_and(|r| r.whole.is_none())
+    {
+        // Slices and orbits tell nothing about rules.
+        return out;
+    }
     for (k, rule) in system.rules().enumerate() {
         if outcome.report.coverage.get(k).is_some_and(|n| *n > 0) {
             continue;

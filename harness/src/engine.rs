@@ -13,6 +13,7 @@ use stillpoint_spec::ir;
 
 use crate::keep::beside;
 use crate::recorded;
+use crate::reduce::Reduction;
 
 /// Which evaluator ran the table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -34,6 +35,8 @@ pub struct Outcome {
     pub pairs: BTreeMap<usize, Pair>,
     /// By property number: how the report differs from what the property records; its verdict is `Violated` then.
     pub refuted: BTreeMap<usize, String>,
+    /// How the exploration was reduced, if that was wanted.
+    pub reduction: Option<Reduction>,
 }
 
 /// The exploration of pairs of runs for one property.
@@ -55,23 +58,51 @@ pub fn run(
     interpret: bool,
     progress: &mut dyn Progress,
 ) -> Result<Outcome, Error> {
-    let listed = properties(bound);
-    let single: Vec<Property> = listed.iter().map(|(_, p)| p.clone()).collect();
     let generated = if interpret {
         None
     } else {
         Generated::find(bound)
     };
-    let (mut report, evaluator) = match generated {
+    let (mut found, evaluator) = match generated {
         Some(system) => (
-            explore(&system, &single, options, progress)?,
+            judge(&system, &system, bound, options, progress)?,
             Evaluator::Generated,
         ),
-        None => (
-            explore(&Interpreted::new(bound), &single, options, progress)?,
-            Evaluator::Interpreter,
-        ),
+        None => {
+            let system = Interpreted::new(bound);
+            (
+                judge(&system, &system, bound, options, progress)?,
+                Evaluator::Interpreter,
+            )
+        }
     };
+    let refuted = recorded::judge(bound, &mut found.report.properties);
+    Ok(Outcome {
+        report: found.report,
+        evaluator,
+        pairs: found.pairs,
+        refuted,
+        reduction: None,
+    })
+}
+
+/// A report on all properties of a table, before it is compared with what they record.
+pub(crate) struct Judged {
+    pub(crate) report: Report,
+    pub(crate) pairs: BTreeMap<usize, Pair>,
+}
+
+/// Explores the table `bound` as `system`, and pairs of runs of it as `paired`.
+pub(crate) fn judge<S: System, P: System>(
+    system: &S,
+    paired: &P,
+    bound: &Bound,
+    options: &Options,
+    progress: &mut dyn Progress,
+) -> Result<Judged, Error> {
+    let listed = properties(bound);
+    let single: Vec<Property> = listed.iter().map(|(_, p)| p.clone()).collect();
+    let mut report = explore(system, &single, options, progress)?;
     let mut judged: Vec<Option<Judgement>> = vec![None; bound.system.properties.len()];
     for ((k, _), judgement) in listed.iter().zip(std::mem::take(&mut report.properties)) {
         judged[*k] = Some(judgement);
@@ -94,14 +125,7 @@ pub fn run(
             id: label(property),
             options,
         };
-        let (outcome, pair) = match if interpret {
-            None
-        } else {
-            Generated::find(bound)
-        } {
-            Some(system) => claim.explore(&system)?,
-            None => claim.explore(&Interpreted::new(bound))?,
-        };
+        let (outcome, pair) = claim.explore(paired)?;
         report.complete &= outcome.complete;
         report.resumable &= outcome.resumable;
         report.seconds += outcome.seconds;
@@ -111,24 +135,21 @@ pub fn run(
     report.properties = judged
         .into_iter()
         .zip(&bound.system.properties)
-        .map(|(j, p)| {
-            j.unwrap_or_else(|| Judgement {
-                id: label(p),
-                verdict: Verdict::Inconclusive,
-                length: None,
-                bound: None,
-                fastest: None,
-                trace: None,
-            })
-        })
+        .map(|(j, p)| j.unwrap_or_else(|| undecided(p)))
         .collect();
-    let refuted = recorded::judge(bound, &mut report.properties);
-    Ok(Outcome {
-        report,
-        evaluator,
-        pairs,
-        refuted,
-    })
+    Ok(Judged { report, pairs })
+}
+
+/// The judgement on a property that nothing is known about.
+pub(crate) fn undecided(property: &ir::Property) -> Judgement {
+    Judgement {
+        id: label(property),
+        verdict: Verdict::Inconclusive,
+        length: None,
+        bound: None,
+        fastest: None,
+        trace: None,
+    }
 }
 
 /// A claim about pairs of runs that differ in some inputs only.

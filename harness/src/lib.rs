@@ -11,6 +11,7 @@ pub mod keep;
 pub mod matrix;
 pub mod readings;
 pub mod recorded;
+pub mod reduce;
 pub mod report;
 pub mod subject;
 pub mod timing;

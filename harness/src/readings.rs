@@ -9,7 +9,8 @@ use stillpoint_spec::diag::Diagnostics;
 use stillpoint_spec::ir::{Node, Space};
 
 use crate::check::{Checked, Settings};
-use crate::engine::{self, label};
+use crate::engine::label;
+use crate::reduce;
 use crate::report::verdict_name;
 use crate::subject::{self, Readings, Subject};
 
@@ -98,10 +99,11 @@ pub fn compare(
                     ..Options::default()
                 };
                 let title = format!("{id}={option}: {}", task.title);
-                let outcome = engine::run(
+                let outcome = reduce::run(
                     &task.bound,
                     &options,
                     settings.interpret,
+                    settings.reductions,
                     progress(&title).as_mut(),
                 )
                 .map_err(|e| Failed::Explore(title, e))?;

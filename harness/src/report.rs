@@ -10,6 +10,7 @@ use stillpoint_spec::ir::Topic;
 
 use crate::check::{Checked, Settings, Summary, Unfired, exit_status, violations};
 use crate::engine::{Evaluator, replay};
+use crate::reduce;
 use crate::subject::{Subject, Task};
 use crate::timing::Diagram;
 use crate::topics;
@@ -284,16 +285,21 @@ fn run(out: &mut String, n: usize, task: &Task, done: &Checked) {
         Evaluator::Generated => "generated step",
         Evaluator::Interpreter => "interpreter",
     };
-    let _ = writeln!(
-        out,
-        "  {} states of {} ({storage}, {evaluator}), {} transitions, depth {}, {} absorbing, {:.2} s",
-        grouped(u128::from(report.states)),
-        grouped(report.index_space),
-        grouped(report.transitions),
-        report.depth,
-        grouped(u128::from(report.absorbing)),
-        report.seconds,
-    );
+    if let Some(reduction) = &done.outcome.reduction {
+        reduce::text(out, &task.bound, reduction);
+    }
+    if !reduced(done) {
+        let _ = writeln!(
+            out,
+            "  {} states of {} ({storage}, {evaluator}), {} transitions, depth {}, {} absorbing, {:.2} s",
+            grouped(u128::from(report.states)),
+            grouped(report.index_space),
+            grouped(report.transitions),
+            report.depth,
+            grouped(u128::from(report.absorbing)),
+            report.seconds,
+        );
+    }
     unfired(out, done);
     for warning in &task.bound.system.warnings {
         wrapped(out, "  warning: ", warning);
@@ -306,6 +312,12 @@ fn run(out: &mut String, n: usize, task: &Task, done: &Checked) {
         );
     }
     out.push('\n');
+}
+
+/// Whether less than the whole system was explored.
+fn reduced(done: &Checked) -> bool {
+    let reduction = done.outcome.reduction.as_ref();
+    reduction.is_some_and(|r| r.whole.is_none())
 }
 
 /// Rules that never fired, one line for each reason; the copies of one machine's rule are named once.
@@ -435,13 +447,14 @@ pub fn to_json(subject: &Subject, checked: &[Checked], summaries: &[Summary]) ->
                 "states": report.states, "transitions": number(report.transitions),
                 "depth": report.depth, "seconds": report.seconds, "complete": report.complete,
                 "resumable": report.resumable,
-                "absorbing": report.absorbing, "memory": report.memory,
+                "absorbing": (!reduced(done)).then_some(report.absorbing), "memory": report.memory,
                 "bytes_per_state": report.bytes_per_state(),
                 "index_space": number(report.index_space),
                 "evaluator": match done.outcome.evaluator {
                     Evaluator::Generated => "generated", Evaluator::Interpreter => "interpreter",
                 },
                 "properties": properties, "rules": rules, "unfired": unfired,
+                "reduction": done.outcome.reduction.as_ref().map(|r| reduce::to_json(&task.bound, r)),
                 "warnings": system.warnings,
             })
         })

@@ -416,3 +416,42 @@ fn an_option_of_a_reading_changes_results() {
         "the recommended option is the default"
     );
 }
+
+#[test]
+fn reductions_keep_verdicts_and_say_what_they_did() {
+    let file = "spec/sinumerik-840d/faults.toml";
+    let plain = json(&stillpoint(&["check", file, "--json", "--readings", "all"]));
+    let output = stillpoint(&[
+        "check",
+        file,
+        "--json",
+        "--readings",
+        "all",
+        "--reduce",
+        "all",
+    ]);
+    assert_eq!(status(&output), 0);
+    let reduced = json(&output);
+    assert_eq!(plain["properties"], reduced["properties"]);
+    let readings = plain["readings"].as_array().expect("readings");
+    assert!(!readings.is_empty());
+    assert_eq!(plain["readings"], reduced["readings"]);
+    assert_eq!(plain["reactions"], reduced["reactions"]);
+    assert!(reduced["states"].as_u64() < plain["states"].as_u64());
+    let run = &reduced["runs"][0];
+    assert_eq!(run["absorbing"], Value::Null);
+    let parts = run["reduction"]["explorations"]
+        .as_array()
+        .expect("explorations");
+    assert!(
+        parts
+            .iter()
+            .any(|p| p["variables"].as_u64() < run["reduction"]["variables"].as_u64())
+    );
+    assert!(plain["runs"][0]["reduction"].is_null());
+    let text = stdout(&stillpoint(&["check", file, "--reduce", "slice,symmetry"]));
+    assert!(text.contains("reduction (slice, symmetry): "), "{text}");
+    let wrong = stillpoint(&["check", file, "--reduce", "slices"]);
+    assert_eq!(status(&wrong), 2);
+    assert!(stderr(&wrong).contains("there is no reduction `slices`"));
+}

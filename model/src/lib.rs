@@ -19,6 +19,7 @@
 //!   counterexample.
 //! * `trace`: shortest runs. The search keeps no parents; a second search keeps its levels, and a walk back through them
 //!   finds the least predecessors.
+//! * `symmetry`, `narrow`: a system up to a group of permutations, and a part of a system; both systems again.
 //! * `twin`, `control`: two runs side by side; views of the reachable states.
 //!
 //! A cycle whose evaluation meets a fault has no successor and is reported. A fault in a property's atom makes that atom
@@ -36,6 +37,7 @@ mod explore;
 mod graph;
 mod hashed;
 mod liveness;
+mod narrow;
 mod pack;
 mod parts;
 mod process;
@@ -45,6 +47,7 @@ mod response;
 mod search;
 mod set;
 mod store;
+mod symmetry;
 mod system;
 pub mod table;
 mod ticks;
@@ -54,11 +57,13 @@ mod twin;
 pub use choices::Replay;
 pub use control::{ControlGraph, control_graph, reachable};
 pub use explore::explore;
-pub use parts::Part;
+pub use parts::Component;
+pub use narrow::{Narrow, NarrowWork, Part};
 pub use property::{Form, Property};
 pub use report::{
     Checkpoint, Error, FaultReport, Judgement, Limits, Options, Progress, Report, Step, Storage,
     Trace, Verdict,
 };
+pub use symmetry::{Group, Permutation, Symmetric, SymmetricWork};
 pub use system::{Choices, Domain, Fault, System};
 pub use twin::{Twin, TwinWork};

@@ -14,13 +14,13 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::ops::ControlFlow;
 
 /// A part of a system: a system over the same state variables and inputs that changes only its own variables.
-pub struct Part<'s> {
+pub struct Component<'s> {
     states: Vec<usize>,
     atoms: Vec<usize>,
     system: Box<dyn Source + 's>,
 }
 
-impl<'s> Part<'s> {
+impl<'s> Component<'s> {
     /// A part with these state variables, and with the atoms that speak of them, as `system` steps it.
     pub fn new<S: System + 's>(states: Vec<usize>, atoms: Vec<usize>, system: S) -> Self {
         Part {
@@ -128,7 +128,7 @@ impl<K: Key> Tables<K> {
         packer: &Packer<K>,
         properties: &[Property],
     ) -> Option<Self> {
-        let parts = origin.parts();
+        let parts = origin.components();
         let domains = origin.domains();
         let number = parts.len();
         if !(2..=MOST_PARTS).contains(&number)
@@ -310,7 +310,7 @@ impl<K: Key> Tables<K> {
 }
 
 /// The part that a property speaks of: the first one if it speaks of none, no part if it speaks of several.
-fn part_of(parts: &[Part], property: &Property) -> Option<usize> {
+fn part_of(parts: &[Component], property: &Property) -> Option<usize> {
     let mut found = None;
     for atom in property.form.atoms() {
         if let Some(part) = parts.iter().position(|p| p.atoms.contains(&atom)) {
@@ -337,7 +337,7 @@ type RoughTable<K> = (Digits, Vec<Option<Rough<K>>>);
 
 /// Tabulates a part.
 struct Builder<'a, K> {
-    part: &'a Part<'a>,
+    part: &'a Component<'a>,
     domains: &'a [Domain],
     packer: &'a Packer<K>,
     properties: &'a [Property],

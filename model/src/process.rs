@@ -2,7 +2,7 @@
 //! a pointer, so that a new system costs little compile time.
 
 use crate::choices::Odometer;
-use crate::parts::Part;
+use crate::parts::Component;
 use crate::system::{Domain, Fault, System};
 
 /// A system and a work area. The methods are those of [`System`] with the choices of an odometer.
@@ -55,7 +55,7 @@ pub(crate) trait Origin: Sync {
     fn domains(&self) -> &[Domain];
     fn combinations(&self) -> u128;
     fn rules(&self) -> usize;
-    fn parts(&self) -> Vec<Part<'_>> {
+    fn components(&self) -> Vec<Component<'_>> {
         Vec::new()
     }
     fn timer(&self) -> Option<usize> {
@@ -148,8 +148,8 @@ impl<'s, S: System> Origin for Own<'s, S> {
         self.0.rules()
     }
 
-    fn parts(&self) -> Vec<Part<'_>> {
-        self.0.parts()
+    fn components(&self) -> Vec<Component<'_>> {
+        self.0.components()
     }
 
     fn timer(&self) -> Option<usize> {

@@ -1,7 +1,7 @@
 //! What can be explored: a finite system of states that makes one step a cycle.
 
 use crate::choices::Odometer;
-use crate::parts::Part;
+use crate::parts::Component;
 
 /// The environment of one cycle: it answers each input the system asks for.
 ///
@@ -128,7 +128,7 @@ pub trait System: Sync {
 
     /// The parts of the system that share nothing but inputs, if it falls into several: together they have every state
     /// variable, and a cycle of the system is a cycle of each of them under the same inputs. None is discarded.
-    fn parts(&self) -> Vec<Part<'_>> {
+    fn components(&self) -> Vec<Component<'_>> {
         Vec::new()
     }
 

@@ -6,7 +6,7 @@ use stillpoint_spec::ir;
 use stillpoint_tables::{Steps, Table, Visitor};
 
 use crate::choices::Odometer;
-use crate::parts::Part;
+use crate::parts::Component;
 use crate::property::{Form, Property};
 use crate::system::{Choices, Domain, Fault, System};
 
@@ -155,7 +155,7 @@ impl System for Interpreted<'_> {
         self.shape.fired(&work.fired, each);
     }
 
-    fn parts(&self) -> Vec<Part<'_>> {
+    fn components(&self) -> Vec<Component<'_>> {
         parts(self.bound)
     }
 
@@ -242,13 +242,13 @@ fn timer(bound: &Bound) -> Option<usize> {
     all.into_iter().max_by_key(size)
 }
 
-fn parts(bound: &Bound) -> Vec<Part<'_>> {
+fn parts(bound: &Bound) -> Vec<Component<'_>> {
     let part = |part: stillpoint_spec::parts::Part| {
         let system = PartOf {
             whole: Interpreted::new(bound),
             instances: part.instances,
         };
-        Part::new(part.states, part.atoms, system)
+        Component::new(part.states, part.atoms, system)
     };
     let found = stillpoint_spec::parts::parts(&bound.system);
     found.into_iter().map(part).collect()
@@ -373,7 +373,7 @@ impl System for Generated<'_> {
             .fired(&work[self.table.cells - self.table.fired..], each);
     }
 
-    fn parts(&self) -> Vec<Part<'_>> {
+    fn components(&self) -> Vec<Component<'_>> {
         parts(self.bound)
     }
 

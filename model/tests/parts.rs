@@ -6,7 +6,7 @@ mod common;
 use common::large::large_table;
 use common::{Frame, Table, padding, random_table};
 use stillpoint_model::{
-    Choices, Domain, Fault, Form, Options, Part, Property, Report, Storage, System, explore,
+    Choices, Component, Domain, Fault, Form, Options, Property, Report, Storage, System, explore,
 };
 
 const ATOMS: usize = 6;
@@ -147,7 +147,7 @@ impl System for Side {
         }
     }
 
-    fn parts(&self) -> Vec<Part<'_>> {
+    fn components(&self) -> Vec<Component<'_>> {
         if !self.apart {
             return Vec::new();
         }
@@ -157,7 +157,7 @@ impl System for Side {
                 states.extend(2 * self.tables.len()..self.domains.len());
             }
             let atoms = (ATOMS * n..ATOMS * (n + 1)).collect();
-            Part::new(states, atoms, Alone { whole: self, n })
+            Component::new(states, atoms, Alone { whole: self, n })
         };
         (0..self.tables.len()).map(part).collect()
     }

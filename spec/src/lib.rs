@@ -20,7 +20,9 @@ pub mod parts;
 mod property;
 mod schema;
 mod scope;
+pub mod slice;
 mod spec;
+pub mod symmetry;
 mod text;
 pub mod timers;
 

@@ -8,6 +8,7 @@ use clap::Args;
 use stillpoint::check::{Settings, check, exit_status, summarise};
 use stillpoint::keep::Keep;
 use stillpoint::readings::compare;
+use stillpoint::reduce::Reductions;
 use stillpoint::report;
 use stillpoint::subject::{self, Subject};
 
@@ -40,6 +41,11 @@ pub struct Arguments {
     /// The least time between two checkpoints
     #[arg(long, value_name = "DURATION", value_parser = values::duration, default_value = "30s")]
     checkpoint_every: Duration,
+    /// Explore less where that keeps the verdicts: `slice` (each property on what it depends on), `symmetry` (identical
+    /// axes), `timers` (values of a timer stored as intervals), several with commas, or `all`. With the first two, rule
+    /// coverage, absorbing states and the number of states of the whole system, which need the full exploration, are not told
+    #[arg(long, value_name = "slice,symmetry,timers|all|none", default_value = "none")]
+    reduce: Reductions,
 }
 
 pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
@@ -58,6 +64,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         memory: arguments.limits.memory,
         time: arguments.limits.time,
         interpret: arguments.interpret,
+        reductions: arguments.reduce,
     };
     let fail =
         |(title, e): (String, stillpoint_model::Error)| Failure::Other(format!("{title}: {e}"));
