@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 use clap::Args;
+use stillpoint::certificate;
 use stillpoint::check::{Settings, check, exit_status, summarise};
 use stillpoint::readings::compare;
 use stillpoint::report;
@@ -26,6 +27,9 @@ pub struct Arguments {
     /// `all` compares every option of every reading; ID=OPTION chooses one
     #[arg(long, value_name = "all|ID=OPTION")]
     readings: Vec<String>,
+    /// Write a certificate of the verdicts to this file, for `stillpoint certify`
+    #[arg(long, value_name = "FILE")]
+    certificate: Option<PathBuf>,
     /// Use the interpreter even where there is generated code
     #[arg(long)]
     interpret: bool,
@@ -68,6 +72,9 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     } else {
         None
     };
+    if let Some(path) = &arguments.certificate {
+        certificate::certify(path, &subject, &checked, settings.threads).map_err(Failure::Other)?;
+    }
     if arguments.json {
         let mut json = report::to_json(&subject, &checked, &summaries);
         if let (Some(compared), Some(object)) = (&compared, json.as_object_mut()) {
