@@ -5,9 +5,11 @@
 //! again; a certificate only adds sets, ranks and runs, and every one of them is checked.
 //!
 //! To be read in this order: [`format`] (the file), [`subject`] (the specification), [`states`], [`cycle`] (all cycles of a
-//! state, and the cycles of a run), `check` (what has to be true). [`write()`] is for producers; nothing rests on it.
+//! state, and the cycles of a run), `claim` (what each verdict needs), `check` (what has to be true in every cycle).
+//! [`write()`] is for producers; nothing rests on it.
 
 mod check;
+mod claim;
 pub mod cycle;
 pub mod format;
 pub mod states;

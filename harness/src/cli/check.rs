@@ -72,9 +72,6 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     } else {
         None
     };
-    if let Some(path) = &arguments.certificate {
-        certificate::certify(path, &subject, &checked, settings.threads).map_err(Failure::Other)?;
-    }
     if arguments.json {
         let mut json = report::to_json(&subject, &checked, &summaries);
         if let (Some(compared), Some(object)) = (&compared, json.as_object_mut()) {
@@ -89,6 +86,10 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         if let Some(compared) = &compared {
             emit(&stillpoint::readings::text(compared));
         }
+    }
+    // The report is out by now: it is not lost if the disk is full.
+    if let Some(path) = &arguments.certificate {
+        certificate::certify(path, &subject, &checked, settings.threads).map_err(Failure::Other)?;
     }
     Ok(status)
 }
