@@ -117,7 +117,11 @@ fn text(confirmed: &Confirmed) -> String {
         }
         for (property, bound) in task.property.iter().zip(bounds) {
             let bound = bound.map_or(String::new(), |n| format!(" [in at most {n} cycles]"));
+            let recorded = |w: &String| w.starts_with("exactly: ") || w.starts_with("fastest: ");
             let reason = match property.reason.as_str() {
+                "" if property.written.iter().any(recorded) => {
+                    " (without the recorded bounds)".to_owned()
+                }
                 "" => String::new(),
                 reason => format!(" ({reason})"),
             };
