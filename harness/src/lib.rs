@@ -3,6 +3,8 @@
 //! The library behind the command line: [`subject`] loads what a command works on, [`check`] explores it, [`report`] and
 //! [`timing`] show the result.
 
+pub mod atomic;
+pub mod certificate;
 pub mod check;
 pub mod diff;
 pub mod engine;

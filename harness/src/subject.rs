@@ -7,7 +7,7 @@ use std::sync::Arc;
 use stillpoint_spec::analysis::Analysis;
 use stillpoint_spec::bind::{BindError, Bound};
 use stillpoint_spec::diag::{Diagnostic, Diagnostics, Result};
-use stillpoint_spec::machine::{self, Machine};
+use stillpoint_spec::machine::{self, Machine, families};
 use stillpoint_spec::{Spec, read_text};
 
 /// Chosen options of readings, by id; what is missing has the recommended one.
@@ -159,24 +159,4 @@ fn bind(
             .help(help)
             .into()
     })
-}
-
-/// The folder with the families: beside the machine file's folder, in an ancestor's `spec`, or in `./spec`.
-pub fn families(path: &Path) -> PathBuf {
-    let absolute = path.canonicalize().unwrap_or_else(|_| path.to_owned());
-    let has_families = |dir: &Path| {
-        std::fs::read_dir(dir).is_ok_and(|entries| {
-            entries
-                .flatten()
-                .any(|e| e.path().join("family.toml").is_file())
-        })
-    };
-    for dir in absolute.ancestors().skip(1) {
-        for candidate in [dir.to_owned(), dir.join("spec")] {
-            if has_families(&candidate) {
-                return candidate;
-            }
-        }
-    }
-    PathBuf::from("spec")
 }

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use clap::Args;
+use stillpoint::certificate;
 use stillpoint::check::{Settings, check, exit_status, summarise};
 use stillpoint::keep::Keep;
 use stillpoint::readings::compare;
@@ -29,6 +30,9 @@ pub struct Arguments {
     /// `all` compares every option of every reading; ID=OPTION chooses one
     #[arg(long, value_name = "all|ID=OPTION")]
     readings: Vec<String>,
+    /// Write a certificate of the verdicts to this file, for `stillpoint certify`
+    #[arg(long, value_name = "FILE")]
+    certificate: Option<PathBuf>,
     /// Use the interpreter even where there is generated code
     #[arg(long)]
     interpret: bool,
@@ -108,6 +112,10 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         if let Some(compared) = &compared {
             emit(&stillpoint::readings::text(compared));
         }
+    }
+    // The report is out by now: it is not lost if the disk is full.
+    if let Some(path) = &arguments.certificate {
+        certificate::certify(path, &subject, &checked, settings.threads).map_err(Failure::Other)?;
     }
     Ok(status)
 }

@@ -1,5 +1,6 @@
 //! Arguments, exit status, and what goes to which stream.
 
+mod certify;
 mod check;
 mod diff;
 mod export;
@@ -39,6 +40,11 @@ enum Command {
         after_help = "Examples:\n  stillpoint check spec/machines/milling-840d.toml\n  stillpoint check spec/bench/two-axis.toml --json\n  stillpoint check spec/machines/milling-840d.toml --readings A-25=RESET_AT_ONCE"
     )]
     Check(check::Arguments),
+    /// Check a certificate again, without the explorer
+    #[command(
+        after_help = "Exit status: 0 every claim is confirmed, also one that a property is violated; 1 the certificate does not show what it claims; 2 there is no certificate or specification to be read.\n\nExamples:\n  stillpoint check spec/machines/milling-840d.toml --certificate milling.cert\n  stillpoint certify milling.cert\n  stillpoint certify milling.cert --spec elsewhere/machines/milling-840d.toml --json"
+    )]
+    Certify(certify::Arguments),
     /// Check the production monitors against the tables
     #[command(
         after_help = "Examples:\n  stillpoint diff spec/machines/milling-840d.toml --exhaustive\n  stillpoint diff spec/machines/milling-840d.toml --random 1000000 --seed 7\n  stillpoint diff spec/machines/milling-840d.toml --mutant stop-b-no-timer-exit   (must diverge)"
@@ -71,6 +77,7 @@ pub fn main() -> ExitCode {
         }
     };
     let status = match arguments.command {
+        Command::Certify(arguments) => certify::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Diff(arguments) => diff::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),

@@ -16,6 +16,8 @@ pub use select::select;
 
 use std::path::Path;
 
+use crate::atomic::write_with;
+
 /// Why a system cannot be expressed in a format: one sentence.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
@@ -26,17 +28,5 @@ pub struct Unsupported(pub String);
 /// # Errors
 /// As of writing and renaming; nothing is left behind then.
 pub fn write_atomically(path: &Path, text: &str) -> std::io::Result<()> {
-    let name = path
-        .file_name()
-        .ok_or_else(|| std::io::Error::other("this names no file"))?;
-    let mut own = std::ffi::OsString::from(".");
-    own.push(name);
-    own.push(format!(".{}.tmp", std::process::id()));
-    let temporary = path.with_file_name(own);
-    let done = std::fs::write(&temporary, text).and_then(|()| std::fs::rename(&temporary, path));
-    if done.is_err() {
-        // The first error is the one to tell.
-        let _ = std::fs::remove_file(&temporary);
-    }
-    done
+    write_with(path, |out| out.write_all(text.as_bytes()))
 }

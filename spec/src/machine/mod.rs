@@ -160,6 +160,26 @@ impl Setting {
     }
 }
 
+/// The folder with the families: beside the machine file's folder, in an ancestor's `spec`, or in `./spec`.
+pub fn families(path: &Path) -> PathBuf {
+    let absolute = path.canonicalize().unwrap_or_else(|_| path.to_owned());
+    let has_families = |dir: &Path| {
+        std::fs::read_dir(dir).is_ok_and(|entries| {
+            entries
+                .flatten()
+                .any(|e| e.path().join("family.toml").is_file())
+        })
+    };
+    for dir in absolute.ancestors().skip(1) {
+        for candidate in [dir.to_owned(), dir.join("spec")] {
+            if has_families(&candidate) {
+                return candidate;
+            }
+        }
+    }
+    PathBuf::from("spec")
+}
+
 /// Reads and checks the machine file at `path`; `families` is the folder that holds the families.
 ///
 /// # Errors

@@ -1,0 +1,231 @@
+//! The parts of the checker against the simplest ways of doing the same.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+use stillpoint_certify::cycle::{Cycle, PairCycle, Pairing};
+use stillpoint_certify::format::{Body, Header, Kind, Proof, Run, bodies, open};
+use stillpoint_certify::states::{Radix, place};
+use stillpoint_certify::subject::Subject;
+use stillpoint_certify::{Failure, write};
+use stillpoint_spec::bind::Bound;
+use stillpoint_spec::eval::Frame;
+use stillpoint_spec::ir::Form;
+
+/// The systems of the example with every form of property.
+fn systems() -> Subject {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/certified/forms.toml");
+    Subject::load(&path, Kind::Specification, &BTreeMap::new()).unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// All values of cells with these ranges, the last one turning fastest.
+fn every(ranges: &[(i32, i32)]) -> Vec<Vec<i32>> {
+    let mut all = vec![Vec::new()];
+    for (lo, hi) in ranges {
+        let longer = |list: Vec<i32>| (*lo..=*hi).map(move |v| [&list[..], &[v]].concat());
+        all = all.into_iter().flat_map(longer).collect();
+    }
+    all
+}
+
+/// One cycle with all inputs given; none after a range fault.
+fn cycle(bound: &Bound, before: &[i32], inputs: &[i32]) -> Option<Frame> {
+    let mut frame = Frame::new(bound);
+    frame.start(before);
+    bound.step(&mut frame, &mut |k| inputs[k]).ok()?;
+    Some(frame)
+}
+
+#[test]
+fn states_have_numbers() {
+    for bound in systems().bounds {
+        let radix = Radix::new(&bound).expect("small");
+        let all = every(&bound.states);
+        assert_eq!(radix.space, all.len() as u128);
+        let mut back = vec![0; bound.states.len()];
+        for (number, state) in all.iter().enumerate() {
+            assert_eq!(radix.index(state), Some(number as u128));
+            assert!(radix.state(number as u128, &mut back));
+            assert_eq!(back, *state);
+        }
+        assert!(!radix.state(radix.space, &mut back));
+        for (k, (lo, hi)) in bound.states.iter().enumerate() {
+            for outside in [lo - 1, hi + 1, i32::MIN, i32::MAX] {
+                let mut state = all[0].clone();
+                state[k] = outside;
+                assert_eq!(radix.index(&state), None);
+            }
+        }
+    }
+    let mut near = 0;
+    assert_eq!(place(&[1, 5, 9], 5, &mut near), Some(1));
+    assert_eq!((place(&[1, 5, 9], 5, &mut near), near), (Some(1), 1));
+    assert_eq!(place(&[1, 5, 9], 6, &mut near), None);
+}
+
+/// Cycles enumerated on demand are those of all combinations of all inputs, for the step and for each property.
+#[test]
+fn cycles_are_complete() {
+    for bound in systems().bounds {
+        let inputs = every(&bound.inputs);
+        let mut cycles = Cycle::new(&bound);
+        let mut made = 0;
+        for state in every(&bound.states) {
+            // For each successor (none: a fault) and atom whether it can be false, and true.
+            let mut naive: BTreeMap<Option<Vec<i32>>, BTreeSet<(usize, bool)>> = BTreeMap::new();
+            for given in &inputs {
+                let Some(mut frame) = cycle(&bound, &state, given) else {
+                    naive.entry(None).or_default();
+                    continue;
+                };
+                let seen = naive.entry(Some(frame.now.clone())).or_default();
+                for k in 0..bound.system.atoms.len() {
+                    seen.insert((k, bound.atom(k, &mut frame, &mut |i| given[i])));
+                }
+            }
+            let mut found: BTreeMap<Option<Vec<i32>>, BTreeSet<(usize, bool)>> = BTreeMap::new();
+            let each = cycles.each(&state, |cycle, result| {
+                made += 1;
+                let after = result.is_ok().then(|| cycle.after().to_vec());
+                let seen = found.entry(after).or_default();
+                for k in 0..bound.system.atoms.len() {
+                    if result.is_ok() {
+                        assert!(cycle.all(|c| {
+                            let value = c.atom(k);
+                            seen.insert((k, value));
+                            // Asked twice in one cycle it is the same.
+                            c.atom(k) == value
+                        }));
+                    }
+                }
+                Ok::<(), ()>(())
+            });
+            assert_eq!(each, Ok(()));
+            assert_eq!(found, naive, "{state:?}");
+        }
+        assert!(made > 10);
+    }
+}
+
+/// Pairs of cycles are those of the definition: equal inputs, but for the listed ones in cycles with the condition in
+/// both runs.
+#[test]
+fn pairs_of_cycles_are_complete() {
+    let mut compared = 0;
+    for bound in systems().bounds {
+        let inputs = every(&bound.inputs);
+        let states = every(&bound.states);
+        for property in &bound.system.properties {
+            let Form::Independent {
+                observe,
+                of,
+                condition,
+            } = &property.form
+            else {
+                continue;
+            };
+            let pairing = Pairing {
+                observe,
+                of,
+                condition: *condition,
+            };
+            let mut cycles = PairCycle::new(&bound, pairing);
+            // A part of the pairs of states is enough: every seventh.
+            let pairs = states
+                .iter()
+                .flat_map(|a| states.iter().map(move |b| [a, b]));
+            for [a, b] in pairs.step_by(7) {
+                let mut naive = BTreeSet::new();
+                for one in &inputs {
+                    for other in &inputs {
+                        let differ = (0..one.len()).filter(|k| one[*k] != other[*k]);
+                        let differ: Vec<usize> = differ.collect();
+                        if !differ.iter().all(|k| of.contains(k)) {
+                            continue;
+                        }
+                        let frames = cycle(&bound, a, one).zip(cycle(&bound, b, other));
+                        let Some((mut first, mut second)) = frames else {
+                            continue;
+                        };
+                        let holds = |f: &mut Frame, given: &[i32]| {
+                            condition.is_none_or(|c| bound.atom(c, f, &mut |i| given[i]))
+                        };
+                        let both = holds(&mut first, one) && holds(&mut second, other);
+                        if !both && !differ.is_empty() {
+                            continue;
+                        }
+                        let agree = !both
+                            || observe.iter().all(|k| {
+                                bound.observe(*k, &mut first, &mut |i| one[i])
+                                    == bound.observe(*k, &mut second, &mut |i| other[i])
+                            });
+                        naive.insert((first.now.clone(), second.now.clone(), agree));
+                    }
+                }
+                let mut found = BTreeSet::new();
+                let each = cycles.each([a, b], |after, agree| {
+                    found.insert((after[0].to_vec(), after[1].to_vec(), agree));
+                    Ok::<(), ()>(())
+                });
+                assert_eq!(each, Ok(()));
+                assert_eq!(found, naive, "{}: {a:?} {b:?}", property.id);
+                compared += 1;
+            }
+        }
+    }
+    assert!(compared > 500, "{compared}");
+}
+
+/// A header that asks for two proofs over three states, and one fault.
+fn header() -> Header {
+    let mut header = systems().header;
+    header.task.truncate(1);
+    header.task[0].property.truncate(2);
+    header.task[0].states = 3;
+    header.task[0].faults = vec!["here".to_owned()];
+    header
+}
+
+#[test]
+fn what_is_written_is_read_again() {
+    let run = Run {
+        initial: u128::MAX,
+        steps: vec![vec![(0, 1), (7, u32::MAX)], vec![], vec![(300, 128)]],
+        repeats: Some(0),
+    };
+    let body = Body {
+        states: vec![0, 127, u128::MAX - 1],
+        proofs: vec![
+            Proof::default(),
+            Proof {
+                runs: vec![run.clone(), Run::default()],
+                map: vec![0, u32::MAX, u32::MAX],
+                pairs: vec![3, 4, 1 << 90],
+            },
+        ],
+        faults: vec![run],
+    };
+    let mut bytes = Vec::new();
+    write(&mut bytes, &header(), &[body.clone()]).expect("written");
+    let (read, proofs) = open(&bytes).expect("a certificate");
+    assert_eq!(read, header());
+    assert_eq!(bodies(&read, proofs).expect("proofs"), [body.clone()]);
+    // Too short, too long, and states that do not ascend.
+    for end in 0..proofs.len() {
+        assert!(matches!(
+            bodies(&read, &proofs[..end]),
+            Err(Failure::Rejected(_))
+        ));
+    }
+    assert!(bodies(&read, &[proofs, &[0]].concat()).is_err());
+    for states in [vec![1, 1, 2], vec![2, 1, 3], vec![0, 1]] {
+        let body = Body {
+            states,
+            ..body.clone()
+        };
+        let mut bytes = Vec::new();
+        write(&mut bytes, &header(), &[body]).expect("written");
+        let (read, proofs) = open(&bytes).expect("a certificate");
+        assert!(bodies(&read, proofs).is_err());
+    }
+}

@@ -1,0 +1,165 @@
+//! `stillpoint certify`.
+
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+use clap::Args;
+use serde_json::json;
+use stillpoint_certify::format::Verdict;
+use stillpoint_certify::{Confirmed, certify};
+
+use super::{BAD_INPUT, Failure, emit};
+
+#[derive(Args)]
+pub struct Arguments {
+    /// Certificate written by `check --certificate`
+    file: PathBuf,
+    /// The specification or machine file, where it is not the path that the certificate names
+    #[arg(long, value_name = "FILE")]
+    spec: Option<PathBuf>,
+    /// Print the result as JSON
+    #[arg(long)]
+    json: bool,
+    /// Worker threads; 0 for all processors
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    threads: usize,
+}
+
+pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
+    let threads = match arguments.threads {
+        0 => std::thread::available_parallelism().map_or(1, usize::from),
+        given => given,
+    };
+    let name = arguments.file.display();
+    match certify(&arguments.file, arguments.spec.as_deref(), threads) {
+        Ok(confirmed) => {
+            emit(&match arguments.json {
+                true => format!("{:#}\n", to_json(&confirmed)),
+                false => text(&confirmed),
+            });
+            Ok(0)
+        }
+        Err(failure) => {
+            let (status, word) = match failure {
+                stillpoint_certify::Failure::Rejected(_) => (1, "rejected"),
+                stillpoint_certify::Failure::Unreadable(_) => (BAD_INPUT, "unreadable"),
+            };
+            let reason = failure.to_string().replace('\n', " ");
+            if arguments.json {
+                emit(&format!(
+                    "{:#}\n",
+                    json!({ "result": word, "reason": reason })
+                ));
+            }
+            eprintln!("{word}: {name}: {reason}");
+            Ok(status)
+        }
+    }
+}
+
+fn verdict(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Holds => "holds",
+        Verdict::Violated => "violated",
+        Verdict::Vacuous => "vacuous",
+        Verdict::Reached => "reached",
+        Verdict::Unreachable => "unreachable",
+        Verdict::Open => "not certified",
+    }
+}
+
+/// How many claims there are of one verdict.
+fn count(confirmed: &Confirmed, of: impl Fn(Verdict) -> bool) -> usize {
+    let properties = confirmed.header.task.iter().flat_map(|task| &task.property);
+    properties.filter(|p| of(p.verdict)).count()
+}
+
+fn text(confirmed: &Confirmed) -> String {
+    let header = &confirmed.header;
+    let faults: usize = header.task.iter().map(|task| task.faults.len()).sum();
+    let claims = count(confirmed, |v| v != Verdict::Open) + faults;
+    let mut out = format!("{}: CONFIRMED, {claims} claims", header.subject);
+    let violated = count(confirmed, |v| v == Verdict::Violated) + faults;
+    let unreachable = count(confirmed, |v| v == Verdict::Unreachable);
+    let open = count(confirmed, |v| v == Verdict::Open);
+    for (number, what) in [
+        (violated, "of them violations"),
+        (unreachable, "of them missing witnesses"),
+        (open, "properties not certified"),
+    ] {
+        if number > 0 {
+            let _ = write!(out, ", {number} {what}");
+        }
+    }
+    out.push('\n');
+    for source in &header.file {
+        let _ = writeln!(out, "  {}  {}", source.sha256, source.name);
+    }
+    for (id, option) in &header.readings {
+        let _ = writeln!(out, "  reading {id}: {option}");
+    }
+    for (task, bounds) in header.task.iter().zip(&confirmed.bounds) {
+        let _ = writeln!(out, "\n{} ({})", task.title, task.system);
+        for (name, value) in &task.parameters {
+            let _ = writeln!(out, "  {name} = {value}");
+        }
+        match task.states {
+            0 => out.push_str("  runs only: nothing is claimed about all runs\n"),
+            states => {
+                let _ = writeln!(
+                    out,
+                    "  {states} states, closed under every combination of inputs"
+                );
+            }
+        }
+        for fault in &task.faults {
+            let _ = writeln!(out, "  violated       range: {fault}");
+        }
+        for (property, bound) in task.property.iter().zip(bounds) {
+            let bound = bound.map_or(String::new(), |n| format!(" [in at most {n} cycles]"));
+            let recorded = |w: &String| w.starts_with("exactly: ") || w.starts_with("fastest: ");
+            let reason = match property.reason.as_str() {
+                "" if property.written.iter().any(recorded) => {
+                    " (without the recorded bounds)".to_owned()
+                }
+                "" => String::new(),
+                reason => format!(" ({reason})"),
+            };
+            let (word, id) = (verdict(property.verdict), &property.id);
+            let _ = writeln!(out, "  {word:<14} {id}: {}{bound}{reason}", property.text);
+        }
+    }
+    out
+}
+
+fn to_json(confirmed: &Confirmed) -> serde_json::Value {
+    let header = &confirmed.header;
+    let tasks = header
+        .task
+        .iter()
+        .zip(&confirmed.bounds)
+        .map(|(task, bounds)| {
+            let properties = task.property.iter().zip(bounds).map(|(p, bound)| {
+                json!({
+                    "id": p.id, "text": p.text, "verdict": verdict(p.verdict),
+                    "bound": bound, "reason": p.reason,
+                })
+            });
+            json!({
+                "system": task.system, "title": task.title, "parameters": task.parameters,
+                "states": task.states, "faults": task.faults,
+                "properties": properties.collect::<Vec<_>>(),
+            })
+        });
+    let files = header.file.iter();
+    json!({
+        "result": "confirmed",
+        "subject": header.subject,
+        "files": files.map(|f| json!({ "name": f.name, "sha256": f.sha256 })).collect::<Vec<_>>(),
+        "readings": header.readings,
+        "confirmed": count(confirmed, |v| v != Verdict::Open),
+        "violated": count(confirmed, |v| v == Verdict::Violated),
+        "not_certified": count(confirmed, |v| v == Verdict::Open),
+        "tasks": tasks.collect::<Vec<_>>(),
+    })
+}
