@@ -106,6 +106,9 @@ impl In {
     }
 }
 
+/// What a checkpoint has, and the time spent before it.
+pub(crate) type Resumed<K> = (Found<K>, Duration);
+
 /// Keeps the checkpoint of one exploration.
 pub(crate) struct Keeper<'a> {
     checkpoint: &'a Checkpoint,
@@ -186,10 +189,7 @@ impl<'a> Keeper<'a> {
     }
 
     /// Reads the checkpoint into an empty store; none if there is no file. Also gives the time spent before it.
-    pub(crate) fn load<T: Store>(
-        &self,
-        store: &mut T,
-    ) -> Result<Option<(Found<T::Key>, Duration)>, Error> {
+    pub(crate) fn load<T: Store>(&self, store: &mut T) -> Result<Option<Resumed<T::Key>>, Error> {
         let path = &self.checkpoint.file;
         let mut file = match File::open(path) {
             Ok(file) => file,
@@ -219,12 +219,7 @@ impl<'a> Keeper<'a> {
             .map(Some)
     }
 
-    #[allow(clippy::type_complexity)]
-    fn read<T: Store>(
-        &self,
-        input: &mut In,
-        store: &mut T,
-    ) -> io::Result<Option<(Found<T::Key>, Duration)>> {
+    fn read<T: Store>(&self, input: &mut In, store: &mut T) -> io::Result<Option<Resumed<T::Key>>> {
         let mut magic = [0; MAGIC.len()];
         input.bytes(&mut magic)?;
         if magic != MAGIC {

@@ -24,7 +24,7 @@ pub(crate) struct Mark {
 ///
 /// The caller runs the cycle between `begin` and `advance`, until `advance` says that no vector is left.
 #[derive(Clone, Debug)]
-pub struct Odometer {
+pub(crate) struct Odometer {
     /// The reads of the present vector, `len` of them; what follows is left over, and saves some divisions.
     reads: Vec<Read>,
     len: usize,
@@ -169,11 +169,6 @@ impl Odometer {
 }
 
 impl Choices for Odometer {
-    #[inline(always)]
-    fn odometer(&mut self) -> Option<&mut Odometer> {
-        Some(self)
-    }
-
     #[inline(always)]
     fn choose(&mut self, input: u32, size: u32) -> u32 {
         let bit = 1u64 << (input & 63);

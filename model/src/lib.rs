@@ -57,8 +57,8 @@ mod twin;
 pub use choices::Replay;
 pub use control::{ControlGraph, control_graph, reachable};
 pub use explore::explore;
-pub use parts::Component;
 pub use narrow::{Narrow, NarrowWork, Part};
+pub use parts::Component;
 pub use property::{Form, Property};
 pub use report::{
     Checkpoint, Error, FaultReport, Judgement, Limits, Options, Progress, Report, Step, Storage,

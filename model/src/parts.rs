@@ -23,7 +23,7 @@ pub struct Component<'s> {
 impl<'s> Component<'s> {
     /// A part with these state variables, and with the atoms that speak of them, as `system` steps it.
     pub fn new<S: System + 's>(states: Vec<usize>, atoms: Vec<usize>, system: S) -> Self {
-        Part {
+        Component {
             states,
             atoms,
             system: Box::new(system),

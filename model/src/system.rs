@@ -1,6 +1,5 @@
 //! What can be explored: a finite system of states that makes one step a cycle.
 
-use crate::choices::Odometer;
 use crate::parts::Component;
 
 /// The environment of one cycle: it answers each input the system asks for.
@@ -9,12 +8,6 @@ use crate::parts::Component;
 pub trait Choices {
     /// The value of input number `input`, in `0..size`. `size` is at least 1 and belongs to the input.
     fn choose(&mut self, input: u32, size: u32) -> u32;
-
-    /// The explorer's own enumeration, if these are its choices: generated code is compiled for it.
-    #[doc(hidden)]
-    fn odometer(&mut self) -> Option<&mut Odometer> {
-        None
-    }
 }
 
 /// The values of one state variable.

@@ -3,9 +3,8 @@
 use stillpoint_spec::bind::Bound;
 use stillpoint_spec::eval;
 use stillpoint_spec::ir;
-use stillpoint_tables::{Steps, Table, Visitor};
+use stillpoint_tables::Table;
 
-use crate::choices::Odometer;
 use crate::parts::Component;
 use crate::property::{Form, Property};
 use crate::system::{Choices, Domain, Fault, System};
@@ -258,37 +257,7 @@ fn parts(bound: &Bound) -> Vec<Component<'_>> {
 pub struct Generated<'a> {
     bound: &'a Bound,
     table: &'static Table,
-    native: Native,
     shape: Shape,
-}
-
-/// The inputs as generated code reads them from the explorer.
-type Inputs<'a> = (&'a Shape, &'a mut Odometer);
-
-/// The functions of a table with the explorer's enumeration compiled in: a call for each cycle, none for each input.
-struct Native {
-    step: fn(&[i32], &mut [i32], &mut [i32], &[i32], Inputs) -> Result<(), u32>,
-    atom: fn(usize, &mut [i32], &[i32], Inputs) -> Result<bool, u32>,
-}
-
-/// Makes them for one table.
-struct Compile;
-
-impl Visitor for Compile {
-    type Output = Native;
-
-    fn visit<T: Steps>(self) -> Native {
-        Native {
-            step: |before, after, frame, params, (shape, odometer)| {
-                T::step(before, after, frame, params, &mut |k| {
-                    shape.read(odometer, k)
-                })
-            },
-            atom: |number, frame, params, (shape, odometer)| {
-                T::atom(number, frame, params, &mut |k| shape.read(odometer, k))
-            },
-        }
-    }
 }
 
 impl<'a> Generated<'a> {
@@ -298,7 +267,6 @@ impl<'a> Generated<'a> {
         Some(Self {
             bound,
             table,
-            native: table.visit(Compile)?,
             shape: Shape::new(bound),
         })
     }
@@ -331,16 +299,10 @@ impl System for Generated<'_> {
         choices: &mut C,
         after: &mut [i32],
     ) -> Result<(), Fault> {
-        let fault = |code| Fault { code };
-        if let Some(odometer) = choices.odometer() {
-            let inputs = (&self.shape, odometer);
-            return (self.native.step)(before, after, work, &self.bound.values, inputs)
-                .map_err(fault);
-        }
         (self.table.step)(before, work, &self.bound.values, &mut |k| {
             self.shape.read(choices, k)
         })
-        .map_err(fault)?;
+        .map_err(|code| Fault { code })?;
         after.copy_from_slice(&work[..after.len()]);
         Ok(())
     }
@@ -352,11 +314,6 @@ impl System for Generated<'_> {
         atom: usize,
         choices: &mut C,
     ) -> Result<bool, Fault> {
-        if let Some(odometer) = choices.odometer() {
-            let inputs = (&self.shape, odometer);
-            return (self.native.atom)(atom, work, &self.bound.values, inputs)
-                .map_err(|code| Fault { code });
-        }
         (self.table.atom)(atom, work, &self.bound.values, &mut |k| {
             self.shape.read(choices, k)
         })

@@ -108,7 +108,7 @@ impl Part {
                 parts.extend(
                     [[from, tick.wrapping_sub(1)], [tick + 1, to]]
                         .into_iter()
-                        .filter(|[a, b]| a <= b && !(*b == u32::MAX)),
+                        .filter(|[a, b]| a <= b && *b != u32::MAX),
                 );
             } else {
                 parts.push([from, to]);

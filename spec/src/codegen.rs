@@ -104,19 +104,6 @@ pub fn rust(system: &System, type_name: &str, table_name: &str) -> String {
     out
 }
 
-/// Rust source that makes the functions of a struct of [`rust`] known under the trait `Steps`.
-pub fn steps(system: &System, type_name: &str) -> String {
-    let states = system.states.len();
-    format!(
-        "impl Steps for {type_name} {{\n\
-         #[inline]\nfn step<R: FnMut(usize) -> i32>(b: &[i32], a: &mut [i32], f: &mut [i32], p: &[i32], r: &mut R) -> Result<(), u32> {{\n\
-         let (f, p) = fixed(f, p)?;\nlet a: &mut [i32; {states}] = a.try_into().or(Err(WRONG_FRAME))?;\n\
-         {type_name}::step(b.try_into().or(Err(WRONG_FRAME))?, f, p, r)?;\nfor k in 0..{states} {{ a[k] = f[k]; }}\nOk(())\n}}\n\
-         #[inline]\nfn atom<R: FnMut(usize) -> i32>(k: usize, f: &mut [i32], p: &[i32], r: &mut R) -> Result<bool, u32> {{\n\
-         let (f, p) = fixed(f, p)?;\nOk({type_name}::atom(k, f, p, r))\n}}\n}}\n"
-    )
-}
-
 fn chooser(out: &mut String, text: &str, signature: &str, other: &str, arms: Vec<String>) {
     let arms: String = arms
         .iter()

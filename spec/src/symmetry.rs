@@ -236,9 +236,9 @@ fn steps_in_order(bound: &Bound) -> bool {
         while let Some(node) = waiting.pop() {
             node.visit(&mut |n| match n {
                 Node::Lazy(k) => {
-                    if !std::mem::replace(&mut seen[*k as usize], true) {
-                        waiting.push(&system.lazies[*k as usize].value);
-                    }
+                    let known = std::mem::replace(&mut seen[*k as usize], true);
+                    let value = (!known).then(|| &system.lazies[*k as usize].value);
+                    waiting.extend(value);
                 }
                 Node::Cell(Space::Now, cell)
                 | Node::Element {

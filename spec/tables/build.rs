@@ -11,7 +11,6 @@ fn main() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let mut code = String::new();
     let mut names = Vec::new();
-    let mut visits = String::new();
     for folder in FOLDERS {
         let dir = root.join(folder);
         println!("cargo::rerun-if-changed={}", dir.display());
@@ -28,11 +27,6 @@ fn main() {
                     format!("TABLE_{}", names.len()),
                 );
                 code.push_str(&codegen::rust(&system, &type_name, &table_name));
-                code.push_str(&codegen::steps(&system, &type_name));
-                visits.push_str(&format!(
-                    "{} => Some(visitor.visit::<{type_name}>()),\n",
-                    names.len()
-                ));
                 names.push(table_name);
             }
         }
@@ -41,10 +35,6 @@ fn main() {
     code.push_str(&format!(
         "/// Every generated table.\npub static TABLES: [Table; {}] = [{list}];\n",
         names.len()
-    ));
-    code.push_str(&format!(
-        "/// Lets a visitor see the functions of a table.\n\
-         pub fn visit<V: Visitor>(number: usize, visitor: V) -> Option<V::Output> {{\nmatch number {{\n{visits}_ => None,\n}}\n}}\n"
     ));
     let out = PathBuf::from(std::env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
     std::fs::write(out.join("tables.rs"), code).expect("OUT_DIR can be written");

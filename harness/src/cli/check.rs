@@ -48,7 +48,11 @@ pub struct Arguments {
     /// Explore less where that keeps the verdicts: `slice` (each property on what it depends on), `symmetry` (identical
     /// axes), `timers` (values of a timer stored as intervals), several with commas, or `all`. With the first two, rule
     /// coverage, absorbing states and the number of states of the whole system, which need the full exploration, are not told
-    #[arg(long, value_name = "slice,symmetry,timers|all|none", default_value = "none")]
+    #[arg(
+        long,
+        value_name = "slice,symmetry,timers|all|none",
+        default_value = "none"
+    )]
     reduce: Reductions,
 }
 

@@ -50,47 +50,7 @@ pub struct Table {
     pub lazy: Value<i64>,
 }
 
-/// The functions of one generated table, for callers that bring their own reader of inputs and want it compiled in.
-pub trait Steps {
-    /// As [`Table::step`]; the state after the step is written to the second argument as well.
-    ///
-    /// # Errors
-    /// As [`Table::step`].
-    fn step<R: FnMut(usize) -> i32>(
-        before: &[i32],
-        after: &mut [i32],
-        frame: &mut [i32],
-        params: &[i32],
-        read: &mut R,
-    ) -> Result<(), u32>;
-
-    /// As [`Table::atom`].
-    ///
-    /// # Errors
-    /// [`WRONG_FRAME`].
-    fn atom<R: FnMut(usize) -> i32>(
-        number: usize,
-        frame: &mut [i32],
-        params: &[i32],
-        read: &mut R,
-    ) -> Result<bool, u32>;
-}
-
-/// Something to be made for the functions of a table whose type is known only at run time.
-pub trait Visitor {
-    /// What is made.
-    type Output;
-    /// Makes it.
-    fn visit<T: Steps>(self) -> Self::Output;
-}
-
 impl Table {
-    /// Lets a visitor see the functions of this table; none if it is not in [`TABLES`].
-    pub fn visit<V: Visitor>(&self, visitor: V) -> Option<V::Output> {
-        let number = TABLES.iter().position(|t| core::ptr::eq(t, self))?;
-        generated::visit(number, visitor)
-    }
-
     /// The table of this name, if it was generated from the specification with this fingerprint.
     pub fn find(name: &str, fingerprint: u64) -> Option<&'static Table> {
         TABLES
@@ -110,7 +70,7 @@ mod generated {
         unused_braces,
         dead_code
     )]
-    use super::{Steps, Table, UNSET, Visitor, WRONG_FRAME};
+    use super::{Table, UNSET, WRONG_FRAME};
 
     #[inline(always)]
     fn input<const N: usize, R: FnMut(usize) -> i32 + ?Sized>(
