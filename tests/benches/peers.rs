@@ -1,0 +1,163 @@
+//! The explorer beside SPIN: wall times of both on the same systems in one run, and their ratios.
+//!
+//! `cargo bench -p stillpoint-tests --bench peers [-- ROUNDS]`, 3 rounds by default; each round runs every contestant once,
+//! so that noise of the machine meets all of them. SPIN explores the exported model without judging anything (`-A`);
+//! the explorer judges all properties. Without spin or gcc only the explorer is timed.
+
+use std::time::Instant;
+
+use stillpoint::engine;
+use stillpoint::export::promela::promela;
+use stillpoint::report::grouped;
+use stillpoint::subject::Task;
+use stillpoint_model::{Limits, Options, Storage};
+use stillpoint_tests::peer::{Folder, load, tools};
+use stillpoint_tests::root;
+
+/// A system to time: its file, its name, and what it stands for.
+const YARDSTICKS: [(&str, &str, &str); 2] = [
+    (
+        "spec/bench/two-axis.toml",
+        "bench/two-axis/two_axis",
+        "dense",
+    ),
+    (
+        "spec/sinumerik-840d/faults.toml",
+        "sinumerik-840d/faults/fault_selection",
+        "sparse",
+    ),
+];
+
+/// A system whose exploration takes long enough to tell what a second thread gives.
+const LONG: (&str, &str, usize) = (
+    "spec/machines/milling-840d.toml",
+    "sinumerik-840d/axis/stop",
+    2,
+);
+
+/// The times of one contestant.
+struct Times {
+    name: String,
+    seconds: Vec<f64>,
+}
+
+impl Times {
+    fn sorted(&self) -> Vec<f64> {
+        let mut sorted = self.seconds.clone();
+        sorted.sort_by(f64::total_cmp);
+        sorted
+    }
+
+    fn median(&self) -> f64 {
+        let sorted = self.sorted();
+        sorted[sorted.len() / 2]
+    }
+}
+
+/// Runs each contestant once a round.
+fn compete(rounds: usize, contestants: &[(&str, &dyn Fn())]) -> Vec<Times> {
+    let mut times: Vec<Times> = contestants
+        .iter()
+        .map(|(name, _)| Times {
+            name: (*name).to_owned(),
+            seconds: Vec::new(),
+        })
+        .collect();
+    for _ in 0..rounds {
+        for ((_, run), times) in contestants.iter().zip(&mut times) {
+            let start = Instant::now();
+            run();
+            times.seconds.push(start.elapsed().as_secs_f64());
+        }
+    }
+    times
+}
+
+/// Prints times, and how many times faster each one is than the first one.
+fn print(times: &[Times]) {
+    for one in times {
+        let sorted = one.sorted();
+        println!(
+            "  {:<34} {:>8.3} s   ({:.3} to {:.3})   ratio {:.2}",
+            one.name,
+            one.median(),
+            sorted[0],
+            sorted[sorted.len() - 1],
+            times[0].median() / one.median()
+        );
+    }
+}
+
+fn options(threads: usize) -> Options {
+    Options {
+        limits: Limits {
+            threads,
+            ..Limits::default()
+        },
+        witnesses: false,
+        ..Options::default()
+    }
+}
+
+fn explore(task: &Task, threads: usize, interpret: bool) {
+    let outcome = engine::run(&task.bound, &options(threads), interpret, &mut ());
+    assert!(outcome.is_ok_and(|o| o.report.complete));
+}
+
+fn main() {
+    let rounds = std::env::args().find_map(|a| a.parse().ok()).unwrap_or(3);
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    println!("{rounds} rounds, {cores} processors; median (least to most); ratio: how many times faster than the first line");
+    let peers = tools(&["spin", "gcc"]);
+    for (file, name, kind) in YARDSTICKS {
+        let subject = load(&root().join(file));
+        let task = subject.tasks.iter().find(|t| t.bound.system.name == name);
+        let task = task.unwrap_or_else(|| panic!("{file} has no system {name}"));
+        let found = engine::run(&task.bound, &options(0), false, &mut ());
+        let report = found.unwrap_or_else(|e| panic!("{name}: {e}")).report;
+        let bits = report.memory as f64 * 8.0 / report.index_space as f64;
+        println!(
+            "\n{name} ({kind}): {} states, {} transitions; {:.1} bytes a state{}",
+            grouped(u128::from(report.states)),
+            grouped(report.transitions),
+            report.bytes_per_state(),
+            match report.storage {
+                Storage::Bitmap => format!(", {bits:.2} bits an index"),
+                _ => String::new(),
+            }
+        );
+        let folder = Folder::new(env!("CARGO_TARGET_TMPDIR"), kind);
+        if peers {
+            let model = promela(&task.bound, name).unwrap_or_else(|e| panic!("{name}: {e}"));
+            folder.write("model.pml", &model.text);
+            folder.run("spin", &["-a", "model.pml"]);
+            let gcc = "-O3 -w -DSAFETY -DNOREDUCE -DMEMLIM=8000 -o pan pan.c";
+            folder.run("gcc", &gcc.split(' ').collect::<Vec<_>>());
+        }
+        let spin = || drop(folder.run("./pan", &["-A", "-m1000000"]));
+        let ours: [(&str, &dyn Fn()); 3] = [
+            ("generated step, 2 threads", &|| explore(task, 2, false)),
+            ("generated step, 1 thread", &|| explore(task, 1, false)),
+            ("interpreter, 2 threads", &|| explore(task, 2, true)),
+        ];
+        let mut all: Vec<(&str, &dyn Fn())> = Vec::new();
+        if peers {
+            all.push(("SPIN (-O3 -DSAFETY -DNOREDUCE)", &spin));
+        }
+        all.extend(ours);
+        print(&compete(rounds, &all));
+    }
+    let (file, name, number) = LONG;
+    let subject = load(&root().join(file));
+    let mut tasks = subject.tasks.iter().filter(|t| t.bound.system.name == name);
+    let task = tasks.nth(number);
+    let task = task.unwrap_or_else(|| panic!("{file} has no such run of {name}"));
+    println!("\n{name}, run {} of {file}: threads", number + 1);
+    print(&compete(
+        rounds,
+        &[
+            ("1 thread", &|| explore(task, 1, false)),
+            ("2 threads", &|| explore(task, 2, false)),
+        ],
+    ));
+}
