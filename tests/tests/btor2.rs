@@ -42,7 +42,8 @@ struct Comparison<'a> {
 
 impl<'a> Comparison<'a> {
     fn new(bound: &'a Bound) -> Self {
-        let text = btor2(bound, "sample").unwrap_or_else(|e| panic!("{}: {e}", bound.system.name));
+        let text =
+            btor2(bound, "sample", None).unwrap_or_else(|e| panic!("{}: {e}", bound.system.name));
         let model = Model::read(&text).unwrap_or_else(|e| panic!("{}: {e}", bound.system.name));
         let system = &bound.system;
         let place = |names: &[&str], variables: &[Variable]| -> Vec<usize> {

@@ -14,12 +14,31 @@ use stillpoint_tests::{files, root, specification_files};
 
 const TOOLS: [&str; 2] = ["rumur", "gcc"];
 
-/// Systems with more transitions (states x combinations of all inputs) than this are left out: rumur, which enumerates
-/// every combination of the inputs that the model reads, would take too long in a test.
-const TRANSITIONS: u128 = 10_000_000;
+/// Systems with more combinations of inputs a cycle, or more transitions (states x combinations), than this are left out:
+/// rumur enumerates every combination of the inputs that the model reads, which would take too long in a test.
+const COMBINATIONS: u128 = 10_000;
+const TRANSITIONS: u128 = 1_000_000;
 
-/// The systems of the shipped specifications that are left out for that reason, without `sinumerik-840d/`.
-const LEFT_OUT: [&str; 0] = [];
+/// The systems of the shipped specifications that are left out for that reason, as file and system.
+const LEFT_OUT: [&str; 17] = [
+    "axis/stop",
+    "axis/stop_pair",
+    "axis/channel",
+    "axis/referencing",
+    "axis/stop_group",
+    "comparison/comparison",
+    "comparison/history",
+    "faults/fault_selection",
+    "faults/fault_actual",
+    "faults/fault_test",
+    "monitoring/axis_core",
+    "monitoring/ramp",
+    "monitoring/override",
+    "monitoring/failsafe",
+    "verification/test_stop",
+    "verification/test_pair",
+    "verification/guard_door",
+];
 
 /// What rumur found.
 struct Found {
@@ -91,7 +110,7 @@ impl Found {
 }
 
 /// rumur's findings on a model; `optimise` is worth it for large models only.
-fn run(name: &str, model: &str, optimise: &str) -> Found {
+fn run(name: &str, model: &str, optimise: &str, threads: &str) -> Found {
     let folder = Folder::new(env!("CARGO_TARGET_TMPDIR"), &format!("rumur-{name}"));
     folder.write("model.m", model);
     let options = [
@@ -105,8 +124,10 @@ fn run(name: &str, model: &str, optimise: &str) -> Found {
         "off",
         "--output-format",
         "machine-readable",
+        "--pack-state",
+        "off",
         "--threads",
-        "1",
+        threads,
         "--output",
         "model.c",
         "model.m",
@@ -122,7 +143,7 @@ fn run(name: &str, model: &str, optimise: &str) -> Found {
 /// Compares a system, unless it is too large; the answer is whether it was compared, and what is broken.
 fn compare(subject: &Subject, task: &Task, name: &str) -> Option<BTreeSet<String>> {
     let bound = &task.bound;
-    if bound.combinations() > TRANSITIONS {
+    if bound.combinations() > COMBINATIONS {
         return None;
     }
     let alone = Subject {
@@ -135,7 +156,7 @@ fn compare(subject: &Subject, task: &Task, name: &str) -> Option<BTreeSet<String
         return None;
     }
     let model = murphi(bound, &task.title).unwrap_or_else(|e| panic!("{name}: {e}"));
-    let found = run(&name.replace('/', "-"), &model, "-O0");
+    let found = run(&name.replace('/', "-"), &model, "-O0", "1");
     assert_eq!(found.states, report.states, "{name}: states");
     let mut broken = BTreeSet::new();
     let mut seen = BTreeSet::new();
@@ -180,7 +201,7 @@ fn the_yardstick_has_its_states() {
     }
     let subject = load(&root().join("spec/bench/two-axis.toml"));
     let model = murphi(&subject.tasks[0].bound, "yardstick").unwrap_or_else(|e| panic!("{e}"));
-    let found = run("yardstick", &model, "-O3");
+    let found = run("yardstick", &model, "-O3", "2");
     assert_eq!(found.states, 4_024_036);
     assert!(found.broken.is_empty() && found.seen.is_empty());
 }

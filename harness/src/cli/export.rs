@@ -19,6 +19,9 @@ pub struct Arguments {
     /// Which system, where the file has several; NAME:AXIS where one system runs for several axes
     #[arg(long, value_name = "NAME")]
     system: Option<String>,
+    /// With btor2: only this `always` or `never` property, for checkers that take one (`range`: no value leaves its range)
+    #[arg(long, value_name = "ID")]
+    property: Option<String>,
     /// Write to this file instead of stdout
     #[arg(long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -47,6 +50,12 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let task = select(&subject, arguments.system.as_deref()).map_err(Failure::Other)?;
     let fail =
         |e: &dyn std::fmt::Display| Failure::Other(format!("{}: {e}", task.bound.system.name));
+    if arguments.property.is_some() && !matches!(arguments.to, Format::Btor2) {
+        return Err(Failure::Other(
+            "--property is for --to btor2; the other formats carry all properties side by side"
+                .to_owned(),
+        ));
+    }
     let (bound, title) = (&task.bound, task.title.as_str());
     let text = match arguments.to {
         Format::Promela => promela::promela(bound, title)
@@ -54,7 +63,9 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
             .map_err(|e| fail(&e))?,
         Format::Murphi => murphi::murphi(bound, title).map_err(|e| fail(&e))?,
         Format::Smv => smv::smv(bound, title).map_err(|e| fail(&e))?,
-        Format::Btor2 => btor2::btor2(bound, title).map_err(|e| fail(&e))?,
+        Format::Btor2 => {
+            btor2::btor2(bound, title, arguments.property.as_deref()).map_err(|e| fail(&e))?
+        }
         Format::Tla => return tla(arguments, task),
         Format::Dot => dot::dot(bound, title, &Options::default()).map_err(|e| fail(&e))?,
         Format::Json => format!("{:#}\n", json::json(bound)),

@@ -13,7 +13,7 @@ use stillpoint_spec::ir::BinaryOp;
 
 use super::Unsupported;
 use super::about::{about, not_carried};
-use super::circuit::{Circuit, Id, Op, Sort};
+use super::circuit::{Circuit, Claim, Id, Op, Sort};
 use super::fold::{Folded, Range, hull};
 use super::types::is_arithmetic;
 use super::writer::{meaning, statement};
@@ -21,15 +21,20 @@ use super::writer::{meaning, statement};
 /// Symbol of the `bad` that a value leaves its range.
 pub const RANGE: &str = "range";
 
-/// The model of a system with its parameter values. `title` stands at its top.
+/// The model of a system with its parameter values. `title` stands at its top. With `only`, the one property with this id
+/// (or [`RANGE`]) is its only `bad`: some checkers take no more than one.
 ///
 /// # Errors
-/// A system with values that need more than 32 bits.
-pub fn btor2(bound: &Bound, title: &str) -> Result<String, Unsupported> {
+/// A system with values that need more than 32 bits; an id that names no `always` or `never` property.
+pub fn btor2(bound: &Bound, title: &str, only: Option<&str>) -> Result<String, Unsupported> {
     let folded = Folded::new(bound)?;
-    let circuit = Circuit::new(&folded)?;
+    let mut circuit = Circuit::new(&folded)?;
+    if let Some(id) = only {
+        keep(&mut circuit, id)?;
+    }
     let mut emitter = Emitter {
         circuit: &circuit,
+        range: only.is_none_or(|id| id == RANGE),
         out: String::new(),
         last: 0,
         sorts: HashMap::new(),
@@ -46,6 +51,21 @@ pub fn btor2(bound: &Bound, title: &str) -> Result<String, Unsupported> {
     emitter.successors();
     emitter.properties();
     Ok(emitter.out)
+}
+
+/// Leaves out every property but one.
+fn keep(circuit: &mut Circuit, id: &str) -> Result<(), Unsupported> {
+    let mut ids: Vec<String> = circuit.claims.iter().map(Claim::id).collect();
+    ids.extend(circuit.fault.map(|_| RANGE.to_owned()));
+    if !ids.iter().any(|known| known == id) {
+        return Err(Unsupported(format!(
+            "there is no `always` or `never` property `{id}`; there are {}",
+            ids.join(", ")
+        )));
+    }
+    circuit.claims.retain(|c| c.id() == id);
+    circuit.goals.clear();
+    Ok(())
 }
 
 /// Number of a line.
@@ -88,6 +108,8 @@ impl Shape {
 
 struct Emitter<'a> {
     circuit: &'a Circuit<'a>,
+    /// Whether a range fault is a `bad`.
+    range: bool,
     out: String,
     /// Number of the last line.
     last: Node,
@@ -308,7 +330,7 @@ impl Emitter<'_> {
 
     fn properties(&mut self) {
         let circuit = self.circuit;
-        if let Some(fault) = circuit.fault {
+        if let (Some(fault), true) = (circuit.fault, self.range) {
             self.comment("a value leaves its range");
             let fault = self.truth(fault);
             self.line(&format!("bad {fault} {RANGE}"));

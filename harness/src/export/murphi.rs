@@ -60,7 +60,7 @@ fn header(out: &mut String, circuit: &Circuit, title: &str) {
     let mut lines = about(circuit.bound, title);
     lines.extend([
         String::new(),
-        "Run: rumur --deadlock-detection off --value-type int32_t --output FILE.c FILE".to_owned(),
+        "Run: rumur --deadlock-detection off --value-type int32_t --pack-state off --output FILE.c FILE".to_owned(),
         "     gcc -O3 -mcx16 -pthread -o verifier FILE.c && ./verifier".to_owned(),
         "With --max-errors N, N large, it goes on after errors; \"states\" is then the number of reachable states."
             .to_owned(),
