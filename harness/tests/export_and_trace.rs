@@ -125,6 +125,77 @@ fn wrong_arguments_are_named() {
 }
 
 #[test]
+fn tla_is_a_module_and_its_configuration() {
+    let arguments = [
+        "export",
+        "spec/sinumerik-840d/axis.toml",
+        "--system",
+        "selection",
+        "--to",
+        "tla",
+    ];
+    let both = stdout(&stillpoint(&arguments));
+    assert!(both.starts_with("---- MODULE selection ----\n"), "{both}");
+    assert!(both.contains("====\nConfiguration, selection.cfg:\n\nSPECIFICATION Spec\n"));
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
+    let name = format!("selection_{}", std::process::id());
+    let (module, config) = (
+        File(folder.join(format!("{name}.tla"))),
+        File(folder.join(format!("{name}.cfg"))),
+    );
+    let mut to_file = arguments.to_vec();
+    to_file.extend(["--output", module.name()]);
+    assert!(stillpoint(&to_file).status.success());
+    assert!(
+        module
+            .text()
+            .starts_with(&format!("---- MODULE {name} ----\n"))
+    );
+    assert!(config.text().starts_with("SPECIFICATION Spec\n"));
+    to_file.pop();
+    to_file.push("840d-axis.tla");
+    let refused = stillpoint(&to_file);
+    assert_eq!(refused.status.code(), Some(2));
+    let message = String::from_utf8_lossy(&refused.stderr).into_owned();
+    assert!(
+        message.contains("`840d-axis` cannot be the name of a TLA+ module"),
+        "{message}"
+    );
+}
+
+#[test]
+fn btor2_can_carry_one_property() {
+    let all = [
+        "export",
+        "spec/sinumerik-840d/axis.toml",
+        "--system",
+        "selection",
+        "--to",
+        "btor2",
+    ];
+    let bad = |text: &str| {
+        text.lines()
+            .filter(|l| l.split(' ').nth(1) == Some("bad"))
+            .count()
+    };
+    assert!(bad(&stdout(&stillpoint(&all))) > 1);
+    let mut one = all.to_vec();
+    one.extend(["--property", "S840D-P-08"]);
+    let text = stdout(&stillpoint(&one));
+    assert_eq!(bad(&text), 1, "{text}");
+    assert!(text.lines().any(|l| l.ends_with(" S840D-P-08")), "{text}");
+    *one.last_mut().expect("an id") = "P-00";
+    let refused = stillpoint(&one);
+    assert_eq!(refused.status.code(), Some(2));
+    let message = String::from_utf8_lossy(&refused.stderr).into_owned();
+    assert!(
+        message.contains("no `always` or `never` property `P-00`"),
+        "{message}"
+    );
+    assert!(message.contains("S840D-P-08"), "{message}");
+}
+
+#[test]
 fn the_matrix_is_printed_and_written() {
     let file = File::new("matrix.html");
     let output = stillpoint(&["trace", "--json", "--html", file.name()]);

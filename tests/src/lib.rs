@@ -1,4 +1,8 @@
-//! What the end-to-end tests share: where the files of the project are.
+//! What the end-to-end tests share: where the files of the project are, how to run other tools, a reader of BTOR2.
+
+pub mod btor2;
+pub mod peer;
+pub mod random;
 
 use std::path::{Path, PathBuf};
 

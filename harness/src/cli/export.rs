@@ -1,10 +1,10 @@
 //! `stillpoint export`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
-use stillpoint::export::{dot, json, promela, select, write_atomically};
-use stillpoint::subject;
+use stillpoint::export::{btor2, dot, json, murphi, promela, select, smv, tla, write_atomically};
+use stillpoint::subject::{self, Task};
 use stillpoint_model::Options;
 
 use super::{Failure, emit};
@@ -19,6 +19,9 @@ pub struct Arguments {
     /// Which system, where the file has several; NAME:AXIS where one system runs for several axes
     #[arg(long, value_name = "NAME")]
     system: Option<String>,
+    /// With btor2: only this `always` or `never` property, for checkers that take one (`range`: no value leaves its range)
+    #[arg(long, value_name = "ID")]
+    property: Option<String>,
     /// Write to this file instead of stdout
     #[arg(long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -28,6 +31,14 @@ pub struct Arguments {
 enum Format {
     /// Model for SPIN: cycles, ranges, `always` and `never` properties
     Promela,
+    /// Model for rumur (Murphi): cycles, ranges, `always`, `never` and `reachable` properties
+    Murphi,
+    /// Model for nuXmv and NuSMV: cycles, ranges, `always`, `never` and `reachable` properties
+    Smv,
+    /// Bit-vectors for word-level checkers: `always` and `never` properties as `bad`, `reachable` ones as `output`
+    Btor2,
+    /// TLA+ module with TLC's configuration (in FILE.cfg beside FILE.tla): `always`, `never` and `reachable` properties
+    Tla,
     /// Control-state graph of each machine for Graphviz (explores the system)
     Dot,
     /// The resolved system: states, inputs, parameters, rules with requirement ids, properties
@@ -39,21 +50,57 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let task = select(&subject, arguments.system.as_deref()).map_err(Failure::Other)?;
     let fail =
         |e: &dyn std::fmt::Display| Failure::Other(format!("{}: {e}", task.bound.system.name));
+    if arguments.property.is_some() && !matches!(arguments.to, Format::Btor2) {
+        return Err(Failure::Other(
+            "--property is for --to btor2; the other formats carry all properties side by side"
+                .to_owned(),
+        ));
+    }
+    let (bound, title) = (&task.bound, task.title.as_str());
     let text = match arguments.to {
-        Format::Promela => {
-            promela::promela(&task.bound, &task.title)
-                .map_err(|e| fail(&e))?
-                .text
+        Format::Promela => promela::promela(bound, title)
+            .map(|p| p.text)
+            .map_err(|e| fail(&e))?,
+        Format::Murphi => murphi::murphi(bound, title).map_err(|e| fail(&e))?,
+        Format::Smv => smv::smv(bound, title).map_err(|e| fail(&e))?,
+        Format::Btor2 => {
+            btor2::btor2(bound, title, arguments.property.as_deref()).map_err(|e| fail(&e))?
         }
-        Format::Dot => {
-            dot::dot(&task.bound, &task.title, &Options::default()).map_err(|e| fail(&e))?
-        }
-        Format::Json => format!("{:#}\n", json::json(&task.bound)),
+        Format::Tla => return tla(arguments, task),
+        Format::Dot => dot::dot(bound, title, &Options::default()).map_err(|e| fail(&e))?,
+        Format::Json => format!("{:#}\n", json::json(bound)),
     };
     match &arguments.output {
         None => emit(&text),
-        Some(path) => write_atomically(path, &text)
-            .map_err(|e| Failure::Other(format!("{} cannot be written: {e}", path.display())))?,
+        Some(path) => write(path, &text)?,
     }
     Ok(0)
+}
+
+/// The module and its configuration: two files, or both on stdout, where TLA+ ignores what stands after the module.
+fn tla(arguments: &Arguments, task: &Task) -> Result<u8, Failure> {
+    let system = &task.bound.system.name;
+    let name = match &arguments.output {
+        None => system.rsplit('/').next().map(ToOwned::to_owned),
+        Some(path) => path.file_stem().map(|s| s.to_string_lossy().into_owned()),
+    };
+    let name = name.unwrap_or_default();
+    let made = tla::tla(&task.bound, &task.title, &name)
+        .map_err(|e| Failure::Other(format!("{system}: {e}")))?;
+    match &arguments.output {
+        None => emit(&format!(
+            "{}\nConfiguration, {name}.cfg:\n\n{}",
+            made.module, made.config
+        )),
+        Some(path) => {
+            write(path, &made.module)?;
+            write(&path.with_extension("cfg"), &made.config)?;
+        }
+    }
+    Ok(0)
+}
+
+fn write(path: &Path, text: &str) -> Result<(), Failure> {
+    write_atomically(path, text)
+        .map_err(|e| Failure::Other(format!("{} cannot be written: {e}", path.display())))
 }

@@ -282,7 +282,8 @@ struct Ranges<'a, 'b> {
     lazies: Vec<Option<(i64, i64)>>,
 }
 
-type Range = (i64, i64);
+/// Least and greatest value.
+pub type Range = (i64, i64);
 
 impl Ranges<'_, '_> {
     fn of(&mut self, node: &Node) -> Result<Range, Unsupported> {
@@ -384,15 +385,16 @@ fn most(values: impl Iterator<Item = i64>) -> i64 {
     values.max().unwrap_or(0)
 }
 
-fn hull(ranges: impl Iterator<Item = Range> + Clone) -> Range {
+/// The least range that has all of them in it.
+pub fn hull(ranges: impl Iterator<Item = Range> + Clone) -> Range {
     (
         least(ranges.clone().map(|r| r.0)),
         most(ranges.map(|r| r.1)),
     )
 }
 
-/// Operands are within 32 bits, so that 64 bits hold every result.
-fn arithmetic(op: BinaryOp, (a, b): Range, (c, d): Range) -> Range {
+/// The values of an operator over those of its operands, which are within 32 bits, so that 64 bits hold every result.
+pub fn arithmetic(op: BinaryOp, (a, b): Range, (c, d): Range) -> Range {
     let corners = |f: fn(i64, i64) -> i64| {
         hull(
             [f(a, c), f(a, d), f(b, c), f(b, d)]
@@ -404,14 +406,20 @@ fn arithmetic(op: BinaryOp, (a, b): Range, (c, d): Range) -> Range {
         BinaryOp::Add => (a + c, b + d),
         BinaryOp::Sub => (a - d, b - c),
         BinaryOp::Mul => corners(|x, y| x * y),
+        // No divisor is zero, so one whose range has no zero in it takes its extremes with those of the dividend.
+        BinaryOp::Div if c > 0 || d < 0 => corners(|x, y| x / y),
         // The quotient is never further from zero than the dividend.
         BinaryOp::Div => (
             -most([a.abs(), b.abs()].into_iter()),
             most([a.abs(), b.abs()].into_iter()),
         ),
+        // The remainder has the sign of the dividend and is no further from zero than that.
         BinaryOp::Mod => {
             let most = most([c.abs(), d.abs()].into_iter()).max(1) - 1;
-            (if a < 0 { -most } else { 0 }, if b > 0 { most } else { 0 })
+            (
+                if a < 0 { a.max(-most) } else { 0 },
+                if b > 0 { b.min(most) } else { 0 },
+            )
         }
         _ => (0, 1),
     }

@@ -3,14 +3,23 @@
 //! [`promela`](fn@promela::promela) gives a model for SPIN, [`dot`](fn@dot::dot) the control-state graphs for Graphviz,
 //! [`json`](fn@json::json) the resolved system for anything else.
 
+mod about;
+pub mod btor2;
+mod circuit;
 pub mod dot;
 mod fold;
 pub mod json;
 mod known;
+pub mod murphi;
 mod names;
 pub mod promela;
 mod select;
+pub mod smv;
+mod syntax;
 pub mod text;
+pub mod tla;
+mod types;
+mod writer;
 
 pub use select::select;
 

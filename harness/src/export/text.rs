@@ -4,6 +4,8 @@
 
 use stillpoint_spec::ir::{BinaryOp, Node, Space, Stmt, System, Ty};
 
+use super::types::{type_of, variable};
+
 /// An expression as text.
 pub fn expression(system: &System, node: &Node) -> String {
     Printer { system }.show(node, None, 0)
@@ -53,31 +55,12 @@ fn symbol(op: BinaryOp) -> &'static str {
 }
 
 impl Printer<'_> {
-    /// The type of an expression where a cell or operator fixes it; a literal has none.
     fn type_of(&self, node: &Node) -> Option<Ty> {
-        match node {
-            Node::Const(_) => None,
-            Node::Cell(space, k) | Node::Element { space, base: k, .. } => {
-                self.cell(*space, *k).map(|(_, ty)| ty)
-            }
-            Node::Lazy(k) => self.system.lazies.get(*k as usize).map(|l| l.ty),
-            Node::Not(_) => Some(Ty::Bool),
-            Node::Neg(_) | Node::Abs(_) => Some(Ty::Int),
-            Node::Binary(op, ..) if strength(*op) >= 5 => Some(Ty::Int),
-            Node::Binary(..) => Some(Ty::Bool),
-            Node::Sel(_, a, b) => self.type_of(a).or_else(|| self.type_of(b)),
-            Node::Mux(_, v) | Node::Min(v) | Node::Max(v) => v.iter().find_map(|n| self.type_of(n)),
-        }
+        type_of(self.system, node)
     }
 
     fn cell(&self, space: Space, k: u32) -> Option<(&str, Ty)> {
-        let k = k as usize;
-        let var = match space {
-            Space::Param => self.system.params.get(k).map(|p| &p.var),
-            Space::Before | Space::Now => self.system.states.get(k).map(|s| &s.var),
-            Space::Input => self.system.inputs.get(k),
-        };
-        var.map(|v| (v.name.as_str(), v.ty))
+        variable(self.system, space, k).map(|v| (v.name.as_str(), v.ty))
     }
 
     fn name(&self, space: Space, name: &str) -> String {
