@@ -107,7 +107,9 @@ fn explore(task: &Task, threads: usize, interpret: bool) {
 fn main() {
     let rounds = std::env::args().find_map(|a| a.parse().ok()).unwrap_or(3);
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    println!("{rounds} rounds, {cores} processors; median (least to most); ratio: how many times faster than the first line");
+    println!(
+        "{rounds} rounds, {cores} processors; median (least to most); ratio: how many times faster than the first line"
+    );
     let peers = tools(&["spin", "gcc"]);
     for (file, name, kind) in YARDSTICKS {
         let subject = load(&root().join(file));

@@ -15,6 +15,7 @@ use stillpoint_spec::ir::Form;
 mod random;
 mod shipped;
 mod small;
+mod timers;
 
 pub(crate) const SLICE: Reductions = Reductions {
     slice: true,
@@ -25,6 +26,12 @@ pub(crate) const SYMMETRY: Reductions = Reductions {
     slice: false,
     symmetry: true,
     timers: false,
+};
+
+pub(crate) const TIMERS: Reductions = Reductions {
+    slice: false,
+    symmetry: false,
+    timers: true,
 };
 
 /// All systems of a text.
