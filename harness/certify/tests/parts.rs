@@ -212,10 +212,13 @@ fn what_is_written_is_read_again() {
         faults: vec![run],
     };
     let mut bytes = Vec::new();
-    write(&mut bytes, &header(), &[body.clone()]).expect("written");
+    write(&mut bytes, &header(), std::slice::from_ref(&body)).expect("written");
     let (read, proofs) = open(&bytes).expect("a certificate");
     assert_eq!(read, header());
-    assert_eq!(bodies(&read, proofs).expect("proofs"), [body.clone()]);
+    assert_eq!(
+        bodies(&read, proofs).expect("proofs"),
+        std::slice::from_ref(&body)
+    );
     // Too short, too long, and states that do not ascend.
     for end in 0..proofs.len() {
         assert!(matches!(
@@ -230,7 +233,7 @@ fn what_is_written_is_read_again() {
             ..body.clone()
         };
         let mut bytes = Vec::new();
-        write(&mut bytes, &header(), &[body]).expect("written");
+        write(&mut bytes, &header(), std::slice::from_ref(&body)).expect("written");
         let (read, proofs) = open(&bytes).expect("a certificate");
         assert!(bodies(&read, proofs).is_err());
     }
