@@ -5,7 +5,8 @@
 
 use std::path::{Path, PathBuf};
 
-use stillpoint_certify::format::{Body, CHECKSUM, Header, Proof, Run, Verdict, bodies, open};
+use stillpoint_certify::format::{Body, CHECKSUM, Header, Kind, Proof, Run, Verdict, bodies, open};
+use stillpoint_certify::subject::Subject;
 use stillpoint_certify::{Confirmed, Failure, certify_bytes, write};
 
 fn forms() -> PathBuf {
@@ -29,6 +30,15 @@ fn claims(confirmed: &Confirmed) -> Vec<(String, String, Verdict)> {
         }
     }
     out
+}
+
+/// The number of an input of the lamp.
+fn input(name: &str) -> u32 {
+    let subject = Subject::load(&forms(), Kind::Specification, &Default::default());
+    let subject = subject.unwrap_or_else(|e| panic!("{e}"));
+    let inputs = &subject.bounds[BREAKS].system.inputs;
+    let place = inputs.iter().position(|i| i.name == name);
+    place.unwrap_or_else(|| panic!("no input {name}")) as u32
 }
 
 fn certified(bytes: &[u8]) -> Result<Confirmed, Failure> {
@@ -281,6 +291,15 @@ fn a_wrong_rank_is_rejected() {
         let ranks = &mut proof(b, LAMP, "FAIR").map;
         ranks.iter_mut().filter(|v| **v != 0).for_each(|v| *v ^= 1);
     });
+    // A set of states in which no cycle meets the goal, but from which there is a way to it: about to go out.
+    rejected("RECOVER", |_, b| {
+        let own = proof(b, BREAKS, "RECOVER");
+        own.runs[0].initial = 0;
+        own.runs[0].steps = vec![vec![(input("lamp.on"), 1)], vec![], vec![]];
+        own.map.fill(0);
+        let place = parts(example()).1[BREAKS].states.binary_search(&6);
+        own.map[place.expect("left = 1")] = 1;
+    });
     // A lost state from which the goal is not lost.
     rejected("RECOVER", |_, b| proof(b, BREAKS, "RECOVER").map.fill(1));
 }
@@ -301,6 +320,10 @@ fn a_missing_pair_is_rejected() {
             proof(b, LAMP, id).pairs.push(15 * 15);
         });
     }
+    // A closed set of pairs that leaves out where the runs begin: a broken lamp stays as it is.
+    rejected("a pair of initial states is missing", |_, b| {
+        proof(b, LAMP, "INDEPENDENT").pairs = vec![3 * 15 + 3];
+    });
     // A pair of states that differ where they must not.
     rejected("INDEPENDENT: an observed", |_, b| {
         let pairs = &mut proof(b, LAMP, "INDEPENDENT").pairs;
@@ -356,6 +379,12 @@ fn a_run_that_does_something_else_is_rejected() {
     rejected("INDEPENDENT", |_, b| {
         let runs = &mut proof(b, BREAKS, "INDEPENDENT").runs;
         runs[1] = runs[0].clone();
+    });
+    rejected("INDEPENDENT", |_, b| {
+        let runs = &mut proof(b, BREAKS, "INDEPENDENT").runs;
+        runs[0].steps = vec![vec![(input("lamp.on"), 1), (input("lamp.colour"), 1)]];
+        runs[1].initial = runs[0].initial;
+        runs[1].steps = vec![vec![]];
     });
 }
 
