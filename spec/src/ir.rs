@@ -318,6 +318,38 @@ pub enum Form {
     },
 }
 
+impl Form {
+    /// The atoms of a form and the expressions it observes.
+    pub fn expressions(&self) -> (Vec<usize>, Vec<usize>) {
+        match self {
+            Form::Always { when, then } => (when.iter().chain([then]).copied().collect(), vec![]),
+            Form::LeadsTo {
+                when,
+                goal,
+                fair,
+                assuming,
+                ..
+            } => {
+                let all = [when, goal].into_iter().chain(fair).chain(assuming);
+                (all.copied().collect(), vec![])
+            }
+            Form::Unless {
+                when,
+                holds,
+                unless,
+            } => (vec![*when, *holds, *unless], vec![]),
+            Form::CanAlwaysReach { goal, using } => {
+                (using.iter().chain([goal]).copied().collect(), vec![])
+            }
+            Form::Reachable { goal } => (vec![*goal], vec![]),
+            // The inputs that may differ matter only where an observed expression depends on them.
+            Form::Independent {
+                observe, condition, ..
+            } => (condition.iter().copied().collect(), observe.clone()),
+        }
+    }
+}
+
 /// In which table of a report a property stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Topic {

@@ -4,7 +4,7 @@
 //! a property keeps everything it speaks of in one part. So each part makes its steps as if it were alone, and a cycle
 //! of the system is a cycle of each part under the same inputs.
 
-use crate::ir::{Form, Node, Space, Stmt, System};
+use crate::ir::{Node, Space, Stmt, System};
 
 /// A part of a system.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -40,7 +40,7 @@ pub fn parts(system: &System) -> Vec<Part> {
         reader.unite(&mut groups, states + instances + k);
     }
     for property in &system.properties {
-        let all = atoms_of(&property.form);
+        let (all, _) = property.form.expressions();
         for pair in all.windows(2) {
             groups.unite(states + instances + pair[0], states + instances + pair[1]);
         }
@@ -72,33 +72,6 @@ pub fn parts(system: &System) -> Vec<Part> {
         part.atoms = of(states + instances, atoms);
     }
     found.into_iter().map(|(_, part)| part).collect()
-}
-
-/// The atoms of a property about single runs; of one about two runs, none.
-fn atoms_of(form: &Form) -> Vec<usize> {
-    match form {
-        Form::Always { when, then } => when.iter().chain([then]).copied().collect(),
-        Form::LeadsTo {
-            when,
-            goal,
-            fair,
-            assuming,
-            ..
-        } => [when, goal]
-            .into_iter()
-            .chain(fair)
-            .chain(assuming)
-            .copied()
-            .collect(),
-        Form::Unless {
-            when,
-            holds,
-            unless,
-        } => vec![*when, *holds, *unless],
-        Form::CanAlwaysReach { goal, using } => using.iter().chain([goal]).copied().collect(),
-        Form::Reachable { goal } => vec![*goal],
-        Form::Independent { .. } => Vec::new(),
-    }
 }
 
 /// Collects the state variables that expressions and statements mention, through named expressions.

@@ -1,6 +1,6 @@
 //! Cones of influence: what decides the value of an expression, in this and in earlier cycles.
 
-use crate::ir::{Form, Instance, Node, Property, Space, Stmt, System};
+use crate::ir::{Instance, Node, Property, Space, Stmt, System};
 
 /// The cells and named expressions that something depends on. Whatever decides one of them is in it too.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -62,36 +62,6 @@ impl Cone {
     }
 }
 
-/// The atoms of a form and the expressions it observes.
-pub(super) fn expressions(form: &Form) -> (Vec<usize>, Vec<usize>) {
-    match form {
-        Form::Always { when, then } => (when.iter().chain([then]).copied().collect(), vec![]),
-        Form::LeadsTo {
-            when,
-            goal,
-            fair,
-            assuming,
-            ..
-        } => {
-            let all = [when, goal].into_iter().chain(fair).chain(assuming);
-            (all.copied().collect(), vec![])
-        }
-        Form::Unless {
-            when,
-            holds,
-            unless,
-        } => (vec![*when, *holds, *unless], vec![]),
-        Form::CanAlwaysReach { goal, using } => {
-            (using.iter().chain([goal]).copied().collect(), vec![])
-        }
-        Form::Reachable { goal } => (vec![*goal], vec![]),
-        // The inputs that may differ matter only where an observed expression depends on them.
-        Form::Independent {
-            observe, condition, ..
-        } => (condition.iter().copied().collect(), observe.clone()),
-    }
-}
-
 /// Collects a cone: what is marked and not yet followed waits in a list.
 pub(super) struct Reach<'a> {
     system: &'a System,
@@ -112,7 +82,7 @@ impl<'a> Reach<'a> {
 
     /// Adds what a property speaks of.
     pub(super) fn property(mut self, property: &Property) -> Self {
-        let (atoms, observed) = expressions(&property.form);
+        let (atoms, observed) = property.form.expressions();
         for k in atoms {
             self.read(&self.system.atoms[k]);
         }

@@ -1,6 +1,6 @@
 //! Cuts a system down to a cone.
 
-use super::cone::{Cone, expressions};
+use super::cone::Cone;
 use crate::bind::Bound;
 use crate::ir::{Form, Instance, Node, Property, Rule, Space, Stmt};
 
@@ -63,7 +63,7 @@ impl<'a> Cut<'a> {
         let mut atoms = vec![false; whole.atoms.len()];
         let mut observed = vec![false; whole.observed.len()];
         for k in properties {
-            let (a, o) = expressions(&whole.properties[*k].form);
+            let (a, o) = whole.properties[*k].form.expressions();
             a.into_iter().for_each(|k| atoms[k] = true);
             o.into_iter().for_each(|k| observed[k] = true);
         }
