@@ -236,9 +236,8 @@ fn steps_in_order(bound: &Bound) -> bool {
         while let Some(node) = waiting.pop() {
             node.visit(&mut |n| match n {
                 Node::Lazy(k) => {
-                    let known = std::mem::replace(&mut seen[*k as usize], true);
-                    let value = (!known).then(|| &system.lazies[*k as usize].value);
-                    waiting.extend(value);
+                    let new = !std::mem::replace(&mut seen[*k as usize], true);
+                    waiting.extend(new.then(|| &system.lazies[*k as usize].value));
                 }
                 Node::Cell(Space::Now, cell)
                 | Node::Element {

@@ -50,6 +50,9 @@ fn line(bound: &Bound, part: &Explored) -> String {
     if part.faults {
         judged.push("no assignment leaves its range".to_owned());
     }
+    if judged.is_empty() {
+        judged.push("no claim".to_owned());
+    }
     let orbits = match part.permutations {
         1 => "states".to_owned(),
         n => format!("orbits under {n} permutations"),
