@@ -19,6 +19,10 @@ use timely::communication::Allocate;
 /// Keys in one note.
 const PENDING: usize = 4096;
 
+/// Pieces of a level between two looks at what has come. A look tells all others about progress, which costs more than a
+/// piece does.
+const POLL: usize = 32;
+
 /// What workers tell each other beside states.
 #[derive(Clone, Serialize, Deserialize)]
 pub(super) enum Note<K> {
@@ -197,7 +201,9 @@ impl<'a, K: Wire> Task<'a, K> {
             level.piece(worker, piece);
             worker.local.sent += worker.local.out.len() as u64;
             worker.local.out.drain(..).for_each(|key| post.send(key));
-            post.poll(&mut |key| share.take(&mut worker.local, key))?;
+            if piece % POLL == POLL - 1 {
+                post.poll(&mut |key| share.take(&mut worker.local, key))?;
+            }
         }
         Ok(())
     }
