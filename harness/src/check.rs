@@ -1,11 +1,12 @@
 //! `check`: explores every task of a subject and judges its properties.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use stillpoint_model::{Error, Limits, Options, Progress, Trace, Verdict};
+use stillpoint_model::{Cluster, Error, Limits, Options, Progress, Trace, Verdict};
 
-use crate::engine::{Outcome, label};
+use crate::engine::{self, Outcome, label};
 use crate::keep::Keep;
 use crate::reduce::{self, Reductions};
 use crate::subject::{Subject, Task};
@@ -25,6 +26,8 @@ pub struct Settings {
     pub keep: Option<Keep>,
     /// Explore less where that keeps the verdicts.
     pub reductions: Reductions,
+    /// The processes that explore together; none for this one alone.
+    pub cluster: Option<Arc<Cluster>>,
 }
 
 /// What exploring one task gave.
@@ -83,13 +86,23 @@ pub fn check(
             checkpoint: settings.keep.as_ref().map(|k| k.of(number, &task.bound)),
             ..Options::default()
         };
-        let outcome = reduce::run(
-            &task.bound,
-            &options,
-            settings.interpret,
-            settings.reductions,
-            progress(task).as_mut(),
-        )
+        let mut follow = progress(task);
+        let outcome = match &settings.cluster {
+            Some(cluster) => engine::run_together(
+                &task.bound,
+                &options,
+                settings.interpret,
+                follow.as_mut(),
+                Some(cluster),
+            ),
+            None => reduce::run(
+                &task.bound,
+                &options,
+                settings.interpret,
+                settings.reductions,
+                follow.as_mut(),
+            ),
+        }
         .map_err(|e| (task.title.clone(), e))?;
         let unfired = unfired(task, &outcome);
         out.push(Checked { outcome, unfired });

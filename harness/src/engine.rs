@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use stillpoint_model::table::{Generated, Interpreted, properties};
 use stillpoint_model::{
-    Error, Form, Judgement, Options, Progress, Property, Replay, Report, System, Trace, Twin,
-    Verdict, explore,
+    Cluster, Error, Form, Judgement, Options, Progress, Property, Replay, Report, System, Trace,
+    Twin, Verdict, explore, explore_together,
 };
 use stillpoint_spec::bind::Bound;
 use stillpoint_spec::eval::{Frame, UNSET};
@@ -58,6 +58,20 @@ pub fn run(
     interpret: bool,
     progress: &mut dyn Progress,
 ) -> Result<Outcome, Error> {
+    run_together(bound, options, interpret, progress, None)
+}
+
+/// Like [`run`], together with the other processes of a cluster; only process 0 gets an outcome that says something.
+///
+/// # Errors
+/// A system that cannot be explored at all; a process that is gone.
+pub fn run_together(
+    bound: &Bound,
+    options: &Options,
+    interpret: bool,
+    progress: &mut dyn Progress,
+    cluster: Option<&Cluster>,
+) -> Result<Outcome, Error> {
     let generated = if interpret {
         None
     } else {
@@ -65,13 +79,13 @@ pub fn run(
     };
     let (mut found, evaluator) = match generated {
         Some(system) => (
-            judge(&system, &system, bound, options, progress)?,
+            judge(&system, &system, bound, options, progress, cluster)?,
             Evaluator::Generated,
         ),
         None => {
             let system = Interpreted::new(bound);
             (
-                judge(&system, &system, bound, options, progress)?,
+                judge(&system, &system, bound, options, progress, cluster)?,
                 Evaluator::Interpreter,
             )
         }
@@ -99,10 +113,11 @@ pub(crate) fn judge<S: System, P: System>(
     bound: &Bound,
     options: &Options,
     progress: &mut dyn Progress,
+    cluster: Option<&Cluster>,
 ) -> Result<Judged, Error> {
     let listed = properties(bound);
     let single: Vec<Property> = listed.iter().map(|(_, p)| p.clone()).collect();
-    let mut report = explore(system, &single, options, progress)?;
+    let mut report = search(system, &single, options, progress, cluster)?;
     let mut judged: Vec<Option<Judgement>> = vec![None; bound.system.properties.len()];
     for ((k, _), judgement) in listed.iter().zip(std::mem::take(&mut report.properties)) {
         judged[*k] = Some(judgement);
@@ -124,6 +139,7 @@ pub(crate) fn judge<S: System, P: System>(
             condition: *condition,
             id: label(property),
             options,
+            cluster,
         };
         let (outcome, pair) = claim.explore(paired)?;
         report.complete &= outcome.complete;
@@ -152,6 +168,20 @@ pub(crate) fn undecided(property: &ir::Property) -> Judgement {
     }
 }
 
+/// Explores alone, or together with others.
+fn search<S: System>(
+    system: &S,
+    properties: &[Property],
+    options: &Options,
+    progress: &mut dyn Progress,
+    cluster: Option<&Cluster>,
+) -> Result<Report, Error> {
+    match cluster {
+        None => explore(system, properties, options, progress),
+        Some(cluster) => explore_together(system, properties, options, progress, cluster),
+    }
+}
+
 /// A claim about pairs of runs that differ in some inputs only.
 struct Claim<'a> {
     bound: &'a Bound,
@@ -160,6 +190,7 @@ struct Claim<'a> {
     condition: Option<usize>,
     id: String,
     options: &'a Options,
+    cluster: Option<&'a Cluster>,
 }
 
 impl Claim<'_> {
@@ -184,7 +215,7 @@ impl Claim<'_> {
             ..self.options.clone()
         };
         let property = Property { id: self.id, form };
-        let mut report = explore(&twin, &[property], &options, &mut ())?;
+        let mut report = search(&twin, &[property], &options, &mut (), self.cluster)?;
         let mut pair = Pair {
             states: report.states,
             second: None,

@@ -42,33 +42,43 @@ pub(crate) fn on_store<O: Origin, J: Job<O>>(
     job: J,
 ) -> Result<J::Output, Error> {
     let space = space(origin.domains())?;
+    let small = u64::try_from(space);
+    if let Some(timer) = origin
+        .timer()
+        .filter(|_| options.intervals && small.is_ok())
+    {
+        let domain = origin.domains().get(timer).copied();
+        let size = domain.map_or(1, |d| u32::try_from(d.size()).unwrap_or(u32::MAX));
+        let packer = Packer::with_least(origin.domains(), Some(timer))?;
+        let model = Model::with(origin, packer, crew, watch);
+        return job.run(&model, Ticked::new(size), Storage::Intervals);
+    }
+    match (bitmap_fits(space, options), small) {
+        (Some(small), _) => {
+            let model = Model::new(origin, crew, watch)?;
+            job.run(&model, Dense::new(small, crew.size()), Storage::Bitmap)
+        }
+        (None, Ok(_)) => {
+            let model = Model::new(origin, crew, watch)?;
+            job.run(&model, Hashed::<Plain>::new(), Storage::Hash64)
+        }
+        (None, Err(_)) => {
+            let model = Model::new(origin, crew, watch)?;
+            job.run(&model, Hashed::<Halves>::new(), Storage::Hash128)
+        }
+    }
+}
+
+/// The index space, if a bitmap of it is small enough.
+pub(crate) fn bitmap_fits(space: u128, options: &Options) -> Option<u64> {
     // A quarter of the memory is left for lists, duties and traces.
     let bitmap = options
         .limits
         .memory
         .map_or(DEFAULT_BITMAP, |most| most / 4 * 3);
-    let timer = origin.timer().filter(|_| options.intervals);
-    match u64::try_from(space) {
-        Ok(_) if timer.is_some() => {
-            let domain = timer.and_then(|timer| origin.domains().get(timer).copied());
-            let size = domain.map_or(1, |d| u32::try_from(d.size()).unwrap_or(u32::MAX));
-            let packer = Packer::with_least(origin.domains(), timer)?;
-            let model = Model::with(origin, packer, crew, watch);
-            job.run(&model, Ticked::new(size), Storage::Intervals)
-        }
-        Ok(small) if Dense::need(space) <= u128::from(bitmap) => {
-            let model = Model::new(origin, crew, watch)?;
-            job.run(&model, Dense::new(small, crew.size()), Storage::Bitmap)
-        }
-        Ok(_) => {
-            let model = Model::new(origin, crew, watch)?;
-            job.run(&model, Hashed::<Plain>::new(), Storage::Hash64)
-        }
-        Err(_) => {
-            let model = Model::new(origin, crew, watch)?;
-            job.run(&model, Hashed::<Halves>::new(), Storage::Hash128)
-        }
-    }
+    u64::try_from(space)
+        .ok()
+        .filter(|_| Dense::need(space) <= u128::from(bitmap))
 }
 
 pub(crate) fn crew(options: &Options) -> Result<Crew, Error> {
@@ -205,11 +215,11 @@ impl Stage for Hashed<Halves> {
 
 /// What is left to do after the search: verdicts and traces.
 pub(crate) struct Finish<'a, K> {
-    model: Model<'a, Any<'a>, K>,
-    found: Found<K>,
-    properties: &'a [Property],
-    options: &'a Options,
-    storage: Storage,
+    pub(crate) model: Model<'a, Any<'a>, K>,
+    pub(crate) found: Found<K>,
+    pub(crate) properties: &'a [Property],
+    pub(crate) options: &'a Options,
+    pub(crate) storage: Storage,
 }
 
 impl<K: Key> Finish<'_, K> {

@@ -20,6 +20,7 @@
 //! * `trace`: shortest runs. The search keeps no parents; a second search keeps its levels, and a walk back through them
 //!   finds the least predecessors.
 //! * `symmetry`, `narrow`: a system up to a group of permutations, and a part of a system; both systems again.
+//! * `distributed` (a cargo feature): the same search over several processes.
 //! * `twin`, `control`: two runs side by side; views of the reachable states.
 //!
 //! A cycle whose evaluation meets a fault has no successor and is reported. A fault in a property's atom makes that atom
@@ -32,6 +33,8 @@ mod choices;
 mod control;
 mod crew;
 mod cursor;
+#[cfg(feature = "distributed")]
+mod distributed;
 mod duty;
 mod explore;
 mod graph;
@@ -56,6 +59,8 @@ mod twin;
 
 pub use choices::Replay;
 pub use control::{ControlGraph, control_graph, reachable};
+#[cfg(feature = "distributed")]
+pub use distributed::{Cluster, ClusterError, digest, explore_together};
 pub use explore::explore;
 pub use narrow::{Narrow, NarrowWork, Part};
 pub use parts::Component;

@@ -51,6 +51,7 @@ impl Key for u64 {
 }
 
 /// An index that needs more than 64 bits: some variables make up its first half, the others its second one.
+#[cfg_attr(feature = "distributed", derive(serde::Serialize, serde::Deserialize))]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Wide {
     first: u64,

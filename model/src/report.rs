@@ -119,6 +119,9 @@ pub enum Error {
         /// Why.
         reason: String,
     },
+    /// Processes that explore together have lost one of them, or do not explore the same.
+    #[error("the processes cannot go on together: {0}")]
+    Cluster(String),
     /// The operating system gave no threads.
     #[error("cannot start the worker threads: {0}")]
     Threads(String),

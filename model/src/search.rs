@@ -128,9 +128,9 @@ pub(crate) struct Found<K> {
 
 // The alignment keeps the counters of two threads out of one cache line.
 #[repr(align(128))]
-struct Worker<P, K, L> {
+pub(crate) struct Worker<P, K, L> {
     cursor: Cursor<P>,
-    local: L,
+    pub(crate) local: L,
     transitions: u128,
     weights: u128,
     explored: u64,
@@ -143,6 +143,32 @@ struct Worker<P, K, L> {
     absorbing: u64,
     examples: Vec<K>,
     joined: Option<Joined>,
+}
+
+impl<P: Process, K: Key, L> Worker<P, K, L> {
+    pub(crate) fn new(
+        origin: &impl Origin<Process = P>,
+        local: L,
+        properties: usize,
+        parts: Option<&Tables<K>>,
+    ) -> Self {
+        Worker {
+            cursor: Cursor::new(origin),
+            local,
+            transitions: 0,
+            weights: 0,
+            explored: 0,
+            first: vec![None; properties],
+            bad: vec![None; properties],
+            met: vec![false; properties],
+            pending: (0..properties).map(|_| Batch::new()).collect(),
+            faults: BTreeMap::new(),
+            coverage: vec![0; origin.rules()],
+            absorbing: 0,
+            examples: Vec::new(),
+            joined: parts.map(Tables::worker),
+        }
+    }
 }
 
 #[inline]
@@ -163,22 +189,7 @@ pub(crate) fn search<O: Origin, T: Store>(
     let origin = &model.origin;
     let parts = Tables::new(origin, &model.packer, properties);
     let mut workers: Vec<_> = (0..model.crew.size())
-        .map(|_| Worker {
-            cursor: Cursor::new(origin),
-            local: store.local(),
-            transitions: 0,
-            weights: 0,
-            explored: 0,
-            first: vec![None; properties.len()],
-            bad: vec![None; properties.len()],
-            met: vec![false; properties.len()],
-            pending: properties.iter().map(|_| Batch::new()).collect(),
-            faults: BTreeMap::new(),
-            coverage: vec![0; origin.rules()],
-            absorbing: 0,
-            examples: Vec::new(),
-            joined: parts.as_ref().map(Tables::worker),
-        })
+        .map(|_| Worker::new(origin, store.local(), properties.len(), parts.as_ref()))
         .collect();
     let mut keeper = options.checkpoint.as_ref().map(Keeper::new);
     let resumed = match &keeper {
@@ -239,10 +250,7 @@ pub(crate) fn search<O: Origin, T: Store>(
         let stopped = model.watch.stopped().is_some();
         let before = (stopped && keeper.is_some()).then(|| found.tally.clone());
         for worker in &mut workers {
-            if let (Some(parts), Some(joined)) = (&parts, &mut worker.joined) {
-                parts.count(joined, &mut worker.coverage);
-            }
-            gather(&mut found, worker, options.examples);
+            gather(&mut found, worker, parts.as_ref(), options.examples);
         }
         found.bytes = found.bytes.max(bytes(store, &found.pending));
         let locals = workers.iter_mut().map(|w| &mut w.local).collect();
@@ -303,7 +311,7 @@ fn keep<O, T: Store>(
     saved.is_ok()
 }
 
-fn bytes<T: Store>(store: &T, pending: &[Set<T::Key>]) -> u64 {
+pub(crate) fn bytes<T: Store>(store: &T, pending: &[Set<T::Key>]) -> u64 {
     store.bytes() + pending.iter().map(Set::bytes).sum::<u64>()
 }
 
@@ -321,14 +329,14 @@ pub(crate) fn initial<O: Origin, T: Store>(
 }
 
 /// What is the same for all workers during a level.
-struct Level<'a, O, T: Store> {
-    model: &'a Model<'a, O, T::Key>,
-    store: &'a T,
-    properties: &'a [Property],
-    open: &'a [usize],
-    pending: &'a [Set<T::Key>],
-    options: &'a Options,
-    parts: Option<&'a Tables<T::Key>>,
+pub(crate) struct Level<'a, O, T: Store> {
+    pub(crate) model: &'a Model<'a, O, T::Key>,
+    pub(crate) store: &'a T,
+    pub(crate) properties: &'a [Property],
+    pub(crate) open: &'a [usize],
+    pub(crate) pending: &'a [Set<T::Key>],
+    pub(crate) options: &'a Options,
+    pub(crate) parts: Option<&'a Tables<T::Key>>,
 }
 
 impl<O: Origin, T: Store> Level<'_, O, T> {
@@ -336,6 +344,11 @@ impl<O: Origin, T: Store> Level<'_, O, T> {
         if self.model.watch.over(bytes(self.store, self.pending)) {
             return;
         }
+        self.piece(worker, piece);
+    }
+
+    /// Makes the cycles from the states of one piece of the frontier.
+    pub(crate) fn piece(&self, worker: &mut Worker<O::Process, T::Key, T::Local>, piece: usize) {
         self.store.each(piece, |key| {
             let joined = self
                 .parts
@@ -480,13 +493,21 @@ fn record<K: Key>(faults: &mut BTreeMap<u32, K>, code: u32, key: K) {
     *least = key.min(*least);
 }
 
-fn least<K: Ord>(keys: &mut Vec<K>, most: usize) {
+pub(crate) fn least<K: Ord>(keys: &mut Vec<K>, most: usize) {
     keys.sort_unstable();
     keys.truncate(most);
 }
 
 /// Takes over what a worker found in the level just explored (at depth `tally.depth`).
-fn gather<P, K: Key, L>(found: &mut Found<K>, worker: &mut Worker<P, K, L>, examples: usize) {
+pub(crate) fn gather<P, K: Key, L>(
+    found: &mut Found<K>,
+    worker: &mut Worker<P, K, L>,
+    parts: Option<&Tables<K>>,
+    examples: usize,
+) {
+    if let (Some(parts), Some(joined)) = (parts, &mut worker.joined) {
+        parts.count(joined, &mut worker.coverage);
+    }
     let tally = &mut found.tally;
     let depth = tally.depth;
     for (property, signs) in tally.signs.iter_mut().enumerate() {

@@ -13,6 +13,7 @@ use stillpoint::reduce::Reductions;
 use stillpoint::report;
 use stillpoint::subject::{self, Subject};
 
+use super::cluster::ClusterOptions;
 use super::limits::LimitOptions;
 use super::progress::Line;
 use super::values;
@@ -54,6 +55,8 @@ pub struct Arguments {
         default_value = "none"
     )]
     reduce: Reductions,
+    #[command(flatten)]
+    cluster: ClusterOptions,
 }
 
 pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
@@ -66,6 +69,12 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         (None, Some(folder)) => Some(Keep::resume(folder, every)),
         (None, None) => None,
     };
+    let place = arguments.cluster.meet(
+        &arguments.file,
+        &subject,
+        arguments.limits.threads,
+        &for_helpers(arguments, &choice.chosen),
+    )?;
     let settings = Settings {
         keep: keep.transpose().map_err(Failure::Other)?,
         threads: arguments.limits.threads,
@@ -73,6 +82,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         time: arguments.limits.time,
         interpret: arguments.interpret,
         reductions: arguments.reduce,
+        cluster: place.cluster.clone(),
     };
     let fail =
         |(title, e): (String, stillpoint_model::Error)| Failure::Other(format!("{title}: {e}"));
@@ -80,6 +90,17 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         Box::new(Line::new(&task.title))
     })
     .map_err(fail)?;
+    if place.is_helper() {
+        return Ok(0);
+    }
+    if let Some(cluster) = &place.cluster {
+        eprintln!(
+            "{} processes with {} threads each, {} states sent from one to another",
+            cluster.processes(),
+            cluster.threads(),
+            report::grouped(u128::from(cluster.sent()))
+        );
+    }
     let summaries = summarise(&subject, &checked);
     let mut status = exit_status(&summaries, &checked);
     let compared = if choice.all {
@@ -122,6 +143,21 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         certificate::certify(path, &subject, &checked, settings.threads).map_err(Failure::Other)?;
     }
     Ok(status)
+}
+
+/// The options with which another process explores the same.
+fn for_helpers(arguments: &Arguments, chosen: &subject::Readings) -> Vec<String> {
+    let mut options = Vec::new();
+    if arguments.interpret {
+        options.push("--interpret".to_owned());
+    }
+    if let Some(bytes) = arguments.limits.memory {
+        options.extend(["--memory".to_owned(), bytes.to_string()]);
+    }
+    for (id, option) in chosen {
+        options.extend(["--readings".to_owned(), format!("{id}={option}")]);
+    }
+    options
 }
 
 fn known_readings(subject: &Subject, chosen: &subject::Readings) -> Result<(), Failure> {

@@ -304,10 +304,10 @@ fn orbits<S: stillpoint_model::System>(
     progress: &mut dyn Progress,
 ) -> Result<Judged, Error> {
     if group.is_trivial() {
-        return engine::judge(system, system, bound, options, progress);
+        return engine::judge(system, system, bound, options, progress, None);
     }
     let orbits = Symmetric::new(system, group);
-    let mut judged = engine::judge(&orbits, system, bound, options, progress)?;
+    let mut judged = engine::judge(&orbits, system, bound, options, progress, None)?;
     for (k, judgement) in judged.report.properties.iter_mut().enumerate() {
         // Pairs of runs were explored singly.
         if !judged.pairs.contains_key(&k) {
