@@ -9,8 +9,10 @@
 //!
 //! * `choices`, `cursor`, `process`: the odometer over the inputs read, and the cycles of one state. Evaluating a property
 //!   may read further inputs of the cycle; a transition counts with all combinations of the inputs nobody read.
-//! * `pack`, `bitmap`, `store`, `hashed`: a state is a number in mixed radix. The states found are a bitmap over all numbers where
-//!   that fits the memory (at most two bits an index), else an exact hash set.
+//! * `pack`, `bitmap`, `store`, `set`, `hashed`: a state is a number in mixed radix. The states found are a bitmap over all
+//!   numbers where that fits the memory (at most two bits an index), else an exact hash set.
+//! * `parts`: systems that fall into parts with nothing in common but inputs; their cycles are put together from tables.
+//! * `ticks`: the values of a timer as intervals. `checkpoint`: an exploration between two levels, in a file.
 //! * `crew`, `search`: one breadth-first search, level by level, on some threads. It tells for each property the first
 //!   place, in the order (depth, state), where something showed: so the report does not depend on the threads.
 //! * `graph`, `response`, `liveness`: what the search cannot tell. The cycles under a pending duty form a graph; bounded
