@@ -38,10 +38,10 @@ pub struct Arguments {
     #[arg(long)]
     interpret: bool,
     /// Keep the exploration in this new folder, so that it can be continued after a limit, a kill or a power failure
-    #[arg(long, value_name = "DIR", conflicts_with_all = ["resume", "readings"])]
+    #[arg(long, value_name = "DIR", conflicts_with = "resume")]
     checkpoint: Option<PathBuf>,
     /// Continue from the checkpoints in this folder, and go on keeping them there
-    #[arg(long, value_name = "DIR", conflicts_with = "readings")]
+    #[arg(long, value_name = "DIR")]
     resume: Option<PathBuf>,
     /// The least time between two checkpoints
     #[arg(long, value_name = "DURATION", value_parser = values::duration, default_value = "30s")]
@@ -63,6 +63,12 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let choice = values::readings(&arguments.readings).map_err(Failure::Other)?;
     let subject = subject::load(&arguments.file, &choice.chosen)?;
     known_readings(&subject, &choice.chosen)?;
+    if choice.all && (arguments.checkpoint.is_some() || arguments.resume.is_some()) {
+        return Err(Failure::Other(
+            "--readings all makes one check for each option; keep one of them: --readings ID=OPTION"
+                .to_owned(),
+        ));
+    }
     let every = arguments.checkpoint_every;
     let keep = match (&arguments.checkpoint, &arguments.resume) {
         (Some(folder), _) => Some(Keep::create(folder, every)),
