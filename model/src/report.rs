@@ -39,7 +39,8 @@ pub struct Options {
     /// The most absorbing states listed.
     pub examples: usize,
     /// Whether the values of a timer ([`crate::System::timer`]) are stored as intervals where an index of the state fits
-    /// 64 bits. The report stays the same, but for traces of the same length and the examples of absorbing states.
+    /// 64 bits. The report stays the same, but for traces of the same length, loops at the end of traces, and the examples of
+    /// absorbing states.
     pub intervals: bool,
     /// Where to keep the exploration; none to keep it nowhere.
     pub checkpoint: Option<Checkpoint>,

@@ -180,6 +180,8 @@ fn shortest(
     let options = Options {
         limits,
         stop_when_decided: true,
+        // It is another system, and its search is short beside the one that is kept.
+        checkpoint: None,
         ..options.clone()
     };
     let watch = Watch::new(limits);

@@ -291,7 +291,7 @@ fn tables_of_parts_give_the_plain_report() {
         faulty += usize::from(!plain.faults.is_empty());
         several += usize::from(plain.states > 100 && plain.faults.is_empty());
     }
-    assert!(faulty > 5 && several > 20, "{faulty} {several}");
+    assert!(faulty > 5 && several > 10, "{faulty} {several}");
 }
 
 #[test]
@@ -330,9 +330,13 @@ fn intervals_of_a_timer_change_neither_verdicts_nor_lengths() {
             report.storage = Storage::Bitmap;
             (report.seconds, report.memory) = (0.0, 0);
             report.absorbing_examples.sort();
-            // Of several shortest runs another one may be the first in the order of indices.
-            for trace in report.properties.iter_mut().map(|p| &mut p.trace) {
-                *trace = None;
+            // Of several shortest runs another one may be the first in the order of indices; one that ends in a loop
+            // need not be the shortest.
+            for judgement in &mut report.properties {
+                let trace = judgement.trace.take();
+                if trace.is_some_and(|t| t.loop_start.is_some()) {
+                    judgement.length = None;
+                }
             }
             for trace in report.faults.iter_mut().map(|f| &mut f.trace) {
                 *trace = None;
