@@ -89,7 +89,7 @@ impl Bitmap {
     /// Reads the pages into an empty bitmap.
     pub(crate) fn read(&mut self, input: &mut In) -> io::Result<()> {
         for _ in 0..input.count()? {
-            let first = input.count()?.saturating_mul(PAGE);
+            let first = input.place()?.saturating_mul(PAGE);
             if first >= self.words {
                 return Err(io::ErrorKind::InvalidData.into());
             }

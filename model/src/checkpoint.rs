@@ -47,7 +47,7 @@ impl Out {
         key.halves().into_iter().try_for_each(|h| self.number(h))
     }
 
-    fn place<K: Key>(&mut self, place: Option<(u32, K)>) -> io::Result<()> {
+    fn first<K: Key>(&mut self, place: Option<(u32, K)>) -> io::Result<()> {
         self.number(u64::from(place.is_some()))?;
         place.map_or(Ok(()), |(depth, key)| {
             self.number(u64::from(depth))?;
@@ -90,6 +90,11 @@ impl In {
         }
     }
 
+    /// A place in a list.
+    pub(crate) fn place(&mut self) -> io::Result<usize> {
+        usize::try_from(self.number()?).map_err(|_| io::ErrorKind::InvalidData.into())
+    }
+
     pub(crate) fn numbers(&mut self) -> io::Result<Vec<u64>> {
         (0..self.count()?).map(|_| self.number()).collect()
     }
@@ -98,7 +103,7 @@ impl In {
         Ok(K::of([self.number()?, self.number()?]))
     }
 
-    fn place<K: Key>(&mut self) -> io::Result<Option<(u32, K)>> {
+    fn first<K: Key>(&mut self) -> io::Result<Option<(u32, K)>> {
         Ok(match self.number()? {
             0 => None,
             _ => Some((self.number()? as u32, self.key()?)),
@@ -280,14 +285,14 @@ fn put_tally<K: Key>(out: &mut Out, tally: &Tally<K>) -> io::Result<()> {
     out.number(u64::from(tally.complete))?;
     out.number(tally.signs.len() as u64)?;
     for signs in &tally.signs {
-        out.place(signs.first)?;
-        out.place(signs.bad)?;
+        out.first(signs.first)?;
+        out.first(signs.bad)?;
         out.number(u64::from(signs.met))?;
     }
     out.number(tally.faults.len() as u64)?;
     for (code, place) in &tally.faults {
         out.number(u64::from(*code))?;
-        out.place(Some(*place))?;
+        out.first(Some(*place))?;
     }
     out.numbers(&tally.coverage)?;
     out.number(tally.absorbing)?;
@@ -307,14 +312,14 @@ fn get_tally<K: Key>(input: &mut In) -> io::Result<Tally<K>> {
     };
     for _ in 0..input.count()? {
         tally.signs.push(Signs {
-            first: input.place()?,
-            bad: input.place()?,
+            first: input.first()?,
+            bad: input.first()?,
             met: input.number()? != 0,
         });
     }
     for _ in 0..input.count()? {
         let code = input.number()? as u32;
-        if let Some(place) = input.place()? {
+        if let Some(place) = input.first()? {
             tally.faults.insert(code, place);
         }
     }

@@ -224,9 +224,13 @@ impl<C: Code> Store for Hashed<C> {
         self.set.load(input)?;
         let mut from = Vec::with_capacity(SHARDS);
         for _ in 0..SHARDS {
-            from.push(input.count()?);
+            from.push(input.place()?);
         }
-        self.set_frontier(from, self.set.counts());
+        let to = self.set.counts();
+        if from.iter().zip(&to).any(|(from, to)| from > to) {
+            return Err(io::ErrorKind::InvalidData.into());
+        }
+        self.set_frontier(from, to);
         Ok(())
     }
 
