@@ -83,6 +83,8 @@ impl Shape {
 pub struct Interpreted<'a> {
     bound: &'a Bound,
     shape: Shape,
+    /// The instances that step.
+    instances: Vec<usize>,
 }
 
 impl<'a> Interpreted<'a> {
@@ -91,6 +93,7 @@ impl<'a> Interpreted<'a> {
         Self {
             bound,
             shape: Shape::new(bound),
+            instances: (0..bound.system.instances.len()).collect(),
         }
     }
 
@@ -128,9 +131,10 @@ impl System for Interpreted<'_> {
     ) -> Result<(), Fault> {
         work.start(before);
         let mut read = |k| self.shape.read(choices, k);
-        self.bound
-            .step(work, &mut read)
-            .map_err(|code| Fault { code })?;
+        for instance in &self.instances {
+            let step = self.bound.step_instance(*instance, work, &mut read);
+            step.map_err(|code| Fault { code })?;
+        }
         after.copy_from_slice(&work.now);
         Ok(())
     }
@@ -155,7 +159,7 @@ impl System for Interpreted<'_> {
     }
 
     fn components(&self) -> Vec<Component<'_>> {
-        parts(self.bound)
+        components(self.bound)
     }
 
     fn timer(&self) -> Option<usize> {
@@ -174,66 +178,6 @@ impl System for Interpreted<'_> {
     }
 }
 
-/// Some instances of a table, run by the interpreter as if there were no others.
-struct PartOf<'a> {
-    whole: Interpreted<'a>,
-    instances: Vec<usize>,
-}
-
-impl System for PartOf<'_> {
-    type Work = eval::Frame;
-
-    fn work(&self) -> Self::Work {
-        self.whole.work()
-    }
-
-    fn domains(&self) -> &[Domain] {
-        self.whole.domains()
-    }
-
-    fn combinations(&self) -> u128 {
-        self.whole.combinations()
-    }
-
-    fn initial<C: Choices>(&self, work: &mut Self::Work, choices: &mut C, state: &mut [i32]) {
-        self.whole.initial(work, choices, state);
-    }
-
-    fn next<C: Choices>(
-        &self,
-        work: &mut Self::Work,
-        before: &[i32],
-        choices: &mut C,
-        after: &mut [i32],
-    ) -> Result<(), Fault> {
-        work.start(before);
-        let mut read = |k| self.whole.shape.read(choices, k);
-        for k in &self.instances {
-            let step = self.whole.bound.step_instance(*k, work, &mut read);
-            step.map_err(|code| Fault { code })?;
-        }
-        after.copy_from_slice(&work.now);
-        Ok(())
-    }
-
-    fn atom<C: Choices>(
-        &self,
-        work: &mut Self::Work,
-        atom: usize,
-        choices: &mut C,
-    ) -> Result<bool, Fault> {
-        self.whole.atom(work, atom, choices)
-    }
-
-    fn rules(&self) -> usize {
-        self.whole.rules()
-    }
-
-    fn fired(&self, work: &Self::Work, each: &mut impl FnMut(usize)) {
-        self.whole.fired(work, each);
-    }
-}
-
 /// Of the variables that merely count down the one with the most values.
 fn timer(bound: &Bound) -> Option<usize> {
     let size = |k: &usize| i64::from(bound.states[*k].1) - i64::from(bound.states[*k].0);
@@ -241,16 +185,17 @@ fn timer(bound: &Bound) -> Option<usize> {
     all.into_iter().max_by_key(size)
 }
 
-fn parts(bound: &Bound) -> Vec<Component<'_>> {
-    let part = |part: stillpoint_spec::parts::Part| {
-        let system = PartOf {
-            whole: Interpreted::new(bound),
+/// The parts that share nothing but inputs, each run by the interpreter as if there were no others.
+fn components(bound: &Bound) -> Vec<Component<'_>> {
+    let component = |part: stillpoint_spec::parts::Part| {
+        let system = Interpreted {
             instances: part.instances,
+            ..Interpreted::new(bound)
         };
         Component::new(part.states, part.atoms, system)
     };
     let found = stillpoint_spec::parts::parts(&bound.system);
-    found.into_iter().map(part).collect()
+    found.into_iter().map(component).collect()
 }
 
 /// A table run by its generated step function.
@@ -331,7 +276,7 @@ impl System for Generated<'_> {
     }
 
     fn components(&self) -> Vec<Component<'_>> {
-        parts(self.bound)
+        components(self.bound)
     }
 
     fn timer(&self) -> Option<usize> {
