@@ -5,7 +5,7 @@ use crate::cursor::Leaf;
 use crate::hashed::{Halves, Hashed, Plain};
 use crate::liveness::{fair, recoverable, recovery};
 use crate::pack::{Key, Packer, Wide, space};
-use crate::process::{Any, Origin, Own, Process};
+use crate::process::{Any, Origin, Process};
 use crate::property::{Eval, Form, Property, Sign, validate};
 use crate::report::{
     Error, FaultReport, Judgement, Options, Progress, Report, Step, Storage, Trace, Verdict,
@@ -105,16 +105,14 @@ pub fn explore<S: System>(
     let watch = Watch::new(options.limits);
     let crew = crew(options)?;
     let job = Explore {
-        any: Any::new(system),
         properties,
         options,
         progress,
     };
-    on_store(Own(system), options, &crew, &watch, job)
+    on_store(Any::new(system), options, &crew, &watch, job)
 }
 
 struct Explore<'a> {
-    any: Any<'a>,
     properties: &'a [Property],
     options: &'a Options,
     progress: &'a mut dyn Progress,
@@ -153,12 +151,12 @@ impl<K> From<Verdict> for Decision<'_, K> {
     }
 }
 
-impl<O: Origin> Job<O> for Explore<'_> {
+impl Job<Any<'_>> for Explore<'_> {
     type Output = Report;
 
     fn run<T: Stage>(
         self,
-        model: &Model<O, T::Key>,
+        model: &Model<Any, T::Key>,
         mut store: T,
         storage: Storage,
     ) -> Result<Report, Error> {
@@ -169,7 +167,7 @@ impl<O: Origin> Job<O> for Explore<'_> {
             self.options,
             self.progress,
         )?;
-        let model = Model::with(self.any, model.packer.clone(), model.crew, model.watch);
+        let model = Model::with(model.origin, model.packer.clone(), model.crew, model.watch);
         T::finish(
             store,
             Finish {

@@ -1,5 +1,5 @@
-//! A system as one thread runs it. The search is compiled for each system; everything after it works on a system behind
-//! a pointer, so that a new system costs little compile time.
+//! A system as one thread runs it. The explorer works on a system behind a pointer, so that a further system costs hardly any
+//! compile time: a call for each cycle and each atom, while a cycle reads its inputs without one.
 
 use crate::choices::Odometer;
 use crate::parts::Component;
@@ -205,6 +205,7 @@ pub(crate) trait Source: Sync {
     fn domains(&self) -> &[Domain];
     fn combinations(&self) -> u128;
     fn rules(&self) -> usize;
+    fn components(&self) -> Vec<Component<'_>>;
     fn timer(&self) -> Option<usize>;
 }
 
@@ -223,6 +224,10 @@ impl<S: System> Source for S {
 
     fn rules(&self) -> usize {
         System::rules(self)
+    }
+
+    fn components(&self) -> Vec<Component<'_>> {
+        System::components(self)
     }
 
     fn timer(&self) -> Option<usize> {
@@ -261,6 +266,10 @@ impl<'s> Origin for Any<'s> {
 
     fn rules(&self) -> usize {
         self.0.rules()
+    }
+
+    fn components(&self) -> Vec<Component<'_>> {
+        self.0.components()
     }
 
     fn timer(&self) -> Option<usize> {
