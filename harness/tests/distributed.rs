@@ -166,7 +166,7 @@ fn mistakes_are_told() {
     let (mut first, _errors, address) = listening(file, "2");
     let other = run(&[
         "check",
-        "spec/sinumerik-840d/agreement.toml",
+        "spec/sinumerik-840d/comparison.toml",
         "--join",
         &address,
     ]);

@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
-use std::time::Duration;
+use std::time::Instant;
 
 use serde_json::Value;
 
@@ -87,15 +87,17 @@ fn plain(output: &Output) -> Value {
 #[test]
 fn ten_kills_in_a_row_change_nothing() {
     let folder = Folder::new("kill");
+    let start = Instant::now();
     let whole = run(SUBJECT, &[]);
+    let time = start.elapsed();
     let mut killed = 0;
-    // Other moments each time, from before the first checkpoint to late in the check.
+    // Other moments each time, from about the first checkpoint to late in the check.
     for n in 1..=10u64 {
         let mut command = check(SUBJECT, &folder.option());
         command.args(["--checkpoint-every", "10ms"]);
         let child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn();
         let mut child = child.expect("starts");
-        std::thread::sleep(Duration::from_millis(37 * n));
+        std::thread::sleep(time * (3 + n as u32) / 20);
         if child.try_wait().expect("waits").is_none() {
             // SIGKILL: nothing can be tidied up.
             child.kill().expect("kills");
