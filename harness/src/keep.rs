@@ -40,19 +40,38 @@ impl Keep {
     /// The folder of a check that was broken off.
     ///
     /// # Errors
-    /// It cannot be read or holds no checkpoints: a sentence.
-    pub fn resume(folder: &Path, every: Duration) -> Result<Self, String> {
-        if checkpoints(folder)?.is_empty() {
+    /// It cannot be read, holds no checkpoints or those of something else than these systems: a sentence.
+    pub fn resume<'a>(
+        folder: &Path,
+        every: Duration,
+        systems: impl Iterator<Item = &'a Bound>,
+    ) -> Result<Self, String> {
+        let (shown, found) = (folder.display(), checkpoints(folder)?);
+        if found.is_empty() {
             return Err(format!(
-                "{} holds no checkpoints; they are written by --checkpoint DIR",
-                folder.display()
+                "{shown} holds no checkpoints; they are written by --checkpoint DIR"
             ));
         }
-        Ok(Self {
+        let keep = Self {
             folder: folder.to_owned(),
             every,
             resume: true,
-        })
+        };
+        let names: Vec<_> = systems
+            .enumerate()
+            .map(|(n, bound)| keep.of(n, bound).file)
+            .collect();
+        let belongs = |file: &PathBuf| {
+            let stem = |path: &Path| path.with_extension("").to_string_lossy().into_owned();
+            names.iter().any(|n| stem(file).starts_with(&stem(n)))
+        };
+        match found.iter().find(|file| !belongs(file)) {
+            Some(other) => Err(format!(
+                "{}: this checkpoint belongs to another specification or machine than the one to check",
+                other.display()
+            )),
+            None => Ok(keep),
+        }
     }
 
     /// The folder.

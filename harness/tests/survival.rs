@@ -165,6 +165,10 @@ fn checkpoints_of_something_else_are_refused() {
     let path = folder.0.to_str().expect("a path in UTF-8");
     refused(&["--checkpoint", path], "already holds checkpoints");
     refused(&["--resume", "no/such/folder"], "cannot be read");
+    let output = run("spec/bench/two-axis.toml", &["--resume", path]);
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{errors}");
+    assert!(errors.contains("another specification"), "{errors}");
     let first = &folder.files()[0];
     let good = std::fs::read(first).expect("readable");
     let name = first.to_str().expect("a path in UTF-8");

@@ -231,7 +231,8 @@ impl<K: Key> Finish<'_, K> {
         } = self;
         let model = &model;
         let tally = &found.tally;
-        let decisions = decide(model, &found, properties, options, store.bytes())?;
+        let stored = store.bytes();
+        let decisions = decide(model, &found, properties, options, stored)?;
         let mut requests = Vec::new();
         let mut judgements = Vec::new();
         let mut tails = Vec::new();
@@ -333,6 +334,7 @@ impl<K: Key> Finish<'_, K> {
             coverage: tally.coverage.clone(),
             absorbing: tally.absorbing,
             memory: found.bytes.max(model.watch.peak()),
+            stored,
             storage,
             index_space: space(model.origin.domains())?,
             faults,

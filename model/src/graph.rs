@@ -42,6 +42,14 @@ pub(crate) struct Graph<K> {
     exit: Option<u32>,
 }
 
+/// Appends to a list that grows by an eighth: doubling it could take far more than the memory that is left.
+fn push<T>(list: &mut Vec<T>, value: T) {
+    if list.len() == list.capacity() {
+        list.reserve_exact(list.len() / 8 + 64);
+    }
+    list.push(value);
+}
+
 /// Edges found from the nodes of one piece.
 struct Piece<K> {
     number: usize,
@@ -128,12 +136,11 @@ impl<K: Key> Graph<K> {
                 graph.exit = graph.exit.or(exit);
                 for (key, label) in piece.ends {
                     let to = graph.node(key)?;
-                    graph.edges.push(Edge { to, label });
+                    push(&mut graph.edges, Edge { to, label });
                 }
                 for degree in piece.degrees {
-                    graph
-                        .first
-                        .push(graph.first.last().copied().unwrap_or(0) + degree);
+                    let end = graph.first.last().copied().unwrap_or(0) + degree;
+                    push(&mut graph.first, end);
                 }
             }
         }
@@ -164,7 +171,7 @@ impl<K: Key> Graph<K> {
             return Some(self.table[slot] - 1);
         }
         let next = u32::try_from(self.keys.len() + 1).ok()?;
-        self.keys.push(key);
+        push(&mut self.keys, key);
         self.table[slot] = next;
         if self.keys.len() * 3 >= self.table.len() * 2 {
             self.table = vec![0; self.table.len() * 2];

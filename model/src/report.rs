@@ -223,8 +223,11 @@ pub struct Report {
     pub absorbing: u64,
     /// The first absorbing states in the order of their indices.
     pub absorbing_examples: Vec<Vec<i32>>,
-    /// The most bytes the explorer's tables held.
+    /// The most bytes the explorer's tables held, those of properties and graphs included.
     pub memory: u64,
+    /// Bytes of the states at the end of the search in this process. Next to nothing where the search was continued from
+    /// its end.
+    pub stored: u64,
     /// How states were stored.
     pub storage: Storage,
     /// The number of indices of the state variables.
@@ -236,9 +239,9 @@ pub struct Report {
 }
 
 impl Report {
-    /// Bytes of the explorer's tables for each reachable state.
+    /// Bytes of storage for each reachable state.
     pub fn bytes_per_state(&self) -> f64 {
-        self.memory as f64 / self.states.max(1) as f64
+        self.stored as f64 / self.states.max(1) as f64
     }
 
     /// The verdict on the property named `id`.

@@ -82,6 +82,7 @@ fn options(place: &Place, identity: &str, time: Option<Duration>, resume: bool) 
 fn plain(mut report: Report) -> Report {
     report.seconds = 0.0;
     report.memory = 0;
+    report.stored = 0;
     report.resumable = false;
     report
 }

@@ -96,6 +96,7 @@ fn together<S: System>(
 fn plain(mut report: Report) -> Report {
     report.seconds = 0.0;
     report.memory = 0;
+    report.stored = 0;
     report.storage = Storage::Bitmap;
     report
 }

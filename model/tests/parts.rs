@@ -265,6 +265,7 @@ fn report(side: &Side, properties: &[Property], threads: usize) -> Report {
     let mut report = explore(side, properties, &options, &mut ()).unwrap();
     report.seconds = 0.0;
     report.memory = 0;
+    report.stored = 0;
     report
 }
 
@@ -328,7 +329,7 @@ fn intervals_of_a_timer_change_neither_verdicts_nor_lengths() {
             let mut report = explore(&table, &properties(1), &options, &mut ()).unwrap();
             let storage = report.storage;
             report.storage = Storage::Bitmap;
-            (report.seconds, report.memory) = (0.0, 0);
+            (report.seconds, report.memory, report.stored) = (0.0, 0, 0);
             report.absorbing_examples.sort();
             // Of several shortest runs another one may be the first in the order of indices; one that ends in a loop
             // need not be the shortest.

@@ -221,6 +221,7 @@ fn hash_sets_agree_with_the_bitmap() {
         for report in &mut reports {
             report.seconds = 0.0;
             report.memory = 0;
+            report.stored = 0;
             report.index_space = 0;
             report.storage = Storage::Bitmap;
             for state in &mut report.absorbing_examples {

@@ -32,6 +32,7 @@ fn run(threads: usize, interpret: bool) -> (Report, Evaluator) {
     );
     report.seconds = 0.0;
     report.memory = 0;
+    report.stored = 0;
     (report, outcome.evaluator)
 }
 

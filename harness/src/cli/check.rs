@@ -72,7 +72,10 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let every = arguments.checkpoint_every;
     let keep = match (&arguments.checkpoint, &arguments.resume) {
         (Some(folder), _) => Some(Keep::create(folder, every)),
-        (None, Some(folder)) => Some(Keep::resume(folder, every)),
+        (None, Some(folder)) => {
+            let systems = subject.tasks.iter().map(|t| &t.bound);
+            Some(Keep::resume(folder, every, systems))
+        }
         (None, None) => None,
     };
     let place = arguments.cluster.meet(

@@ -341,6 +341,7 @@ impl<'a> Sum<'a> {
                 absorbing: 0,
                 absorbing_examples: Vec::new(),
                 memory: 0,
+                stored: 0,
                 storage: Storage::Bitmap,
                 index_space: 0,
                 faults: Vec::new(),
@@ -361,6 +362,7 @@ impl<'a> Sum<'a> {
         sum.complete &= new.complete;
         sum.resumable &= new.resumable;
         sum.memory = sum.memory.max(new.memory);
+        sum.stored += new.stored;
         sum.index_space = sum.index_space.saturating_add(new.index_space);
         if new.storage != Storage::Bitmap {
             sum.storage = new.storage;

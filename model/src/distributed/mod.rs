@@ -253,6 +253,7 @@ fn nothing(properties: &[Property], seconds: f64) -> Report {
         seconds,
         complete: false,
         resumable: false,
+        stored: 0,
         coverage: Vec::new(),
         absorbing: 0,
         absorbing_examples: Vec::new(),

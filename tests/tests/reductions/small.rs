@@ -9,7 +9,7 @@ use stillpoint_spec::bind::Bound;
 use stillpoint_spec::slice::Slicer;
 use stillpoint_spec::symmetry::symmetries;
 
-use super::{SLICE, SYMMETRY, compare, full, options, reduced, systems};
+use super::{SLICE, SYMMETRY, TIMERS, compare, full, options, reduced, systems};
 
 /// `count` axes that count to 3 when it is their turn and fall back when all others are at 0.
 fn axes(count: u32, turn: &str, system: &str, properties: &str) -> Bound {
@@ -229,7 +229,12 @@ fn each_reduction_can_be_switched_off() {
     let parse = |text: &str| text.parse::<Reductions>();
     assert_eq!(parse("slice"), Ok(SLICE));
     assert_eq!(parse("symmetry"), Ok(SYMMETRY));
-    assert_eq!(parse("slice, symmetry"), Ok(Reductions::ALL));
+    let both = Reductions {
+        timers: false,
+        ..Reductions::ALL
+    };
+    assert_eq!(parse("slice, symmetry"), Ok(both));
+    assert_eq!(parse("timers"), Ok(TIMERS));
     assert_eq!(parse("all"), Ok(Reductions::ALL));
     assert_eq!(parse("none"), Ok(Reductions::default()));
     assert!(parse("none,slice").is_err_and(|e| e.contains("alone")));
