@@ -79,6 +79,12 @@ impl Dense {
         space / 4 + space / 4096 + 65536
     }
 
+    /// States of the list handed out at once: few where there are few, so that each worker gets some; many where there are
+    /// many, so that two workers seldom write to neighbouring words.
+    fn piece(&self) -> usize {
+        (self.list.len() / 16).clamp(1, 1024)
+    }
+
     pub(crate) fn new(space: u64, threads: usize) -> Self {
         let words = usize::try_from(space.div_ceil(64)).unwrap_or(usize::MAX);
         Dense {
@@ -207,7 +213,7 @@ impl Store for Dense {
         if self.in_wave {
             self.visited.words().div_ceil(WORDS)
         } else {
-            self.list.len().div_ceil(PIECE)
+            self.list.len().div_ceil(self.piece())
         }
     }
 
@@ -218,8 +224,9 @@ impl Store for Dense {
     #[inline]
     fn each(&self, piece: usize, mut visit: impl FnMut(u64)) {
         if !self.in_wave {
-            let end = self.list.len().min((piece + 1) * PIECE);
-            for key in &self.list[piece * PIECE..end] {
+            let size = self.piece();
+            let end = self.list.len().min((piece + 1) * size);
+            for key in &self.list[piece * size..end] {
                 visit(*key);
             }
             return;
