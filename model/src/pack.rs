@@ -105,6 +105,15 @@ impl Digit {
     }
 }
 
+/// Where the values of a variable stand in an index.
+pub(crate) struct Place {
+    pub(crate) half: usize,
+    pub(crate) stride: u64,
+    pub(crate) size: u64,
+    /// No variable of more than one value is more significant.
+    pub(crate) top: bool,
+}
+
 /// Packs the values of one list of domains; in each half the first variable is the most significant.
 #[derive(Clone, Debug)]
 pub(crate) struct Packer<K> {
@@ -183,9 +192,16 @@ impl<K: Key> Packer<K> {
         if inside { Some(K::of(key)) } else { None }
     }
 
-    /// The number of variables.
-    pub(crate) fn variables(&self) -> usize {
-        self.digits.len()
+    /// Where the values of a variable stand in an index.
+    pub(crate) fn place(&self, variable: usize) -> Option<Place> {
+        let digit = self.digits.get(variable)?;
+        let above = |other: &Digit| other.half == digit.half && other.stride > digit.stride;
+        Some(Place {
+            half: digit.half,
+            stride: digit.stride,
+            size: digit.size,
+            top: !self.digits.iter().any(above),
+        })
     }
 
     /// What the given variables contribute to the index of a state; none if a value is outside its domain.
