@@ -275,6 +275,7 @@ pub(crate) fn search<O: Origin, T: Store>(
         tally.states += frontier;
         if frontier > 0 {
             tally.depth += 1;
+            progress.on_memory(bytes(store, &found.pending));
             progress.on_level(tally.depth, tally.states, tally.transitions, frontier);
         }
         tally.complete = frontier == 0;

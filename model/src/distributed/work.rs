@@ -153,6 +153,7 @@ impl<'a, K: Wire> Task<'a, K> {
             }
             states += frontier;
             if frontier > 0 && post.index() == 0 {
+                progress.on_memory(bytes(&share, &found.pending));
                 progress.on_level(depth, states, transitions, frontier);
             }
             if frontier == 0 || stop {
