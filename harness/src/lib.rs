@@ -8,6 +8,7 @@ pub mod certificate;
 pub mod check;
 pub mod diff;
 pub mod engine;
+pub mod explore;
 pub mod export;
 pub mod keep;
 pub mod matrix;
