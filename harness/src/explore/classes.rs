@@ -130,9 +130,9 @@ pub fn classes(bound: &Bound, state: &[i32], held: &[(u32, u32)]) -> Classes {
         }
         ControlFlow::Continue(())
     });
-    let free = fixed
-        .iter()
-        .fold(bound.combinations(), |all, h| all / u128::from(h.size.max(1)));
+    let free = fixed.iter().fold(bound.combinations(), |all, h| {
+        all / u128::from(h.size.max(1))
+    });
     let both = order.into_iter().zip(growing);
     out.classes = both
         .map(|(outcome, growing)| finish(bound, free, out.complete, outcome, growing))
@@ -165,13 +165,7 @@ fn broken(bound: &Bound, frame: &Frame, held: &[(u32, u32)]) -> Vec<usize> {
     .collect()
 }
 
-fn finish(
-    bound: &Bound,
-    free: u128,
-    complete: bool,
-    outcome: Outcome,
-    growing: Growing,
-) -> Class {
+fn finish(bound: &Bound, free: u128, complete: bool, outcome: Outcome, growing: Growing) -> Class {
     let mut when = Vec::new();
     // The combinations in which the inputs read by all cycles have one of their values here: at least those of the class.
     let mut box_of = free;

@@ -48,7 +48,8 @@ impl Path {
     pub fn parse(text: &str) -> Result<Self, String> {
         let mut all = Vec::new();
         for (number, part) in text.split('.').enumerate() {
-            let wrong = |what: String| format!("part {number} of the path, `{}`: {what}", cut(part));
+            let wrong =
+                |what: String| format!("part {number} of the path, `{}`: {what}", cut(part));
             let (choice, times) = match part.split_once('*') {
                 Some((choice, times)) => {
                     let times = times.parse::<usize>().ok().filter(|n| *n > 0);

@@ -13,7 +13,9 @@ pub fn select<'a>(subject: &'a Subject, wanted: Option<&str>) -> Result<&'a Task
     let matches: Vec<&Task> = match wanted {
         Some(_) if number.is_some() => {
             let at = number.and_then(|n| n.checked_sub(1));
-            at.and_then(|at| subject.tasks.get(at)).into_iter().collect()
+            at.and_then(|at| subject.tasks.get(at))
+                .into_iter()
+                .collect()
         }
         None => subject.tasks.iter().collect(),
         Some(wanted) => {
