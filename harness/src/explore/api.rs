@@ -12,6 +12,7 @@ use super::path::Path;
 use super::view;
 use super::walk::{Walk, size, walk};
 use crate::engine::label;
+use crate::report::verdict_name;
 
 /// A refusal: the HTTP status and the reason.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -111,8 +112,8 @@ pub fn run(explorer: &Explorer, body: &str) -> Result<Value, Refusal> {
         Err(e) => return refuse(400, format!("the system cannot be explored: {e}")),
     };
     Ok(json!({
-        "property": asked.property, "verdict": jump.verdict, "text": jump.text,
-        "path": jump.path.map(|p| p.to_string()),
+        "property": asked.property, "verdict": verdict_name(jump.verdict), "text": jump.text,
+        "path": jump.path.map(|p| p.to_string()), "other": jump.other.map(|p| p.to_string()),
     }))
 }
 

@@ -1,33 +1,26 @@
 //! A run that shows a property: its counterexample or its witness, found by exploring.
 
-use stillpoint_model::table::{Generated, Interpreted, properties};
-use stillpoint_model::{Error, Form, Limits, Options, Report, Verdict, explore};
+use stillpoint_model::{Error, Limits, Options, Trace, Verdict};
 use stillpoint_spec::bind::Bound;
+use stillpoint_spec::ir::Form;
 
 use super::Bounds;
 use super::path::{MOST_CYCLES, Path};
 use super::walk::path_of;
+use crate::engine::{self, Outcome};
 use crate::report::{grouped, verdict_name};
 
 /// What exploring for one property gave.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Jump {
-    /// The verdict, as `check --json` names it; none where no exploration was made.
-    pub verdict: Option<&'static str>,
+    /// The verdict.
+    pub verdict: Verdict,
     /// What was found, in a sentence or two.
     pub text: String,
     /// The run, if there is one to show.
     pub path: Option<Path>,
-}
-
-impl Jump {
-    fn none(text: impl Into<String>) -> Self {
-        Self {
-            verdict: None,
-            text: text.into(),
-            path: None,
-        }
-    }
+    /// The run beside it, for a property that compares two.
+    pub other: Option<Path>,
 }
 
 /// Explores for property number `property` of the system alone, until it is decided or a bound is reached.
@@ -35,12 +28,14 @@ impl Jump {
 /// # Errors
 /// A system that cannot be explored.
 pub fn jump(bound: &Bound, property: usize, bounds: Bounds) -> Result<Jump, Error> {
-    let listed = properties(bound);
-    let Some((_, wanted)) = listed.into_iter().find(|(k, _)| *k == property) else {
-        return Ok(Jump::none(
-            "This property compares two runs that differ in some inputs, so no single walk shows it; `stillpoint check` judges it.",
-        ));
-    };
+    let mut alone = bound.clone();
+    alone.system.properties = alone
+        .system
+        .properties
+        .into_iter()
+        .skip(property)
+        .take(1)
+        .collect();
     let options = Options {
         limits: Limits {
             memory: Some(bounds.memory),
@@ -50,78 +45,77 @@ pub fn jump(bound: &Bound, property: usize, bounds: Bounds) -> Result<Jump, Erro
         stop_when_decided: true,
         ..Options::default()
     };
-    let form = wanted.form.clone();
-    let wanted = [wanted];
-    let report = match Generated::find(bound) {
-        Some(system) => explore(&system, &wanted, &options, &mut ())?,
-        None => explore(&Interpreted::new(bound), &wanted, &options, &mut ())?,
-    };
-    Ok(told(bound, &form, &report, bounds))
+    let outcome = engine::run(&alone, &options, false, &mut ())?;
+    Ok(told(&alone, &outcome, bounds))
 }
 
-fn told(bound: &Bound, form: &Form, report: &Report, bounds: Bounds) -> Jump {
-    let Some(judged) = report.properties.first() else {
-        return Jump::none("The exploration gave no verdict.");
+fn told(bound: &Bound, outcome: &Outcome, bounds: Bounds) -> Jump {
+    let judged = outcome.report.properties.first();
+    let form = bound.system.properties.first().map(|p| &p.form);
+    let verdict = judged.map_or(Verdict::Inconclusive, |j| j.verdict);
+    let trace = judged.and_then(|j| j.trace.as_ref());
+    let short = |trace: &&Trace| trace.steps.len() <= MOST_CYCLES;
+    let path = trace.filter(short).map(|trace| path_of(bound, trace));
+    let pair = outcome.pairs.values().next();
+    let second = pair.and_then(|pair| pair.second.as_ref());
+    let explored = match pair {
+        Some(pair) => format!("{} pairs of states", grouped(u128::from(pair.states))),
+        None => format!(
+            "{} states, depth {}",
+            grouped(u128::from(outcome.report.states)),
+            outcome.report.depth
+        ),
     };
-    let explored = format!(
-        "{} states, depth {}",
-        grouped(u128::from(report.states)),
-        report.depth
-    );
-    let trace = judged.trace.as_ref();
-    let path = trace.filter(|t| t.steps.len() <= MOST_CYCLES);
-    let path = path.map(|trace| path_of(bound, trace));
-    let cycles = trace.map_or(0, |t| t.steps.len());
-    let found = match judged.verdict {
-        Verdict::Violated => "violated",
-        Verdict::Holds => "holds",
-        Verdict::Vacuous => "vacuous: its condition never holds",
-        Verdict::Reached => "reached",
-        Verdict::Unreachable => "unreachable: no run gets there",
-        Verdict::Inconclusive => "not decided",
+    let mut text = match (verdict, outcome.refuted.values().next()) {
+        (Verdict::Inconclusive, _) => format!(
+            "Not found, and not excluded: a limit ({} s, {} MiB) was reached after {explored}. \
+             Start with a larger --time or --memory, or use `stillpoint check`.",
+            bounds.time.as_secs_f64(),
+            bounds.memory >> 20
+        ),
+        (Verdict::Vacuous, _) => format!("Vacuous: its condition never holds ({explored})."),
+        (Verdict::Unreachable, _) => format!("Unreachable: no run gets there ({explored})."),
+        (_, Some(reason)) => format!("Violated: {reason} ({explored})."),
+        (verdict, None) => {
+            let mut name = verdict_name(verdict).to_owned();
+            name[..1].make_ascii_uppercase();
+            format!("{name} ({explored}).")
+        }
     };
-    let mut text = format!("{found} ({explored}).");
-    match (judged.verdict, path.is_some()) {
-        (Verdict::Inconclusive, _) => {
-            text = format!(
-                "Not found, and not excluded: a limit ({} s, {} MiB) was reached after {explored}. \
-                 Start with a larger --time or --memory, or use `stillpoint check`.",
-                bounds.time.as_secs_f64(),
-                bounds.memory >> 20
-            );
-        }
-        (Verdict::Violated, true) => {
-            text.push_str(&format!(" Counterexample: {cycles} cycles."));
-        }
-        (Verdict::Holds, true) => {
-            let what = match form {
-                Form::Always { when: None, .. } => "Any run shows it; this one has",
-                Form::CanAlwaysReach { .. } => "Shortest run to the goal:",
+    let recorded = !outcome.refuted.is_empty();
+    match (trace, path.is_some()) {
+        (Some(trace), true) => {
+            let what = match (verdict, form) {
+                (Verdict::Violated, _) if !recorded => "Counterexample:",
+                (_, Some(Form::Always { when: None, .. })) => "Any run shows it; this one has",
+                (_, Some(Form::Reachable { .. } | Form::CanAlwaysReach { .. })) => {
+                    "Shortest run to the goal:"
+                }
+                (_, Some(Form::Independent { .. })) => "A run:",
                 _ => "Shortest run to its condition:",
             };
-            text.push_str(&format!(" {what} {}.", count(cycles)));
+            text.push_str(&format!(" {what} {}.", count(trace.steps.len())));
+            if let Some(start) = trace.loop_start {
+                text.push_str(&format!(
+                    " From cycle {} on it repeats for ever.",
+                    start + 1
+                ));
+            }
         }
-        (Verdict::Reached, true) => {
-            text.push_str(&format!(" Shortest run: {}.", count(cycles)));
+        (Some(trace), false) => text.push_str(&format!(
+            " Its run has {} cycles, more than the {MOST_CYCLES} of a walk.",
+            trace.steps.len()
+        )),
+        (None, _) if verdict == Verdict::Violated && !recorded => {
+            text.push_str(" Its run could not be rebuilt within the limits.");
         }
-        (Verdict::Vacuous | Verdict::Unreachable, _) => {}
-        (_, false) => match trace {
-            Some(_) => text.push_str(&format!(
-                " Its run has {cycles} cycles, more than the {MOST_CYCLES} of a walk."
-            )),
-            None => text.push_str(" There is no run to show."),
-        },
-    }
-    if let Some(start) = trace.and_then(|t| t.loop_start).filter(|_| path.is_some()) {
-        text.push_str(&format!(
-            " From cycle {} on the run repeats for ever.",
-            start + 1
-        ));
+        (None, _) => {}
     }
     Jump {
-        verdict: Some(verdict_name(judged.verdict)),
+        verdict,
         text,
         path,
+        other: second.filter(short).map(|trace| path_of(bound, trace)),
     }
 }
 

@@ -300,6 +300,9 @@ async function run(id, button) {
   try {
     const found = await answer(await post("/api/run", { system: link.system, hash: link.hash, property: id }));
     notice(`${id}: ${found.text}`);
+    if (found.other) {
+      at("notice").append(" ", el("a", { href: written({ ...link, path: found.other, at: null, held: "" }) }, "The run beside it"));
+    }
     // Whoever has walked on meanwhile is not carried away.
     if (found.path !== null && location.hash === from) go({ path: found.path, at: null, held: "" });
   } catch (error) {

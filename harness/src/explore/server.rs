@@ -135,7 +135,9 @@ fn answer(explorer: &Explorer, port: u16, mut request: Request) {
             }
         }
     };
-    let mut response = Response::from_string(answer.body).with_status_code(answer.status);
+    let mut response = Response::from_string(answer.body)
+        .with_status_code(answer.status)
+        .with_chunked_threshold(usize::MAX);
     for (name, value) in [
         ("Content-Type", answer.content_type),
         ("Cache-Control", "no-store"),

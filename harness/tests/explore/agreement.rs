@@ -155,7 +155,32 @@ fn along_the_runs_that_exploring_finds_the_properties_say_what_it_says() {
                 (Verdict::Violated, Form::LeadsTo { within: None, .. }) => {
                     assert!(matches!(told.standing, Standing::Pending { .. }), "{what}");
                 }
-                (Verdict::Violated, Form::CanAlwaysReach { .. }) => continue,
+                (Verdict::Violated, Form::CanAlwaysReach { .. }) => {
+                    assert_eq!(told.standing, Standing::NotOne, "{what}")
+                }
+                (Verdict::Violated, Form::Independent { observe, of, .. }) => {
+                    // The two runs differ in nothing but the inputs named, and what is observed differs at their ends.
+                    let other =
+                        walk(bound, &found.other.expect("two runs")).expect("the other run");
+                    let ends = [&made, &other].map(|walk| {
+                        let mut frame = walk.cycles[length - 1].frame.clone();
+                        let mut lo = |k: usize| bound.inputs[k].0;
+                        let values = observe
+                            .iter()
+                            .map(|k| bound.observe(*k, &mut frame, &mut lo));
+                        values.collect::<Vec<i64>>()
+                    });
+                    assert_ne!(ends[0], ends[1], "{what}");
+                    for (one, two) in made.cycles.iter().zip(&other.cycles) {
+                        for (k, (a, b)) in
+                            one.frame.inputs.iter().zip(&two.frame.inputs).enumerate()
+                        {
+                            let unread = [*a, *b].contains(&stillpoint_spec::eval::UNSET);
+                            assert!(a == b || unread || of.contains(&k), "{what}");
+                        }
+                    }
+                    kinds.insert("compared");
+                }
                 (Verdict::Violated, _) => {
                     assert_eq!(
                         (told.standing, told.broken),
@@ -177,7 +202,8 @@ fn along_the_runs_that_exploring_finds_the_properties_say_what_it_says() {
             }
         }
     }
-    assert!(kinds.contains("violated"), "{kinds:?}");
+    let all = ["compared", "met", "reached", "violated"];
+    assert!(kinds.iter().eq(&all), "{kinds:?}");
 }
 
 #[test]

@@ -177,6 +177,10 @@ impl Page {
     /// Presses a key that the browser calls by this name.
     pub fn press(&mut self, key: &str) {
         let mut down = json!({ "type": "keyDown", "key": key });
+        if key == "Escape" {
+            // A dialogue is closed by the key's number.
+            down["windowsVirtualKeyCode"] = json!(27);
+        }
         if key.chars().count() == 1 {
             down["text"] = json!(key);
         }

@@ -15,6 +15,15 @@ fn cell(page: &mut Page, name: &str) -> String {
     ))
 }
 
+/// Nothing makes the page scroll sideways. (The bar on its right takes some of the width.)
+fn fits(page: &mut Page, width: u64, file: &str) {
+    let needed = page.value("document.documentElement.scrollWidth");
+    assert!(
+        needed.as_u64().is_some_and(|n| n <= width),
+        "{file}: {needed} pixels of {width}"
+    );
+}
+
 fn standing(page: &mut Page) -> String {
     page.text("document.querySelector('[data-id=\"S840D-P-05\"]').dataset.standing")
 }
@@ -198,18 +207,10 @@ fn nothing_is_wider_than_a_small_screen() {
                     "document.getElementById('position').textContent.startsWith('Cycle {step} ')"
                 ));
             }
-            assert_eq!(
-                page.value("document.documentElement.scrollWidth"),
-                400,
-                "{file}"
-            );
+            fits(&mut page, 400, file);
             page.shot(&format!("{name}-400-{colours}"));
             page.size(1280, 900, colours);
-            assert_eq!(
-                page.value("document.documentElement.scrollWidth"),
-                1280,
-                "{file}"
-            );
+            fits(&mut page, 1280, file);
             page.shot(&format!("{name}-1280-{colours}"));
             page.press("Home");
             page.wait("document.getElementById('position').textContent.startsWith('Cycle 0 ')");
