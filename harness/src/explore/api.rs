@@ -1,13 +1,13 @@
 //! Requests and their answers, apart from how they are carried.
 
-use std::sync::TryLockError;
+use std::sync::{MutexGuard, TryLockError};
 
 use serde::Deserialize;
 use serde_json::{Value, json};
 use stillpoint_spec::bind::Bound;
 
 use super::Explorer;
-use super::jump::jump;
+use super::jump::{jump, options};
 use super::path::Path;
 use super::view;
 use super::walk::{Walk, size, walk};
@@ -52,6 +52,14 @@ struct Run {
     system: String,
     hash: String,
     property: String,
+}
+
+/// Asks about a system as a whole.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Whole {
+    system: String,
+    hash: String,
 }
 
 fn parsed<'a, T: Deserialize<'a>>(body: &'a str) -> Result<T, Refusal> {
@@ -100,13 +108,7 @@ pub fn run(explorer: &Explorer, body: &str) -> Result<Value, Refusal> {
     let Some(property) = properties.position(|p| label(p) == asked.property) else {
         return refuse(404, format!("there is no property `{}`", asked.property));
     };
-    let _alone = match explorer.exploring.try_lock() {
-        Ok(guard) => guard,
-        Err(TryLockError::Poisoned(guard)) => guard.into_inner(),
-        Err(TryLockError::WouldBlock) => {
-            return refuse(503, "another exploration is running; try again after it");
-        }
-    };
+    let _alone = alone(explorer)?;
     let jump = match jump(bound, property, explorer.bounds) {
         Ok(jump) => jump,
         Err(e) => return refuse(400, format!("the system cannot be explored: {e}")),
@@ -115,6 +117,36 @@ pub fn run(explorer: &Explorer, body: &str) -> Result<Value, Refusal> {
         "property": asked.property, "verdict": verdict_name(jump.verdict), "text": jump.text,
         "path": jump.path.map(|p| p.to_string()), "other": jump.other.map(|p| p.to_string()),
     }))
+}
+
+/// The control states of the machines of a system.
+///
+/// # Errors
+/// A request that makes no sense for this file; another exploration is running.
+pub fn control(explorer: &Explorer, body: &str) -> Result<Value, Refusal> {
+    let asked: Whole = parsed(body)?;
+    let bound = system(explorer, &asked.system, &asked.hash)?;
+    let _alone = alone(explorer)?;
+    let mut graphs = Vec::new();
+    for (number, instance) in bound.system.instances.iter().enumerate() {
+        match crate::control::control(bound, number, &options(explorer.bounds)) {
+            Ok(None) => {}
+            Ok(Some(graph)) => graphs.push(json!({ "machine": instance.name, "svg": graph.svg() })),
+            Err(e) => return refuse(400, format!("the system cannot be explored: {e}")),
+        }
+    }
+    Ok(json!({ "graphs": graphs }))
+}
+
+/// The right to explore, which one request has at a time.
+fn alone(explorer: &Explorer) -> Result<MutexGuard<'_, ()>, Refusal> {
+    match explorer.exploring.try_lock() {
+        Ok(guard) => Ok(guard),
+        Err(TryLockError::Poisoned(guard)) => Ok(guard.into_inner()),
+        Err(TryLockError::WouldBlock) => {
+            refuse(503, "another exploration is running; try again after it")
+        }
+    }
 }
 
 fn system<'a>(explorer: &'a Explorer, name: &str, hash: &str) -> Result<&'a Bound, Refusal> {

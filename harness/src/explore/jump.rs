@@ -37,16 +37,23 @@ pub fn jump(bound: &Bound, property: usize, bounds: Bounds) -> Result<Jump, Erro
         .take(1)
         .collect();
     let options = Options {
+        stop_when_decided: true,
+        ..options(bounds)
+    };
+    let outcome = engine::run(&alone, &options, false, &mut ())?;
+    Ok(told(&alone, &outcome, bounds))
+}
+
+/// How to explore within these bounds.
+pub(super) fn options(bounds: Bounds) -> Options {
+    Options {
         limits: Limits {
             memory: Some(bounds.memory),
             time: Some(bounds.time),
             threads: bounds.threads,
         },
-        stop_when_decided: true,
         ..Options::default()
-    };
-    let outcome = engine::run(&alone, &options, false, &mut ())?;
-    Ok(told(&alone, &outcome, bounds))
+    }
 }
 
 fn told(bound: &Bound, outcome: &Outcome, bounds: Bounds) -> Jump {

@@ -6,7 +6,9 @@ const at = (id) => document.getElementById(id);
 let known = null; // what /api/systems told
 let link = null; // what the link says
 let shown = null; // the view on the page
-let chosen = 0; // the class chosen by the arrow keys
+const FEW = 60; // outcomes shown at first
+let listed = []; // the outcomes on the page
+let chosen = 0; // the one chosen by the arrow keys
 let asked = 0; // requests for views are numbered, a late answer is dropped
 const opened = new Set(); // properties whose details are open
 
@@ -125,6 +127,7 @@ function render() {
   next(own);
   properties(own);
   diagram();
+  control();
   const parameters = own.parameters.concat(own.readings).map(([name, value]) => `${name} = ${value}`);
   at("about").textContent = `Stillpoint ${known.version} · system ${own.system} · specification ${own.hash}`
     + (parameters.length ? ` · ${parameters.join(", ")}` : "")
@@ -185,6 +188,8 @@ function next(own) {
   if (!list) {
     at("next-text").textContent = "There is no next cycle after a fault.";
     at("classes").replaceChildren();
+    at("filter").hidden = true;
+    listed = [];
     return;
   }
   const n = list.classes.length;
@@ -197,9 +202,26 @@ function next(own) {
   const rank = ([input, k]) => (all.has(k) ? 0 : readable.has(k) ? 1 : open.has(input.name) ? 2 : 3);
   order.sort((a, b) => rank(a) - rank(b) || a[1] - b[1]);
   at("inputs").replaceChildren(...order.map(([input, k]) => holder(input, k, all, readable)));
-  at("classes").replaceChildren(...list.classes.map(one));
-  choose(0);
+  at("filter").hidden = n < 10 && !at("filter").value;
+  outcomes(FEW);
   if (shown.initials) initials();
+}
+// The outcomes on the page: those that the filter lets through, the first ones of many.
+function outcomes(most) {
+  const wanted = at("filter").value.trim().toLowerCase();
+  const all = shown.next.classes;
+  const fitting = wanted ? all.filter((item) => words(item).includes(wanted)) : all;
+  listed = fitting.slice(0, most);
+  chosen = 0;
+  at("classes").replaceChildren(...listed.map(one));
+  if (fitting.length > listed.length) {
+    at("classes").append(el("li", {}, el("button", { id: "more", onclick: () => outcomes(Infinity) }, `Show all ${fitting.length}`)));
+  }
+  if (!listed.length) at("classes").append(el("li", { class: "dim" }, "No outcome fits the filter."));
+  choose(0);
+}
+function words(item) {
+  return JSON.stringify([item.rules.map((r) => [r.name, r.requirements]), item.changes, item.when, item.broken, item.fault]).toLowerCase();
 }
 function holder(input, k, all, readable) {
   const value = all.has(k) ? all.get(k) : null;
@@ -226,23 +248,27 @@ function one(item, number) {
   else if (!item.changes.length) head.push(" ", span("chip", "same state"));
   const lines = [];
   if (item.changes.length) lines.push(el("span", { class: "line" }, item.changes.map(([name, a, b]) => `${name}: ${a} → ${b}`).join(", ")));
-  const when = item.when.map(([name, values]) => `${name} = ${values.join(", ")}`).join("; ");
+  const written = (list) => list.map(([name, values]) => `${name} = ${values.join(", ")}`).join("; ");
+  const special = item.when.filter(([, , least]) => !least);
+  const rest = item.when.length - special.length;
+  // Few conditions are told in full, of many those that stand out.
+  const when = rest > 2 ? [written(special), `${rest} others FALSE or least`].filter(Boolean).join("; ") : written(item.when);
   const exactly = item.exact ? (when ? `if ${when}` : "whatever the inputs are") : when ? `only if ${when}, and more` : "for several combinations of inputs";
   lines.push(el("span", { class: "line dim" }, `${exactly} · ${item.combinations} ${item.combinations === "1" ? "combination" : "combinations"}`));
-  const rules = item.rules.map((r) => [r.name, hint(r)].filter(Boolean).join(": ")).join("\n");
+  const rules = item.rules.map((r) => [r.name, hint(r)].filter(Boolean).join(": ")).concat(rest > 2 ? [written(item.when)] : []).join("\n");
   return el("li", {}, el("button", { title: rules || null, "data-choice": item.choice, onclick: () => step(number) }, ...head, ...lines));
 }
 function choose(number) {
   const items = at("classes").children;
-  if (!items.length) return;
+  if (!listed.length) return;
   const before = chosen;
-  chosen = Math.max(0, Math.min(items.length - 1, number));
+  chosen = Math.max(0, Math.min(listed.length - 1, number));
   if (items[before]) items[before].classList.remove("chosen");
   items[chosen].classList.add("chosen");
   if (chosen !== before) items[chosen].scrollIntoView({ block: "nearest" });
 }
 function step(number) {
-  const item = shown && shown.next && shown.next.classes[number];
+  const item = shown && shown.next && listed[number];
   if (!item) return;
   // The same step as the walk goes on along it, another one begins a new walk here.
   if (shown.parts[shown.at + 1] === item.choice) return move(shown.at + 1);
@@ -260,6 +286,39 @@ function initials() {
     ...all.states.map((s) => el("option", { value: s.choice }, s.values.map(([n, v]) => `${n} = ${v}`).join(", "))));
   select.value = present;
   at("initials").replaceChildren(el("label", {}, span("dim", all.complete ? "Initial state " : `Initial state (the first ${all.states.length}) `), select));
+}
+
+// Control states, drawn once for each system.
+let drawn = null;
+async function control() {
+  if (!at("control").open) return;
+  const own = system(link.system);
+  if (drawn !== own) {
+    drawn = own;
+    at("graphs").replaceChildren(el("p", { class: "dim" }, "Exploring …"));
+    try {
+      const found = await answer(await post("/api/control", { system: own.name, hash: own.hash }));
+      if (drawn !== own) return;
+      at("graphs").replaceChildren(...found.graphs.map((g) => el("div", { "data-machine": g.machine }, picture(g.svg))));
+      if (!found.graphs.length) at("graphs").append(el("p", { class: "dim" }, "No machine has a variable with an enumeration as type."));
+    } catch (error) {
+      drawn = null;
+      at("graphs").replaceChildren(el("p", {}, gone(error)));
+      return;
+    }
+  }
+  if (!shown) return;
+  for (const box of at("graphs").children) {
+    const machine = shown.machines.find((m) => m.name === box.dataset.machine);
+    const values = machine ? machine.states.filter((s) => s.kind === "enum").map((s) => s.value).join(" ") : "";
+    for (const node of box.querySelectorAll("g.node")) {
+      const label = [...node.querySelectorAll("text")].map((t) => t.textContent).join(" ");
+      node.classList.toggle("present", label === values);
+    }
+  }
+}
+function picture(svg) {
+  return document.importNode(new DOMParser().parseFromString(svg, "image/svg+xml").documentElement, true);
 }
 
 // Properties.
@@ -317,10 +376,7 @@ function diagram() {
   at("save-svg").hidden = shown.length === 0;
   if (shown.length === 0) box.replaceChildren(el("p", { class: "dim" }, "The diagram begins with the first cycle."));
   else if (shown.diagram === null) box.replaceChildren(el("p", { class: "dim" }, "The walk is too long to be drawn here; it can be saved."));
-  else {
-    const parsed = new DOMParser().parseFromString(shown.diagram, "image/svg+xml");
-    box.replaceChildren(document.importNode(parsed.documentElement, true));
-  }
+  else box.replaceChildren(picture(shown.diagram));
 }
 async function save(address, name) {
   try {
@@ -388,6 +444,8 @@ async function start() {
   at("slider").onchange = (event) => move(Number(event.target.value));
   at("copy").onclick = copy;
   at("ask").onclick = help;
+  at("filter").oninput = () => shown && shown.next && outcomes(FEW);
+  at("control").ontoggle = control;
   at("save-svg").onclick = () => save("/api/diagram", `${link.system.replace(/[^A-Za-z0-9_-]+/g, "-")}.svg`);
   addEventListener("hashchange", load);
   addEventListener("keydown", key);

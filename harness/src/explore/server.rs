@@ -180,7 +180,7 @@ fn refused(asked: &Asked, port: u16) -> Option<Answer> {
     }
     let wanted = match asked.path {
         "/" | "/page.css" | "/page.js" | "/api/systems" => Method::Get,
-        "/api/view" | "/api/run" | "/api/diagram" => Method::Post,
+        "/api/view" | "/api/run" | "/api/control" | "/api/diagram" => Method::Post,
         _ => {
             return Some(Answer::refusal(404, "there is nothing under this address"));
         }
@@ -213,6 +213,7 @@ fn routed(explorer: &Explorer, asked: &Asked, body: &str) -> Answer {
         "/api/systems" => json(Ok(view::systems(explorer))),
         "/api/view" => json(api::view(explorer, body)),
         "/api/run" => json(api::run(explorer, body)),
+        "/api/control" => json(api::control(explorer, body)),
         "/api/diagram" => match api::svg(explorer, body) {
             Ok(svg) => Answer::new("image/svg+xml", svg),
             Err(refusal) => Answer::refusal(refusal.status, &refusal.reason),

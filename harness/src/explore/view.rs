@@ -306,10 +306,11 @@ fn one(bound: &Bound, state: &[i32], class: &Class) -> Value {
                 .collect()
         }
     };
-    let when = class
-        .when
-        .iter()
-        .map(|(k, values)| json!([input_name(bound, *k), ranges(bound, *k, values)]));
+    // An input at its least value, FALSE for most, is what a reader takes for granted.
+    let when = class.when.iter().map(|(k, values)| {
+        let least = values.as_slice() == [0];
+        json!([input_name(bound, *k), ranges(bound, *k, values), least])
+    });
     let broken = class
         .broken
         .iter()

@@ -39,7 +39,7 @@ fn the_classes_of_the_initial_state() {
     assert_eq!(classes[1]["combinations"], "2");
     assert_eq!(
         (&classes[1]["when"], &classes[1]["exact"]),
-        (&json!([["stop.demand_b", ["TRUE"]]]), &json!(true))
+        (&json!([["stop.demand_b", ["TRUE"], false]]), &json!(true))
     );
     assert_eq!(
         classes[1]["changes"],

@@ -9,9 +9,17 @@ use serde_json::{Value, json};
 /// How long the page may take for anything.
 const PATIENCE: Duration = Duration::from_secs(60);
 
+/// The names of the browser, in the order of preference.
+const NAMES: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];
+
+fn program() -> Option<&'static str> {
+    let runs = |name: &&str| Command::new(name).arg("--version").output().is_ok();
+    NAMES.into_iter().find(runs)
+}
+
 /// Whether Chromium is there. Who has none sees that the test was skipped; where the environment has `CI`, it fails then.
 pub fn available() -> bool {
-    if Command::new("chromium").arg("--version").output().is_ok() {
+    if program().is_some() {
         return true;
     }
     let message = "SKIPPED: chromium is not installed";
@@ -42,14 +50,16 @@ impl Page {
         let mut browser = Command::new("sh")
             .args([
                 "-c",
-                "exec chromium \"$@\" 3<&0 4>&1 0</dev/null 1>/dev/null",
+                "exec \"$@\" 3<&0 4>&1 0</dev/null 1>/dev/null",
                 "sh",
+                program().expect("a browser"),
             ])
             .args([
                 "--headless",
                 "--remote-debugging-pipe",
                 "--no-sandbox",
                 "--disable-gpu",
+                "--hide-scrollbars",
                 "--disable-quic",
                 "--disable-dev-shm-usage",
                 "--disable-background-networking",

@@ -15,7 +15,7 @@ fn cell(page: &mut Page, name: &str) -> String {
     ))
 }
 
-/// Nothing makes the page scroll sideways. (The bar on its right takes some of the width.)
+/// Nothing makes the page scroll sideways.
 fn fits(page: &mut Page, width: u64, file: &str) {
     let needed = page.value("document.documentElement.scrollWidth");
     assert!(
@@ -132,13 +132,22 @@ fn the_counterexample_on_request_and_inputs_held() {
     shows(&mut page, "0.1.0*3", 4);
     let notice = page.text("document.getElementById('notice').textContent");
     assert!(
-        notice.contains("violated") && notice.contains("Counterexample: 4 cycles"),
+        notice.contains("Violated") && notice.contains("Counterexample: 4 cycles"),
         "{notice}"
     );
     assert_eq!(standing(&mut page), "broken");
 
+    // The control states, with the present one marked; it follows the walk.
+    page.click("#control summary");
+    page.wait("document.querySelectorAll('#graphs g.node').length === 3");
+    let present =
+        "[...document.querySelectorAll('#graphs .present')].map(n => n.textContent.trim()).join()";
+    page.wait(&format!("{present} === 'B'"));
+    page.shot("control-1280");
     page.press("Home");
     shows(&mut page, "0.1.0*3", 0);
+    page.wait(&format!("{present} === 'NONE'"));
+
     page.click("#hold summary");
     page.value(
         "(() => { const s = document.querySelector('#inputs select'); s.value = '1'; s.dispatchEvent(new Event('change')); })()",
@@ -186,6 +195,38 @@ fn a_link_that_does_not_fit_says_why() {
     assert_eq!(page.value("document.images.length"), 0);
     page.click("#begin");
     shows(&mut page, "0", 0);
+    assert_eq!(page.errors, Vec::<String>::new());
+}
+
+#[test]
+fn of_many_outcomes_some_are_shown_and_a_filter_finds_others() {
+    if !available() {
+        return;
+    }
+    let served = Served::start(&["spec/sinumerik-840d/axis.toml", "--system", "stop"]);
+    let mut page = Page::open("filter", 1280, 900);
+    page.visit(&served.url);
+    shows(&mut page, "0", 0);
+    let shown = "document.querySelectorAll('#classes button[data-choice]').length";
+    assert_eq!(page.value(shown), 60);
+    page.click("#more");
+    page.wait(&format!("{shown} > 60"));
+    page.click("#filter");
+    page.call(
+        "Input.insertText",
+        serde_json::json!({ "text": "discrepancy = true" }),
+    );
+    page.wait("document.querySelector('#classes').textContent.includes('No outcome fits')");
+    page.value("document.getElementById('filter').value = ''");
+    page.call(
+        "Input.insertText",
+        serde_json::json!({ "text": "pulses_off" }),
+    );
+    page.wait(&format!("{shown} > 0 && {shown} < 60"));
+    page.value("document.getElementById('filter').blur()");
+    page.press("1");
+    page.wait("document.getElementById('position').textContent.startsWith('Cycle 1 ')");
+    assert_eq!(cell(&mut page, "phase"), "PULSES_OFF");
     assert_eq!(page.errors, Vec::<String>::new());
 }
 
