@@ -9,6 +9,7 @@ pub mod check;
 pub mod control;
 pub mod diff;
 pub mod engine;
+pub mod explore;
 pub mod export;
 pub mod keep;
 pub mod matrix;

@@ -23,7 +23,7 @@
 //!   finds the least predecessors.
 //! * `symmetry`, `narrow`: a system up to a group of permutations, and a part of a system; both systems again.
 //! * `distributed` (a cargo feature): the same search over several processes.
-//! * `twin`, `control`: two runs side by side; views of the reachable states.
+//! * `twin`, `control`: two runs side by side; views of the reachable states. `cycles`: those of one state, to walk by hand.
 //!
 //! A cycle whose evaluation meets a fault has no successor and is reported. A fault in a property's atom makes that atom
 //! FALSE there and is reported too: verdicts stand on their own only in a report without faults.
@@ -35,6 +35,7 @@ mod choices;
 mod control;
 mod crew;
 mod cursor;
+mod cycles;
 #[cfg(feature = "distributed")]
 mod distributed;
 mod duty;
@@ -61,6 +62,7 @@ mod twin;
 
 pub use choices::Replay;
 pub use control::{ControlGraph, control_graph, reachable};
+pub use cycles::{Cycle, Held, cycles, initials};
 #[cfg(feature = "distributed")]
 pub use distributed::{Cluster, ClusterError, digest, explore_together};
 pub use explore::explore;

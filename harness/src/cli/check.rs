@@ -217,7 +217,7 @@ fn for_helpers(arguments: &Arguments, chosen: &subject::Readings) -> Vec<String>
     options
 }
 
-fn known_readings(subject: &Subject, chosen: &subject::Readings) -> Result<(), Failure> {
+pub(super) fn known_readings(subject: &Subject, chosen: &subject::Readings) -> Result<(), Failure> {
     let known: BTreeSet<String> = subject
         .tasks
         .iter()

@@ -5,6 +5,7 @@ mod check;
 mod cluster;
 mod colour;
 mod diff;
+mod explore;
 mod export;
 mod limits;
 mod manual;
@@ -54,6 +55,11 @@ enum Command {
         after_help = "Examples:\n  stillpoint diff spec/machines/milling-840d.toml --exhaustive\n  stillpoint diff spec/machines/milling-840d.toml --random 1000000 --seed 7\n  stillpoint diff spec/machines/milling-840d.toml --mutant stop-b-no-timer-exit   (must diverge)"
     )]
     Diff(diff::Arguments),
+    /// Walk through the state space in the browser, on a page that only this computer sees
+    #[command(
+        after_help = "Prints the address of the page and serves it until the command is ended.\n\nExamples:\n  stillpoint explore spec/machines/milling-840d.toml\n  stillpoint explore spec/sinumerik-840d/axis.toml --system stop --port 8080"
+    )]
+    Explore(explore::Arguments),
     /// Write a system in the format of another tool
     #[command(
         after_help = "Examples:\n  stillpoint export spec/bench/two-axis.toml --to promela --output two-axis.pml\n  stillpoint export spec/sinumerik-840d/axis.toml --system stop --to dot | dot -Tsvg"
@@ -106,6 +112,7 @@ pub fn main() -> ExitCode {
         Command::Certify(arguments) => certify::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Diff(arguments) => diff::run(&arguments),
+        Command::Explore(arguments) => explore::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),
         Command::Trace(arguments) => trace::run(&arguments),
         Command::Validate { file } => validate(&file),

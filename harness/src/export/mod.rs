@@ -21,7 +21,7 @@ pub mod tla;
 mod types;
 mod writer;
 
-pub use select::select;
+pub use select::{select, system_names};
 
 use std::path::Path;
 

@@ -1,0 +1,209 @@
+//! Requests and their answers, apart from how they are carried.
+
+use std::sync::{MutexGuard, TryLockError};
+
+use serde::Deserialize;
+use serde_json::{Value, json};
+use stillpoint_spec::bind::Bound;
+
+use super::Explorer;
+use super::jump::{jump, options};
+use super::path::Path;
+use super::view;
+use super::walk::{Walk, size, walk};
+use crate::engine::label;
+use crate::report::verdict_name;
+
+/// A refusal: the HTTP status and the reason.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Refusal {
+    /// 400 for a request that makes no sense, 404 for what there is not, 409 for a link to another specification, 503 while
+    /// an exploration runs.
+    pub status: u16,
+    /// One sentence.
+    pub reason: String,
+}
+
+fn refuse<T>(status: u16, reason: impl Into<String>) -> Result<T, Refusal> {
+    Err(Refusal {
+        status,
+        reason: reason.into(),
+    })
+}
+
+/// Asks for the state at the end of a walk, or at one of its cycles.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct View {
+    system: String,
+    hash: String,
+    path: String,
+    /// The cycle to show; the last one if it is missing.
+    at: Option<usize>,
+    /// Inputs held in the next cycle: `3=1!5=0` for number 3 at its second and number 5 at its least value.
+    #[serde(default)]
+    held: String,
+}
+
+/// Asks for a run that shows a property.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Run {
+    system: String,
+    hash: String,
+    property: String,
+}
+
+/// Asks about a system as a whole.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Whole {
+    system: String,
+    hash: String,
+}
+
+fn parsed<'a, T: Deserialize<'a>>(body: &'a str) -> Result<T, Refusal> {
+    serde_json::from_str(body)
+        .or_else(|e| refuse(400, format!("the request is not understood: {e}")))
+}
+
+/// The answer to a view request.
+///
+/// # Errors
+/// A request that makes no sense for this file.
+pub fn view(explorer: &Explorer, body: &str) -> Result<Value, Refusal> {
+    let asked: View = parsed(body)?;
+    let bound = system(explorer, &asked.system, &asked.hash)?;
+    let walk = walked(bound, &asked.path)?;
+    let length = walk.cycles.len();
+    let at = asked.at.unwrap_or(length);
+    if at > length {
+        return refuse(
+            400,
+            format!("cycle {at} is asked for; the walk has {length}"),
+        );
+    }
+    let held = held(bound, &asked.held)?;
+    Ok(view::view(bound, &walk, at, &held))
+}
+
+/// The timing diagram of a walk as an SVG file.
+///
+/// # Errors
+/// A request that makes no sense for this file.
+pub fn svg(explorer: &Explorer, body: &str) -> Result<String, Refusal> {
+    let asked: View = parsed(body)?;
+    let bound = system(explorer, &asked.system, &asked.hash)?;
+    Ok(view::svg(bound, &walked(bound, &asked.path)?))
+}
+
+/// The answer to a run request.
+///
+/// # Errors
+/// A request that makes no sense for this file; another exploration is running.
+pub fn run(explorer: &Explorer, body: &str) -> Result<Value, Refusal> {
+    let asked: Run = parsed(body)?;
+    let bound = system(explorer, &asked.system, &asked.hash)?;
+    let mut properties = bound.system.properties.iter();
+    let Some(property) = properties.position(|p| label(p) == asked.property) else {
+        return refuse(404, format!("there is no property `{}`", asked.property));
+    };
+    let _alone = alone(explorer)?;
+    let jump = match jump(bound, property, explorer.bounds) {
+        Ok(jump) => jump,
+        Err(e) => return refuse(400, format!("the system cannot be explored: {e}")),
+    };
+    Ok(json!({
+        "property": asked.property, "verdict": verdict_name(jump.verdict), "text": jump.text,
+        "path": jump.path.map(|p| p.to_string()), "other": jump.other.map(|p| p.to_string()),
+    }))
+}
+
+/// The control states of the machines of a system.
+///
+/// # Errors
+/// A request that makes no sense for this file; another exploration is running.
+pub fn control(explorer: &Explorer, body: &str) -> Result<Value, Refusal> {
+    let asked: Whole = parsed(body)?;
+    let bound = system(explorer, &asked.system, &asked.hash)?;
+    let _alone = alone(explorer)?;
+    let mut graphs = Vec::new();
+    for (number, instance) in bound.system.instances.iter().enumerate() {
+        match crate::control::control(bound, number, &options(explorer.bounds)) {
+            Ok(None) => {}
+            Ok(Some(graph)) => graphs.push(json!({ "machine": instance.name, "svg": graph.svg() })),
+            Err(e) => return refuse(400, format!("the system cannot be explored: {e}")),
+        }
+    }
+    Ok(json!({ "graphs": graphs }))
+}
+
+/// The right to explore, which one request has at a time.
+fn alone(explorer: &Explorer) -> Result<MutexGuard<'_, ()>, Refusal> {
+    match explorer.exploring.try_lock() {
+        Ok(guard) => Ok(guard),
+        Err(TryLockError::Poisoned(guard)) => Ok(guard.into_inner()),
+        Err(TryLockError::WouldBlock) => {
+            refuse(503, "another exploration is running; try again after it")
+        }
+    }
+}
+
+fn system<'a>(explorer: &'a Explorer, name: &str, hash: &str) -> Result<&'a Bound, Refusal> {
+    let Some((task, _, own)) = explorer.systems().find(|(_, known, _)| *known == name) else {
+        let known: Vec<&str> = explorer.systems().map(|(_, name, _)| name).collect();
+        return refuse(
+            404,
+            format!(
+                "there is no system `{name}`; this file has {}",
+                known.join(", ")
+            ),
+        );
+    };
+    if own != hash {
+        return refuse(
+            409,
+            format!(
+                "the link was made for another specification, with the hash {hash}; this one has {own}"
+            ),
+        );
+    }
+    Ok(&task.bound)
+}
+
+fn walked(bound: &Bound, path: &str) -> Result<Walk, Refusal> {
+    let path = Path::parse(path).and_then(|path| walk(bound, &path));
+    path.or_else(|reason| refuse(400, reason))
+}
+
+fn held(bound: &Bound, text: &str) -> Result<Vec<(u32, u32)>, Refusal> {
+    let mut out: Vec<(u32, u32)> = Vec::new();
+    for one in text.split('!').filter(|one| !one.is_empty()) {
+        let pair = one
+            .split_once('=')
+            .and_then(|(k, v)| Some((k.parse::<u32>().ok()?, v.parse::<u32>().ok()?)));
+        let Some((input, value)) = pair else {
+            return refuse(
+                400,
+                "an input to be held is written as its number, `=` and a value",
+            );
+        };
+        match size(bound, input) {
+            None => return refuse(400, format!("there is no input number {input} to be held")),
+            Some(size) if value >= size => {
+                return refuse(
+                    400,
+                    format!(
+                        "value {value} of input number {input}; it has the values 0 to {}",
+                        size.saturating_sub(1)
+                    ),
+                );
+            }
+            Some(_) if out.iter().any(|(k, _)| *k == input) => {
+                return refuse(400, format!("input number {input} is held twice"));
+            }
+            Some(_) => out.push((input, value)),
+        }
+    }
+    Ok(out)
+}

@@ -1,0 +1,7 @@
+//! `stillpoint explore`: the interface over HTTP, and the page in a browser.
+
+mod agreement;
+mod api;
+mod chromium;
+mod page;
+mod served;
