@@ -53,7 +53,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     text.push_str(&simulation.summary());
     if !arguments.brief {
         text.push('\n');
-        text.push_str(&diagram.text());
+        text.push_str(&simulation.text());
     }
     emit(&text);
     Ok(u8::from(!simulation.holds()))

@@ -20,7 +20,7 @@ use serde::Deserialize;
 use stillpoint_spec::diag::{Diagnostic, Diagnostics, Result, nearest};
 use stillpoint_spec::read_text;
 
-use super::{Kind, Recording, Signal, Value};
+use super::{Kind, Recording, Target, Value};
 
 /// Which column is the clock of the table.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -167,16 +167,6 @@ fn quoted(text: &str) -> String {
 struct Cell {
     text: String,
     at: Range<usize>,
-}
-
-/// What a table is read as: the machine, the length of its cycle, and the signals that it may have.
-pub struct Target<'a> {
-    /// The machine.
-    pub machine: &'a str,
-    /// The length of a cycle in microseconds.
-    pub cycle_us: u64,
-    /// The signals.
-    pub signals: &'a [Signal],
 }
 
 /// Reads a table; `name` names the file in messages. Commas or semicolons separate the cells, as the heading does.

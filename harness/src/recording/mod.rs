@@ -9,12 +9,58 @@ pub mod vocabulary;
 
 use std::borrow::Cow;
 use std::fmt;
+use std::path::Path;
+use std::sync::Arc;
+
+use stillpoint_spec::diag::{Diagnostic, Diagnostics, nearest};
 
 /// The name of the format, in the first line of a file.
 pub const FORMAT: &str = "stillpoint-trace";
 
 /// The version of the format.
 pub const VERSION: u64 = 1;
+
+/// No recording of a test run is that long; a longer one is a mistake.
+const LONGEST: u64 = 1 << 30;
+
+/// Reads the text of a recording.
+///
+/// # Errors
+/// Not there, not readable, not a regular file, longer than 1 GiB, not UTF-8.
+pub fn read_file(path: &Path) -> stillpoint_spec::diag::Result<Arc<str>> {
+    let fail = |message: String, help: &str| {
+        let name = path.display().to_string();
+        Diagnostics::from(Diagnostic::new(&name, &Arc::from(""), None, message).help(help))
+    };
+    let cannot = |e: std::io::Error| {
+        fail(
+            format!("cannot read this recording: {e}"),
+            "check the path and the permissions",
+        )
+    };
+    let meta = std::fs::metadata(path).map_err(cannot)?;
+    if !meta.is_file() {
+        return Err(fail(
+            "this is not a regular file".to_owned(),
+            "name a recording (NDJSON or CSV)",
+        ));
+    }
+    if meta.len() > LONGEST {
+        return Err(fail(
+            format!("{} bytes are too long for a recording", meta.len()),
+            "at most 1 GiB is read; cut the recording",
+        ));
+    }
+    let bytes = std::fs::read(path).map_err(cannot)?;
+    let text = String::from_utf8(bytes).map_err(|e| {
+        let at = e.utf8_error().valid_up_to();
+        fail(
+            format!("the file is not UTF-8 at offset {at}"),
+            "save it as UTF-8",
+        )
+    })?;
+    Ok(text.trim_start_matches('\u{feff}').into())
+}
 
 /// A value of a signal in a cycle.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -112,6 +158,59 @@ pub struct Signal {
     pub unit: String,
     /// What it is to the monitors.
     pub role: Role,
+}
+
+/// The machine that a recording must be of.
+#[derive(Debug, Clone, Copy)]
+pub struct Target<'a> {
+    /// Its name.
+    pub machine: &'a str,
+    /// The length of its cycle in microseconds.
+    pub cycle_us: u64,
+    /// Its signals.
+    pub signals: &'a [Signal],
+}
+
+impl Target<'_> {
+    /// Why a signal is none of this machine, with a fix. What no monitor reads or writes may be anything.
+    pub fn refuses(&self, signal: &Signal) -> Option<(String, String)> {
+        if signal.role == Role::Plant {
+            return None;
+        }
+        let Some(known) = self.signals.iter().find(|s| s.name == signal.name) else {
+            let names = self.signals.iter().filter(|s| s.role == signal.role);
+            let help = match nearest(&signal.name, names.map(|s| s.name.as_str())) {
+                Some(near) => {
+                    format!("did you mean \"{near}\"? A signal of its own has the role plant")
+                }
+                None => {
+                    "signals are named AXIS.CHANNEL.NAME; a signal of its own has the role plant"
+                        .to_owned()
+                }
+            };
+            let role = signal.role.keyword();
+            return Some((
+                format!("{} has no {role} \"{}\"", self.machine, signal.name),
+                help,
+            ));
+        };
+        (known != signal).then(|| {
+            let shown = |s: &Signal| {
+                let unit = if s.unit.is_empty() {
+                    String::new()
+                } else {
+                    format!(" in {}", s.unit)
+                };
+                format!("{} {}{unit}", s.role.keyword(), s.kind.keyword())
+            };
+            let message = format!(
+                "the signal \"{}\" is declared as {}",
+                signal.name,
+                shown(signal)
+            );
+            (message, format!("it is {}", shown(known)))
+        })
+    }
 }
 
 /// The signals of a machine over consecutive cycles.

@@ -11,7 +11,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 use stillpoint_spec::diag::{Diagnostic, Diagnostics, Result};
 
-use super::{FORMAT, Kind, Recording, Role, Signal, VERSION, Value};
+use super::{FORMAT, Kind, Recording, Role, Signal, Target, VERSION, Value};
 
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -93,12 +93,12 @@ fn to_json(value: &Value) -> serde_json::Value {
 /// Cycles that a recording may have: a few bytes of a line may stand for many.
 const MOST_CYCLES: u64 = 2_000_000;
 
-/// Reads a recording; `name` names the file in messages.
+/// Reads a recording of the machine `target`; `name` names the file in messages.
 ///
 /// # Errors
 /// The first thing that is wrong, with line, column and a fix.
-pub fn read(name: &str, text: &Arc<str>) -> Result<Recording> {
-    let reader = Reader { name, text };
+pub fn read(name: &str, text: &Arc<str>, target: &Target<'_>) -> Result<Recording> {
+    let reader = Reader { name, text, target };
     let mut lines = reader.lines();
     let (start, first) = lines.next().ok_or_else(|| {
         reader.fail(
@@ -172,6 +172,7 @@ fn of_json(value: &serde_json::Value, kind: Kind) -> Option<Value> {
 struct Reader<'a> {
     name: &'a str,
     text: &'a Arc<str>,
+    target: &'a Target<'a>,
 }
 
 impl<'a> Reader<'a> {
@@ -232,9 +233,22 @@ impl<'a> Reader<'a> {
             let message = format!("the version of the format is {}", header.version);
             return wrong("version", message, format!("this reads version {VERSION}"));
         }
-        if !(1..=25_000).contains(&header.cycle_us) {
-            let message = format!("a cycle of {} us is not possible", header.cycle_us);
-            return wrong("cycle_us", message, "allowed: 1 to 25000 us".to_owned());
+        let target = self.target;
+        if header.machine != target.machine {
+            let message = format!("this is a recording of the machine \"{}\"", header.machine);
+            return wrong(
+                "machine",
+                message,
+                format!("give its machine file; this one is of {}", target.machine),
+            );
+        }
+        if header.cycle_us != target.cycle_us {
+            let message = format!("the recording has cycles of {} us", header.cycle_us);
+            let help = format!(
+                "the machine file has cycles of {} us; both must be the same",
+                target.cycle_us
+            );
+            return wrong("cycle_us", message, help);
         }
         let mut signals: Vec<Signal> = Vec::new();
         for declared in header.signals {
@@ -254,12 +268,16 @@ impl<'a> Reader<'a> {
                 let help = "allowed: kind bool, int, text; role input, output, plant".to_owned();
                 return wrong(&declared.name, message, help);
             };
-            signals.push(Signal {
+            let signal = Signal {
                 name: declared.name,
                 kind,
                 unit: declared.unit,
                 role,
-            });
+            };
+            if let Some((message, help)) = target.refuses(&signal) {
+                return wrong(&signal.name, message, help);
+            }
+            signals.push(signal);
         }
         Ok(Recording {
             machine: header.machine,

@@ -48,9 +48,9 @@ impl Drive {
     pub const fn keyword(self) -> &'static str {
         match self {
             Self::Follow => "FOLLOW",
-            Self::Path => "BRAKE_ON_PATH",
-            Self::CurrentLimit => "BRAKE_AT_CURRENT_LIMIT",
-            Self::Coast => "NO_TORQUE",
+            Self::Path => "BRAKE_PATH",
+            Self::CurrentLimit => "BRAKE_MAX",
+            Self::Coast => "COAST",
         }
     }
 }

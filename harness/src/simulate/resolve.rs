@@ -190,11 +190,12 @@ impl Resolver<'_> {
             Round::Down => us / cycle,
         };
         if cycles * cycle != us {
-            self.roundings.push(format!(
-                "{key} = \"{}\" is cycle {cycles}, {}",
-                text.get_ref(),
-                time(cycles.saturating_mul(cycle))
-            ));
+            let way = if round == Round::Up { "up" } else { "down" };
+            let shown = time(cycles.saturating_mul(cycle));
+            let note = format!("{key} {} {way} to {shown} (cycle {cycles})", text.get_ref());
+            if !self.roundings.contains(&note) {
+                self.roundings.push(note);
+            }
         }
         Some(u32::try_from(cycles).unwrap_or(u32::MAX))
     }

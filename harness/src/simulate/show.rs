@@ -44,7 +44,12 @@ impl Simulation {
             self.lanes(axis, &mut lanes);
         }
         let mut marks: Vec<Mark> = Vec::new();
-        for stop in &self.stops {
+        let shown = |name: &str| {
+            panels
+                .iter()
+                .any(|p: &Panel| p.name == format!("speed of {name}"))
+        };
+        for stop in self.stops.iter().filter(|stop| shown(&stop.axis)) {
             let text = format!("{}: STOP {}, {}", stop.axis, stop.letter, stop.reason);
             let column = usize::try_from(stop.cycle).unwrap_or(usize::MAX);
             marks.push(Mark {
@@ -78,13 +83,21 @@ impl Simulation {
         }
     }
 
-    /// Whether the axis moves, stops or is expected to: another one says nothing here.
+    /// The diagram for a terminal: without the curves, which change in every cycle and would leave nothing to fold.
+    pub fn text(&self) -> String {
+        let mut diagram = self.diagram();
+        diagram.panels.clear();
+        diagram.text()
+    }
+
+    /// Whether the axis moves, or stops in a simulation in which none moves: another one says nothing here.
     fn is_concerned(&self, axis: &Shown) -> bool {
-        let speeds = numbers(
-            &self.recording,
-            &format!("{}.{}", axis.name, vocabulary::VELOCITY),
-        );
-        speeds.iter().any(|s| *s != 0) || self.stops.iter().any(|s| s.axis == axis.name)
+        let moves = |name: &str| {
+            let speeds = numbers(&self.recording, &format!("{name}.{}", vocabulary::VELOCITY));
+            speeds.iter().any(|s| *s != 0)
+        };
+        let stops = || self.stops.iter().any(|s| s.axis == axis.name);
+        moves(&axis.name) || (stops() && !self.axes.iter().any(|a| moves(&a.name)))
     }
 
     /// The values of `axis.name`, scaled.
@@ -150,7 +163,7 @@ impl Simulation {
             add("SG limit", Role::Upper, limited(1.0));
         }
         if backwards {
-            add("SG limit, backwards", Role::Lower, limited(-1.0));
+            add("SG backwards", Role::Lower, limited(-1.0));
         }
         Panel {
             name: format!("speed of {}", axis.name),
@@ -203,15 +216,15 @@ impl Simulation {
                 });
             }
         };
-        add("SBH window", Role::Upper, window(1.0));
-        add("SBH window, lower end", Role::Lower, window(-1.0));
+        add("SBH upper end", Role::Upper, window(1.0));
+        add("SBH lower end", Role::Lower, window(-1.0));
         add(
-            "SE, upper",
+            "SE upper end",
             Role::Upper,
             self.limit(axis, axis.plus, &actual),
         );
         add(
-            "SE, lower",
+            "SE lower end",
             Role::Lower,
             self.limit(axis, axis.minus, &actual),
         );
@@ -250,7 +263,14 @@ impl Simulation {
     fn lanes(&self, axis: &Shown, lanes: &mut Vec<Lane>) {
         for event in ["power_on", "referenced", "set_agreement", "reset"] {
             let name = format!("{}.nck.{event}", axis.name);
-            lanes.extend(self.lane(&axis.name, event, &[&name]));
+            // Power-on in the first cycle only is where every recording begins.
+            let later = self.recording.find(&name).is_some_and(|signal| {
+                let mut values = self.recording.column(signal).skip(1);
+                values.any(|v| v == Some(&Value::Bool(true)))
+            });
+            if later {
+                lanes.extend(self.lane(&axis.name, event, &[&name]));
+            }
         }
         for input in vocabulary::inputs().iter().filter(|i| i.kind == Kind::Bool) {
             let names = vocabulary::CHANNELS.map(|c| format!("{}.{c}.{}", axis.name, input.name));
@@ -356,8 +376,8 @@ impl Simulation {
             };
             let _ = writeln!(out, "{verdict}  {}{found}", judged.text);
         }
-        for rounding in &self.roundings {
-            let _ = writeln!(out, "rounded: {rounding}");
+        if !self.roundings.is_empty() {
+            let _ = writeln!(out, "times in whole cycles: {}", self.roundings.join(", "));
         }
         out
     }

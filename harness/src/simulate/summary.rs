@@ -49,7 +49,8 @@ pub struct Stop {
     pub reason: String,
     /// The speed in that cycle, in thousandths of an increment per cycle, with its sign.
     pub speed: i64,
-    /// The cycle from which the axis stands, until the next stop of the axis or the end; none: it does not stand by then.
+    /// The cycle from which the axis stands until its stops are acknowledged or the simulation ends; none: it does not stand
+    /// by then.
     pub stands: Option<u64>,
     /// How far the axis went from that cycle on until it stood, at most, in thousandths of an increment.
     pub travel: i64,
@@ -151,10 +152,14 @@ fn stops_of(axis: &Axis, recording: &Recording) -> Vec<Stop> {
         .filter(|k| rank(higher(*k)) > 0 && (*k == 0 || higher(*k) != higher(k - 1)))
         .collect();
     let mut out = Vec::new();
-    for (n, row) in changes.iter().copied().enumerate() {
+    for row in changes.iter().copied() {
         let letter = higher(row);
-        let end = changes.get(n + 1).copied().unwrap_or(recording.rows.len());
-        let stands = (row..end).find(|k| speeds[*k..end].iter().all(|s| *s == 0));
+        // Until the stops are acknowledged; a higher stop that follows belongs to the same way to standstill.
+        let end = (row..recording.rows.len()).find(|k| rank(higher(*k)) == 0);
+        let end = end.unwrap_or(recording.rows.len());
+        // It stands once it stands until something else happens to it, or for good.
+        let next = |k: usize| changes.iter().copied().find(|c| *c > k).unwrap_or(end).min(end);
+        let stands = (row..end).find(|k| speeds[*k..next(*k)].iter().all(|s| *s == 0));
         let until = stands.map_or(end, |k| k + 1);
         let travel = positions[row..until]
             .iter()
@@ -232,6 +237,10 @@ fn reason(recording: &Recording, axis: &str, channel: &str, row: usize) -> Strin
         .or_else(|| of("27011", "300914", "speed limit exceeded"))
         .or_else(|| of("27012", "300915", "limit position passed"))
         .or_else(|| of("27001", "300911", &format!("cross comparison{code}")))
+        .or_else(|| {
+            let started = value("spl_started") != Some(Value::Bool(false));
+            (!started && stop == "A").then(|| "the safe logic has not been started".to_owned())
+        })
         .or_else(|| (text("stop_external") == stop).then(|| "asked for by a signal".to_owned()))
         .or_else(|| {
             let before = row.checked_sub(1)?;

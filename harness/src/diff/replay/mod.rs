@@ -99,7 +99,11 @@ struct Column {
 ///
 /// # Errors
 /// A sentence: no production monitors, nothing to replay, tables and monitors that do not fit each other.
-pub fn replay(machine: &Machine, recording: &Recording, tolerance: u32) -> Result<Replayed, String> {
+pub fn replay(
+    machine: &Machine,
+    recording: &Recording,
+    tolerance: u32,
+) -> Result<Replayed, String> {
     let produced = production::axes(machine)?;
     let mut axes = Vec::new();
     let mut columns = Vec::new();
@@ -175,11 +179,16 @@ impl<'a> Recorded<'a> {
     fn new(recording: &'a Recording, name: &str) -> Self {
         let place = |side: usize, signal: &str, role: Role| {
             let full = format!("{name}.{}.{signal}", vocabulary::CHANNELS[side]);
-            recording.find(&full).filter(|k| recording.signals[*k].role == role)
+            recording
+                .find(&full)
+                .filter(|k| recording.signals[*k].role == role)
         };
-        let inputs = vocabulary::inputs()
-            .into_iter()
-            .map(|input| (input, [0, 1].map(|side| place(side, input.name, Role::Input))));
+        let inputs = vocabulary::inputs().into_iter().map(|input| {
+            (
+                input,
+                [0, 1].map(|side| place(side, input.name, Role::Input)),
+            )
+        });
         let mut outputs = Vec::new();
         for side in 0..2 {
             for output in vocabulary::outputs() {
@@ -204,7 +213,10 @@ impl<'a> Recorded<'a> {
     }
 
     fn missing(&self) -> Vec<String> {
-        let none = self.inputs.iter().filter(|(_, places)| *places == [None, None]);
+        let none = self
+            .inputs
+            .iter()
+            .filter(|(_, places)| *places == [None, None]);
         none.map(|(input, _)| input.name.to_owned()).collect()
     }
 
@@ -253,8 +265,14 @@ impl<'a> Recorded<'a> {
             against,
             values: Vec::new(),
         };
-        let monitors = self.outputs.iter().map(|(.., k)| column(*k, Against::Monitors));
-        let specified = self.outputs.iter().map(|(.., k)| column(*k, Against::Specification));
+        let monitors = self
+            .outputs
+            .iter()
+            .map(|(.., k)| column(*k, Against::Monitors));
+        let specified = self
+            .outputs
+            .iter()
+            .map(|(.., k)| column(*k, Against::Specification));
         let (mut monitors, mut specified): (Vec<Column>, Vec<Column>) =
             (monitors.collect(), specified.collect());
         for row in 0..self.recording.rows.len() {
@@ -283,7 +301,11 @@ impl<'a> Recorded<'a> {
     }
 }
 
-fn side_of<'a>(inputs: &'a Inputs, outputs: &'a Outputs, side: usize) -> (&'a Local, &'a axis::Outputs) {
+fn side_of<'a>(
+    inputs: &'a Inputs,
+    outputs: &'a Outputs,
+    side: usize,
+) -> (&'a Local, &'a axis::Outputs) {
     match side {
         0 => (&inputs.nck, &outputs.nck),
         _ => (&inputs.drive, &outputs.drive),

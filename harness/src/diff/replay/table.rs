@@ -65,11 +65,21 @@ impl Tables {
     }
 
     /// One cycle of both channels: the states of the monitors before and after it, what they saw and said.
-    pub(super) fn step(&mut self, before: &State, after: &State, inputs: &Inputs, outputs: &Outputs) {
+    pub(super) fn step(
+        &mut self,
+        before: &State,
+        after: &State,
+        inputs: &Inputs,
+        outputs: &Outputs,
+    ) {
         let Some(bound) = &self.bound else { return };
         // The names of its ports come from the monitor's side of the pairing.
-        let Ok(Some(peer)) = peer::peer("axis_core", bound, None) else { return };
-        let Ok(product) = Product::new(bound, peer.as_ref()) else { return };
+        let Ok(Some(peer)) = peer::peer("axis_core", bound, None) else {
+            return;
+        };
+        let Ok(product) = Product::new(bound, peer.as_ref()) else {
+            return;
+        };
         let mut work = product.new_work();
         for (side, channel) in self.channels.iter_mut().enumerate() {
             let (local, own) = side_of(inputs, outputs, side);
@@ -87,7 +97,10 @@ impl Tables {
             if fresh && !starts(&self.configuration, local, &fed, state) {
                 continue;
             }
-            let mut cells = channel.cells.take().unwrap_or_else(|| product.start(&mut |_| 0));
+            let mut cells = channel
+                .cells
+                .take()
+                .unwrap_or_else(|| product.start(&mut |_| 0));
             let power_on = fresh || local.power_on;
             work.set_inputs(&numbers(bound, &fed, power_on));
             if product.step(&mut work, &mut cells).is_ok() {
@@ -138,7 +151,14 @@ impl Tables {
 
 /// The names of the recording in the order of the tables' enumerations.
 const LEVELS: [&str; 8] = ["NONE", "F", "E", "D", "C", "TEST", "B", "A"];
-const PHASES: [&str; 6] = ["IDLE", "BRAKING", "SBH_INT", "B_BRAKING", "PULSES_OFF", "TESTING"];
+const PHASES: [&str; 6] = [
+    "IDLE",
+    "BRAKING",
+    "SBH_INT",
+    "B_BRAKING",
+    "PULSES_OFF",
+    "TESTING",
+];
 const MODES: [&str; 6] = ["NSB", "SG", "SG_DOWN", "SBH_PEND", "SBH", "SBH_FORCED"];
 
 /// Whether the system describes what a channel does in this cycle. It leaves out the time before run-up, parking, errors of
@@ -154,7 +174,12 @@ fn applies(local: &Local) -> bool {
 }
 
 /// Whether the table can begin here: the channel is in the state in which power-on in this cycle would leave it.
-fn starts(config: &channel::Config, local: &Local, fed: &channel::Inputs, after: &channel::State) -> bool {
+fn starts(
+    config: &channel::Config,
+    local: &Local,
+    fed: &channel::Inputs,
+    after: &channel::State,
+) -> bool {
     if local.power_on {
         return true;
     }
@@ -234,7 +259,10 @@ fn numbers(bound: &Bound, fed: &channel::Inputs, power_on: bool) -> Vec<i32> {
     let inputs = bound.system.inputs.iter().zip(&bound.inputs);
     inputs
         .map(|(input, (lo, hi))| {
-            let short = input.name.split_once('.').map_or(input.name.as_str(), |(_, n)| n);
+            let short = input
+                .name
+                .split_once('.')
+                .map_or(input.name.as_str(), |(_, n)| n);
             value(short).clamp(*lo, *hi)
         })
         .collect()
@@ -251,7 +279,8 @@ fn bound(file: &Path, produced: &Produced) -> Result<Bound, String> {
     let mut set = |name: &str, value: i64| {
         given.insert(name.to_owned(), vec![value]);
     };
-    let shifted = |value: i32| (i64::from(value) + SHIFT).clamp(i64::from(-i32::MAX), i64::from(i32::MAX));
+    let shifted =
+        |value: i32| (i64::from(value) + SHIFT).clamp(i64::from(-i32::MAX), i64::from(i32::MAX));
     let speed = |limit: u32| i64::from(limit).min(i64::from(i32::MAX));
     for (name, value) in [
         ("pos_max", POS_MAX),
@@ -290,7 +319,10 @@ fn bound(file: &Path, produced: &Produced) -> Result<Bound, String> {
     }
     for k in 0..4 {
         set(&format!("limit_{}", k + 1), speed(words.velo_limit[k].0));
-        set(&format!("reaction_{}", k + 1), i64::from(p.velo_stop_reaction[k] % 10));
+        set(
+            &format!("reaction_{}", k + 1),
+            i64::from(p.velo_stop_reaction[k] % 10),
+        );
     }
     for k in 0..2 {
         set(&format!("plus_{}", k + 1), shifted(p.pos_limit_plus[k]));
