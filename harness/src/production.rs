@@ -9,7 +9,7 @@ use stillpoint_spec::machine::{Axis, AxisKind, Machine};
 pub const FAMILY: &str = "sinumerik-840d";
 
 /// The enable bits of the functions, by their names in a machine file (MD36901 / MD1301).
-const FUNCTIONS: [(&str, u32); 15] = [
+pub const FUNCTIONS: [(&str, u32); 15] = [
     ("SBH/SG", 0),
     ("SE", 1),
     ("slip sync", 3),

@@ -154,6 +154,10 @@ fn replay(arguments: &Arguments, trace: &Path) -> Result<u8, Failure> {
             };
             csv::read(&name, &text, &columns, &target)?
         }
+        // A table whose headings are the names of signals needs no map.
+        None if !text.starts_with('{') => {
+            csv::read(&name, &text, &Columns::by_name(&text, &target), &target)?
+        }
         None => ndjson::read(&name, &text, &target)?,
     };
     let replayed =

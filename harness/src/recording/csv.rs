@@ -93,6 +93,26 @@ impl Columns {
         })
     }
 
+    /// The columns of a table whose headings are the names of signals, as `simulate --csv` writes it.
+    pub fn by_name(text: &str, target: &Target<'_>) -> Self {
+        let first = text.lines().next().unwrap_or("");
+        let heading = cells(first, separator(first)).unwrap_or_default();
+        let heading: Vec<String> = heading
+            .into_iter()
+            .flatten()
+            .map(|cell| cell.text)
+            .collect();
+        let has = |name: &str| heading.iter().any(|h| h == name);
+        let known = target.signals.iter().filter(|s| has(&s.name));
+        Self {
+            clock: match has("cycle") {
+                true => Clock::Cycle("cycle".to_owned()),
+                false => Clock::Rows,
+            },
+            signals: known.map(|s| (s.name.clone(), s.name.clone())).collect(),
+        }
+    }
+
     /// Reads `SIGNAL=HEADING,...` of the command line.
     ///
     /// # Errors
@@ -180,15 +200,10 @@ pub fn read(
     target: &Target<'_>,
 ) -> Result<Recording> {
     let fail = |at: Range<usize>, message: String, help: String| {
-        Diagnostics::from(
-            Diagnostic::new(name, text, Some(at), message)
-                .label("here")
-                .help(help),
-        )
+        super::wrong(name, text, at, &message, &help)
     };
     let first = text.lines().next().unwrap_or("");
-    let separator = if first.contains(';') { ';' } else { ',' };
-    let mut rows = cells(text, separator)
+    let mut rows = cells(text, separator(first))
         .map_err(|at| {
             fail(
                 at,
@@ -381,6 +396,11 @@ fn value_of(text: &str, kind: Kind) -> std::result::Result<Option<Value>, &'stat
         },
         Kind::Text => Ok(Some(Value::Text(text.to_owned().into()))),
     }
+}
+
+/// What separates the cells of a table with this heading.
+fn separator(heading: &str) -> char {
+    if heading.contains(';') { ';' } else { ',' }
 }
 
 /// The cells of all rows (RFC 4180); the place of a quotation mark that is not closed.

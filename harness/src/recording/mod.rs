@@ -9,6 +9,7 @@ pub mod vocabulary;
 
 use std::borrow::Cow;
 use std::fmt;
+use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -60,6 +61,18 @@ pub fn read_file(path: &Path) -> stillpoint_spec::diag::Result<Arc<str>> {
         )
     })?;
     Ok(text.trim_start_matches('\u{feff}').into())
+}
+
+/// What is wrong at a place of a recording. The place stands in the message: its lines are too long to be printed.
+fn wrong(name: &str, text: &Arc<str>, at: Range<usize>, message: &str, help: &str) -> Diagnostics {
+    let place = Diagnostic::new(name, text, Some(at), "");
+    let file = match place.position() {
+        Some((line, column)) => format!("{name}:{line}:{column}"),
+        None => name.to_owned(),
+    };
+    Diagnostic::new(&file, &Arc::from(""), None, message)
+        .help(help)
+        .into()
 }
 
 /// A value of a signal in a cycle.

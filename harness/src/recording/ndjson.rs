@@ -9,7 +9,7 @@ use std::io;
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
-use stillpoint_spec::diag::{Diagnostic, Diagnostics, Result};
+use stillpoint_spec::diag::{Diagnostics, Result};
 
 use super::{FORMAT, Kind, Recording, Role, Signal, Target, VERSION, Value};
 
@@ -188,10 +188,7 @@ impl<'a> Reader<'a> {
     }
 
     fn fail(&self, at: std::ops::Range<usize>, message: &str, help: &str) -> Diagnostics {
-        Diagnostic::new(self.name, self.text, Some(at), message)
-            .label("here")
-            .help(help)
-            .into()
+        super::wrong(self.name, self.text, at, message, help)
     }
 
     /// Where a name stands in a line, else the line.

@@ -90,11 +90,12 @@ impl Plant {
         };
         let way = target - self.position;
         let rate = self.mechanics.acceleration;
-        // The speed from which the way suffices to brake in steps of a cycle: v * (v + rate) / (2 * rate) <= way.
+        let rate = i128::from(rate);
+        // The greatest speed from which the steps v, v - rate, v - 2 rate ... are not longer than the way: after q whole
+        // rates it is (way + rate * q * (q + 1) / 2) / (q + 1).
         let size = i128::from(way.abs());
-        let root = (size * 8 * i128::from(rate) + i128::from(rate) * i128::from(rate)).isqrt();
-        let braking = (root - i128::from(rate)) / 2;
-        let limit = braking.max(i128::from(rate)).min(size);
+        let whole = ((1 + 8 * size / rate).isqrt() - 1) / 2;
+        let limit = (size + rate * whole * (whole + 1) / 2) / (whole + 1);
         let speed = i64::try_from(limit).unwrap_or(i64::MAX);
         speed.min(self.setpoint.speed.abs()) * way.signum()
     }

@@ -158,7 +158,14 @@ fn stops_of(axis: &Axis, recording: &Recording) -> Vec<Stop> {
         let end = (row..recording.rows.len()).find(|k| rank(higher(*k)) == 0);
         let end = end.unwrap_or(recording.rows.len());
         // It stands once it stands until something else happens to it, or for good.
-        let next = |k: usize| changes.iter().copied().find(|c| *c > k).unwrap_or(end).min(end);
+        let next = |k: usize| {
+            changes
+                .iter()
+                .copied()
+                .find(|c| *c > k)
+                .unwrap_or(end)
+                .min(end)
+        };
         let stands = (row..end).find(|k| speeds[*k..next(*k)].iter().all(|s| *s == 0));
         let until = stands.map_or(end, |k| k + 1);
         let travel = positions[row..until]
