@@ -6,6 +6,7 @@
 pub mod atomic;
 pub mod certificate;
 pub mod check;
+pub mod control;
 pub mod diff;
 pub mod engine;
 pub mod export;

@@ -17,7 +17,7 @@ use super::cluster::ClusterOptions;
 use super::limits::LimitOptions;
 use super::progress::Line;
 use super::values;
-use super::{Failure, emit};
+use super::{Failure, emit, show};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -96,7 +96,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let fail =
         |(title, e): (String, stillpoint_model::Error)| Failure::Other(format!("{title}: {e}"));
     let checked = check(&subject, &settings, &mut |task| {
-        Box::new(Line::new(&task.title))
+        Box::new(Line::new(&task.title, settings.memory))
     })
     .map_err(fail)?;
     if place.is_helper() {
@@ -118,7 +118,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
             &checked,
             &settings,
             &choice.chosen,
-            &mut |title| Box::new(Line::new(title)),
+            &mut |title| Box::new(Line::new(title, settings.memory)),
         )
         .map_err(|e| match e {
             stillpoint::readings::Failed::Input(d) => Failure::Input(d),
@@ -141,7 +141,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         }
         emit(&format!("{json:#}\n"));
     } else {
-        emit(&report::text(&subject, &checked, &summaries));
+        show(&report::text(&subject, &checked, &summaries));
         emit(&report::further(&checked, &settings));
         if let Some(compared) = &compared {
             emit(&stillpoint::readings::text(compared));
@@ -149,7 +149,10 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     }
     // The report is out by now: it is not lost if the disk is full.
     if let Some(path) = &arguments.certificate {
-        certificate::certify(path, &subject, &checked, settings.threads).map_err(Failure::Other)?;
+        let line = Line::new("certificate", None);
+        let progress = |done: usize, of: usize| line.share(done as u64, of as u64, "systems");
+        certificate::certify(path, &subject, &checked, settings.threads, &progress)
+            .map_err(Failure::Other)?;
     }
     Ok(status)
 }

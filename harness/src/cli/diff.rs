@@ -17,7 +17,7 @@ use stillpoint_spec::machine;
 
 use super::limits::LimitOptions;
 use super::progress::Line;
-use super::{Failure, emit};
+use super::{Failure, emit, show};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -76,14 +76,20 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         )));
     }
     let compared = match arguments.random {
-        Some(cycles) => sample(
-            &pairings,
-            mutant,
-            cycles,
-            arguments.seed,
-            arguments.limits.threads,
-        )
-        .map_err(fail)?,
+        Some(cycles) => {
+            let line = Line::new("random runs", None);
+            let progress = |done: u64, of: u64| line.share(done, of, "cycles");
+            let threads = arguments.limits.threads;
+            sample(
+                &pairings,
+                mutant,
+                cycles,
+                arguments.seed,
+                threads,
+                &progress,
+            )
+            .map_err(fail)?
+        }
         None => explore(&pairings, mutant, &arguments.limits).map_err(fail)?,
     };
     let what = match arguments.random {
@@ -97,7 +103,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     if arguments.json {
         emit(&format!("{:#}\n", to_json(&compared, seed)));
     } else {
-        emit(&text(&compared, &what));
+        show(&text(&compared, &what));
     }
     Ok(if compared.iter().any(|c| c.divergence.is_some()) {
         1
@@ -124,7 +130,12 @@ fn explore(
             limits,
             ..Options::default()
         };
-        exhaustive(pairing, mutant, &options, &mut Line::new(&pairing.machine))
+        exhaustive(
+            pairing,
+            mutant,
+            &options,
+            &mut Line::new(&pairing.machine, given.memory),
+        )
     };
     let mut compared = Vec::new();
     for pairing in pairings {

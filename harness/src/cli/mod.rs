@@ -3,9 +3,11 @@
 mod certify;
 mod check;
 mod cluster;
+mod colour;
 mod diff;
 mod export;
 mod limits;
+mod manual;
 mod progress;
 mod simulate;
 mod trace;
@@ -17,6 +19,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+use miette::MietteHandlerOpts;
 use stillpoint::subject;
 use stillpoint_spec::diag::Diagnostics;
 
@@ -73,9 +76,31 @@ enum Command {
         /// Machine or specification file
         file: PathBuf,
     },
+    /// Print completions of commands and options for a shell
+    #[command(
+        after_help = "Examples:\n  stillpoint completions bash > ~/.local/share/bash-completion/completions/stillpoint\n  stillpoint completions zsh > ~/.zfunc/_stillpoint\n  stillpoint completions fish > ~/.config/fish/completions/stillpoint.fish"
+    )]
+    Completions {
+        /// The shell
+        shell: clap_complete::Shell,
+    },
+    /// Print the manual page, or write one for each command
+    #[command(
+        after_help = "Examples:\n  stillpoint man | man -l -\n  stillpoint man --output ~/.local/share/man/man1"
+    )]
+    Man {
+        /// Write stillpoint.1, stillpoint-check.1 and so on to this folder, which is made if it is missing
+        #[arg(long, value_name = "DIR")]
+        output: Option<PathBuf>,
+    },
 }
 
 pub fn main() -> ExitCode {
+    let painted = colour::on_stderr();
+    // Only the first hook counts, and there is no other.
+    let _ = miette::set_hook(Box::new(move |_| {
+        Box::new(MietteHandlerOpts::new().color(painted).build())
+    }));
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
         Err(e) => {
@@ -91,6 +116,8 @@ pub fn main() -> ExitCode {
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Trace(arguments) => trace::run(&arguments),
         Command::Validate { file } => validate(&file),
+        Command::Completions { shell } => manual::completions(shell),
+        Command::Man { output } => manual::pages(output.as_deref()),
     };
     ExitCode::from(status.unwrap_or_else(|failure| failure.show()))
 }
@@ -121,9 +148,25 @@ impl Failure {
                     eprintln!("{n} errors; nothing was run");
                 }
             }
-            Self::Other(message) => eprintln!("error: {message}"),
+            Self::Other(message) => complain(&format!("error: {message}")),
         }
         BAD_INPUT
+    }
+}
+
+/// One line on stderr that begins with what is the matter.
+fn complain(line: &str) {
+    match colour::on_stderr() {
+        true => eprintln!("{}", colour::paint(line)),
+        false => eprintln!("{line}"),
+    }
+}
+
+/// Writes a report to stdout, its verdicts painted where that is a terminal.
+fn show(report: &str) {
+    match colour::on_stdout() {
+        true => emit(&colour::paint(report)),
+        false => emit(report),
     }
 }
 
@@ -150,6 +193,6 @@ fn validate(file: &std::path::Path) -> Result<u8, Failure> {
             let _ = writeln!(out, "    abstraction: {item}");
         }
     }
-    emit(&out);
+    show(&out);
     Ok(0)
 }
