@@ -62,7 +62,10 @@ fn run(folder: &Folder, text: &str) -> Output {
 }
 
 fn run_for(folder: &Folder, duration: &str, text: &str) -> Output {
-    let file = folder.write("scenario.toml", &format!("duration = \"{duration}\"\n{text}"));
+    let file = folder.write(
+        "scenario.toml",
+        &format!("duration = \"{duration}\"\n{text}"),
+    );
     simulate(&file)
 }
 

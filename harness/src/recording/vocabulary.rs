@@ -30,7 +30,7 @@ pub const SETPOINT: &str = "Monitoring.VelocitySetpoint";
 #[derive(Clone, Copy)]
 enum Slot {
     Signal(Place),
-    Flag(fn(&mut Local) -> &mut bool),
+    Flag(Flag),
     Position(fn(&mut Local) -> &mut Position),
     Speed(fn(&mut Local) -> &mut Speed),
     Travelled,
@@ -75,7 +75,10 @@ impl Unit {
     }
 }
 
-const FLAGS: &[(&str, fn(&mut Local) -> &mut bool)] = &[
+/// The place of a flag among the inputs.
+type Flag = fn(&mut Local) -> &mut bool;
+
+const FLAGS: &[(&str, Flag)] = &[
     ("power_on", |l| &mut l.power_on),
     ("run_up", |l| &mut l.run_up),
     ("reset", |l| &mut l.reset),
@@ -100,7 +103,7 @@ pub fn inputs() -> Vec<Input> {
         unit: Unit::None,
         slot: Slot::Signal(*place),
     };
-    let flag = |(name, slot): &(&'static str, fn(&mut Local) -> &mut bool)| Input {
+    let flag = |(name, slot): &(&'static str, Flag)| Input {
         name,
         kind: Kind::Bool,
         unit: Unit::None,

@@ -17,7 +17,7 @@ use stillpoint_spec::machine::Machine;
 
 use crate::production::{self, Produced};
 use crate::recording::{Recording, Role, Value, vocabulary};
-use table::Tables;
+use table::{Basis, Tables};
 
 /// What has come of a replay.
 #[derive(Debug, Clone)]
@@ -112,7 +112,8 @@ pub fn replay(
         if !recorded.has_position() || recorded.outputs.is_empty() {
             continue;
         }
-        let tables = Tables::new(machine, k, produced)?;
+        let basis = Basis::new(machine, k, produced)?;
+        let tables = Tables::new(basis.as_ref(), produced)?;
         let (replayed, own) = recorded.replay(produced, tables);
         axes.push(replayed);
         columns.extend(own);
@@ -256,7 +257,7 @@ impl<'a> Recorded<'a> {
         State::restored(channel(0), channel(1))
     }
 
-    fn replay(&self, produced: &Produced, mut tables: Tables) -> (AxisReplayed, Vec<Column>) {
+    fn replay(&self, produced: &Produced, mut tables: Tables<'_>) -> (AxisReplayed, Vec<Column>) {
         let config = Config::new(produced.configuration);
         // The state is made here, and consistent; an initial one would be, too.
         let mut pair = Pair::resume(config, self.kept()).unwrap_or_else(|_| Pair::new(config));

@@ -11,8 +11,8 @@ use stillpoint_spec::bind::Bound;
 use stillpoint_spec::machine::Machine;
 
 use super::side_of;
-use crate::diff::peer;
-use crate::diff::product::Product;
+use crate::diff::peer::{self, Peer};
+use crate::diff::product::{Product, Work};
 use crate::production::Produced;
 use crate::recording::Value;
 
@@ -21,9 +21,37 @@ const SHIFT: i64 = 500_000_000;
 /// The greatest position of the tables.
 const POS_MAX: i64 = 1_000_000_000;
 
+/// The system of an axis with its parameters, and the monitor's side of the pairing, which names its ports.
+pub(super) struct Basis {
+    bound: Bound,
+    peer: Box<dyn Peer>,
+}
+
+impl Basis {
+    /// For the axis in place `k`; none if no run of it has such a system.
+    ///
+    /// # Errors
+    /// A sentence: the parameters do not fit the tables.
+    pub(super) fn new(
+        machine: &Machine,
+        k: usize,
+        produced: &Produced,
+    ) -> Result<Option<Self>, String> {
+        let axis = &machine.axes[k].name;
+        let mut runs = machine.runs.iter();
+        let Some(run) = runs.find(|r| r.system == "axis_core" && r.axes.contains(axis)) else {
+            return Ok(None);
+        };
+        let at = |e: String| format!("axis {axis}: {e}");
+        let bound = bound(&run.file, produced).map_err(at)?;
+        let peer = peer::peer("axis_core", &bound, None).map_err(at)?;
+        Ok(peer.map(|peer| Self { bound, peer }))
+    }
+}
+
 /// The tables of both channels.
-pub(super) struct Tables {
-    bound: Option<Bound>,
+pub(super) struct Tables<'a> {
+    basis: Option<(&'a Bound, Product<'a>, Work)>,
     configuration: channel::Config,
     channels: [Channel; 2],
     cycles: u64,
@@ -38,21 +66,22 @@ struct Channel {
     said: BTreeMap<&'static str, i64>,
 }
 
-impl Tables {
-    /// Tables for the axis in place `k`; none step if the family has no such system.
+impl<'a> Tables<'a> {
+    /// Tables at rest; none step without a system.
     ///
     /// # Errors
-    /// A sentence: the parameters do not fit the tables.
-    pub(super) fn new(machine: &Machine, k: usize, produced: &Produced) -> Result<Self, String> {
-        let axis = &machine.axes[k].name;
-        let of_axis = machine.runs.iter().filter(|run| run.axes.contains(axis));
-        let run = of_axis.into_iter().find(|run| run.system == "axis_core");
-        let bound = match run {
-            Some(run) => Some(bound(&run.file, produced).map_err(|e| format!("axis {axis}: {e}"))?),
+    /// A sentence: tables and monitors do not fit each other.
+    pub(super) fn new(basis: Option<&'a Basis>, produced: &Produced) -> Result<Self, String> {
+        let basis = match basis {
+            Some(Basis { bound, peer }) => {
+                let product = Product::new(bound, peer.as_ref())?;
+                let work = product.new_work();
+                Some((bound, product, work))
+            }
             None => None,
         };
         Ok(Self {
-            bound,
+            basis,
             configuration: *produced.configuration.channel(),
             channels: [Channel::default(), Channel::default()],
             cycles: 0,
@@ -72,15 +101,9 @@ impl Tables {
         inputs: &Inputs,
         outputs: &Outputs,
     ) {
-        let Some(bound) = &self.bound else { return };
-        // The names of its ports come from the monitor's side of the pairing.
-        let Ok(Some(peer)) = peer::peer("axis_core", bound, None) else {
+        let Some((bound, product, work)) = &mut self.basis else {
             return;
         };
-        let Ok(product) = Product::new(bound, peer.as_ref()) else {
-            return;
-        };
-        let mut work = product.new_work();
         for (side, channel) in self.channels.iter_mut().enumerate() {
             let (local, own) = side_of(inputs, outputs, side);
             let (told, state) = match side {
@@ -103,8 +126,8 @@ impl Tables {
                 .unwrap_or_else(|| product.start(&mut |_| 0));
             let power_on = fresh || local.power_on;
             work.set_inputs(&numbers(bound, &fed, power_on));
-            if product.step(&mut work, &mut cells).is_ok() {
-                channel.said = product.said(&work).collect();
+            if product.step(work, &mut cells).is_ok() {
+                channel.said = product.said(work).collect();
                 channel.cells = Some(cells);
                 self.cycles += 1;
             }
