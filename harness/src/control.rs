@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use petgraph::graph::NodeIndex;
 use stillpoint_model::table::{Generated, Interpreted};
 use stillpoint_model::{
     Choices, ControlGraph, Domain, Error, Fault, Options, System, control_graph,
@@ -136,7 +137,7 @@ impl<S: System> System for Last<'_, S> {
 
 fn picture(bound: &Bound, of: &Instance, cells: &[usize], found: &Found) -> Graph {
     let system = &bound.system;
-    let values = |node| &found.graph[node].0;
+    let values = |node: NodeIndex| &found.graph[node].0;
     let reached: BTreeSet<&Vec<i32>> = found.graph.node_indices().map(values).collect();
     let initial: BTreeSet<&Vec<i32>> = found.initial.iter().map(|n| values(*n)).collect();
     let mut all: BTreeSet<Vec<i32>> = reached.iter().map(|v| (*v).clone()).collect();

@@ -19,6 +19,7 @@ pub mod recording;
 pub mod reduce;
 pub mod report;
 pub mod simulate;
+pub mod states;
 pub mod subject;
 pub mod timing;
 pub mod topics;
