@@ -10,6 +10,7 @@ mod export;
 mod limits;
 mod manual;
 mod progress;
+mod simulate;
 mod trace;
 mod values;
 
@@ -65,6 +66,11 @@ enum Command {
         after_help = "Examples:\n  stillpoint export spec/bench/two-axis.toml --to promela --output two-axis.pml\n  stillpoint export spec/sinumerik-840d/axis.toml --system stop --to dot | dot -Tsvg"
     )]
     Export(export::Arguments),
+    /// Run a scenario on the production monitors of both channels, with a simple axis before them
+    #[command(
+        after_help = "Exit status: 0 every expectation of the scenario holds; 1 one does not; 2 bad input, nothing was run.\n\nExamples:\n  stillpoint simulate spec/machines/milling-840d.toml --scenario spec/scenarios/door-while-moving.toml\n  stillpoint simulate spec/machines/milling-840d.toml --scenario spec/scenarios/encoder-freeze.toml --svg freeze.svg --trace freeze.ndjson"
+    )]
+    Simulate(simulate::Arguments),
     /// The requirement matrix: which rules, monitors, proofs and tests carry each requirement
     #[command(
         after_help = "Exit status: 0; 1 if a family declared complete has open core requirements or an id is in no catalogue; 2 bad input.\n\nExample: stillpoint trace --html matrix.html"
@@ -114,6 +120,7 @@ pub fn main() -> ExitCode {
         Command::Diff(arguments) => diff::run(&arguments),
         Command::Explore(arguments) => explore::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),
+        Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Trace(arguments) => trace::run(&arguments),
         Command::Validate { file } => validate(&file),
         Command::Completions { shell } => manual::completions(shell),
