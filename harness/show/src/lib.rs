@@ -4,4 +4,7 @@
 
 pub mod diagram;
 pub mod document;
+mod escape;
 pub mod graph;
+mod number;
+mod svg;

@@ -1,5 +1,10 @@
 //! Timing diagrams: signals over cycles.
 
+mod fold;
+mod panel;
+mod svg;
+mod text;
+
 /// Signals over cycles. Column 0 is the initial state, column k the k-th cycle.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Diagram {

@@ -1,5 +1,8 @@
 //! Directed graphs as pictures, such as the control states of a machine.
 
+mod layout;
+mod svg;
+
 /// A directed graph.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Graph {
@@ -33,4 +36,28 @@ pub struct Edge {
     pub to: usize,
     /// Why it is taken, each reason a line; may be empty.
     pub labels: Vec<String>,
+}
+
+impl Graph {
+    /// The edges that enter a node from another one, or leave it for another one.
+    pub(crate) fn edges_of(&self, node: usize, entering: bool) -> impl Iterator<Item = &Edge> {
+        self.edges.iter().filter(move |e| {
+            let here = if entering { e.to } else { e.from };
+            here == node && e.from != e.to
+        })
+    }
+
+    /// The edges that stay in a node.
+    pub(crate) fn stays(&self, node: usize) -> impl Iterator<Item = &Edge> {
+        self.edges
+            .iter()
+            .filter(move |e| e.from == node && e.to == node)
+    }
+
+    /// What stands in a node, in one line.
+    pub(crate) fn name(&self, node: usize) -> String {
+        self.nodes
+            .get(node)
+            .map_or(String::new(), |n| n.label.replace('\n', ", "))
+    }
 }

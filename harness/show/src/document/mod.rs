@@ -1,5 +1,8 @@
 //! Documents: blocks of text, tables and figures, to be written as one HTML page or as Markdown.
 
+mod html;
+mod markdown;
+
 use crate::diagram::Diagram;
 use crate::graph::Graph;
 
