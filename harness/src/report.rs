@@ -5,6 +5,7 @@ use std::fmt::Write;
 
 use serde_json::{Value, json};
 use stillpoint_model::{Storage, Trace, Verdict};
+use stillpoint_show::diagram::{Diagram, Mark};
 use stillpoint_spec::bind::Bound;
 use stillpoint_spec::ir::Topic;
 
@@ -12,7 +13,7 @@ use crate::check::{Checked, Settings, Summary, Unfired, exit_status, violations}
 use crate::engine::{Evaluator, replay};
 use crate::reduce;
 use crate::subject::{Subject, Task};
-use crate::timing::Diagram;
+use crate::timing;
 use crate::topics;
 
 /// Property texts are wrapped at this width.
@@ -46,8 +47,12 @@ pub fn grouped(n: u128) -> String {
 /// The timing diagram of a run, with a mark at its last cycle.
 pub fn diagram(bound: &Bound, trace: &Trace, mark: &str) -> Diagram {
     let cycles = replay(bound, trace);
-    let mut diagram = Diagram::of_run(bound, &cycles);
-    diagram.marks.push((cycles.len(), mark.to_owned()));
+    let mut diagram = timing::of_run(bound, &cycles);
+    diagram.marks.push(Mark {
+        column: cycles.len(),
+        text: mark.to_owned(),
+        fault: true,
+    });
     // A loop starts with the step of that number, which makes the column after it.
     diagram.loop_start = trace.loop_start.map(|k| k + 1);
     diagram
