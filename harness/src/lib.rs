@@ -12,6 +12,7 @@ pub mod engine;
 pub mod export;
 pub mod keep;
 pub mod matrix;
+pub mod pages;
 pub mod readings;
 pub mod recorded;
 pub mod reduce;

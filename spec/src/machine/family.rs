@@ -50,7 +50,6 @@ pub(super) struct Function {
     /// Whether one of the explored systems contains it.
     pub explored: bool,
     pub text: String,
-    #[allow(dead_code)]
     pub id: Vec<String>,
 }
 
@@ -97,6 +96,8 @@ pub(super) struct Param {
     pub manual: String,
     /// What it is, in a few words.
     pub text: String,
+    /// Requirement ids.
+    pub id: Vec<String>,
     /// Number of values; 0 for a scalar.
     pub count: usize,
     /// What the values of an array are, for messages: `SG1 to SG4`.

@@ -55,7 +55,6 @@ struct ParamData {
     rotary: Option<LimitsData>,
     #[serde(default)]
     choice: IndexMap<String, i64>,
-    #[allow(dead_code)]
     id: Vec<String>,
 }
 
@@ -246,6 +245,7 @@ impl Check {
             quantity: data.quantity.into_inner(),
             manual: manual.trim().to_owned(),
             text: data.text,
+            id: data.id,
             count: data.count,
             elements: data.elements,
             choices: data.choice.into_iter().collect(),

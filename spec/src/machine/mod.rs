@@ -14,6 +14,7 @@
 //! ```
 
 pub mod acceptance;
+pub mod data;
 mod document;
 mod eval;
 mod family;
