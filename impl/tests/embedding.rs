@@ -15,7 +15,12 @@ pub struct Controller {
 
 impl Controller {
     /// After power-on, with the machine data of the axis and what is kept through power-off.
-    pub fn new(side: Side, data: &Parameters, agreed: bool, standstill: Option<Position>) -> Result<Self, ParameterError> {
+    pub fn new(
+        side: Side,
+        data: &Parameters,
+        agreed: bool,
+        standstill: Option<Position>,
+    ) -> Result<Self, ParameterError> {
         let config = Config::new(side, data.validate()?);
         // What was restored is consistent for every configuration; if it were not, the axis would start as delivered.
         let state = State::restored(agreed, standstill);
@@ -59,7 +64,8 @@ fn an_axis_that_leaves_its_window_is_stopped() {
         function_enable: 1, // SBH/SG
         ..Parameters::default()
     };
-    let controller = |side| Controller::new(side, &data, false, None).expect("plausible machine data");
+    let controller =
+        |side| Controller::new(side, &data, false, None).expect("plausible machine data");
     let (mut nck, mut drive) = (controller(Side::Nck), controller(Side::Drive));
     let mut cycle = |local: Local| {
         let (one, two) = (nck.cycle(local), drive.cycle(local));
@@ -75,7 +81,7 @@ fn an_axis_that_leaves_its_window_is_stopped() {
         assert_eq!(cycle(held(1_000)), [Level::None; 2]); // the window is 1 mm
     }
     assert_eq!(cycle(held(1_001)), [Level::B; 2]);
-    let ends = (1..20).find(|_| cycle(held(2_000)) == [Level::A; 2]);
+    let ends = (1..20).find(|_| cycle(held(1_001)) == [Level::A; 2]);
     assert_eq!(ends, Some(9)); // 100 ms in cycles of 12 ms
 }
 
