@@ -11,19 +11,31 @@ use stillpoint_show::graph::{Edge, Graph, Node};
 use stillpoint_spec::bind::Bound;
 use stillpoint_spec::ir::{Instance, Ty};
 
-/// The control states of one instance in the reachable states of its system: combinations of values of its variables with
-/// an enum as type. An edge names the rules that lead from the one to the other in some reachable cycle, or stay. Where one variable makes the state, values that are never reached are there too, pale.
+/// The control states of one instance in the reachable states of its system: combinations of values of the variables named
+/// by `only` (without the name of the instance), or of all with an enum as type. An edge names the rules that lead from the one to the other in some reachable cycle, or stay. Where one variable makes the state, values that are never reached are there too, pale.
 ///
 /// None for an instance without such a variable.
 ///
 /// # Errors
 /// A system that cannot be explored.
-pub fn control(bound: &Bound, instance: usize, options: &Options) -> Result<Option<Graph>, Error> {
+pub fn control(
+    bound: &Bound,
+    instance: usize,
+    only: Option<&[String]>,
+    options: &Options,
+) -> Result<Option<Graph>, Error> {
     let Some(of) = bound.system.instances.get(instance) else {
         return Ok(None);
     };
     let cells: Vec<usize> = (of.states.start as usize..of.states.end as usize)
-        .filter(|k| matches!(bound.system.states[*k].var.ty, Ty::Enum(_)))
+        .filter(|k| {
+            let var = &bound.system.states[*k].var;
+            let name = var.name.rsplit('.').next().unwrap_or(&var.name);
+            match only {
+                Some(names) => names.iter().any(|n| n == name),
+                None => matches!(var.ty, Ty::Enum(_)),
+            }
+        })
         .collect();
     if cells.is_empty() {
         return Ok(None);

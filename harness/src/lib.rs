@@ -14,6 +14,7 @@ pub mod export;
 pub mod keep;
 pub mod matrix;
 pub mod production;
+pub mod pages;
 pub mod readings;
 pub mod recorded;
 pub mod recording;

@@ -57,7 +57,7 @@ pub fn load(path: &Path, readings: &Readings) -> Result<Subject> {
 }
 
 /// Whether the file sets this key at its top: `spec` marks a specification file, `family` a machine file.
-fn has_key(text: &str, key: &str) -> bool {
+pub(crate) fn has_key(text: &str, key: &str) -> bool {
     text.lines()
         .map(str::trim_start)
         .take_while(|l| !l.starts_with('['))

@@ -17,6 +17,7 @@ mod interval;
 pub mod ir;
 pub mod lang;
 pub mod machine;
+pub mod outline;
 pub mod parts;
 mod property;
 mod schema;

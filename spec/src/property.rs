@@ -46,7 +46,7 @@ fn find_index(e: &Expr, found: &mut Option<String>) {
     }
 }
 
-fn texts(def: &schema::Property) -> Vec<(&'static str, &Text)> {
+pub(crate) fn texts(def: &schema::Property) -> Vec<(&'static str, &Text)> {
     let single = [
         ("always", &def.always),
         ("never", &def.never),

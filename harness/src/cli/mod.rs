@@ -9,6 +9,7 @@ mod explore;
 mod export;
 mod limits;
 mod manual;
+mod pages;
 mod progress;
 mod simulate;
 mod trace;
@@ -82,6 +83,11 @@ enum Command {
         /// Machine or specification file
         file: PathBuf,
     },
+    /// Write the pages of the book about the safety functions of a family
+    #[command(
+        after_help = "Exit status: 0; 1 if --check finds a difference; 2 bad input.\n\nExamples:\n  stillpoint pages spec/sinumerik-840d --output docs/src/functions\n  stillpoint pages spec/sinumerik-840d --output docs/src/functions --check"
+    )]
+    Pages(pages::Arguments),
     /// Print completions of commands and options for a shell
     #[command(
         after_help = "Examples:\n  stillpoint completions bash > ~/.local/share/bash-completion/completions/stillpoint\n  stillpoint completions zsh > ~/.zfunc/_stillpoint\n  stillpoint completions fish > ~/.config/fish/completions/stillpoint.fish"
@@ -123,6 +129,7 @@ pub fn main() -> ExitCode {
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Trace(arguments) => trace::run(&arguments),
         Command::Validate { file } => validate(&file),
+        Command::Pages(arguments) => pages::run(&arguments),
         Command::Completions { shell } => manual::completions(shell),
         Command::Man { output } => manual::pages(output.as_deref()),
     };

@@ -49,9 +49,7 @@ pub(super) struct Function {
     pub index: usize,
     /// Whether one of the explored systems contains it.
     pub explored: bool,
-    #[allow(dead_code)]
     pub text: String,
-    #[allow(dead_code)]
     pub id: Vec<String>,
 }
 
@@ -96,6 +94,10 @@ pub(super) struct Param {
     pub quantity: Quantity,
     /// The manual's names: `MD36930 $MA_SAFE_STANDSTILL_TOL`; empty for what is no machine datum.
     pub manual: String,
+    /// What it is, in a few words.
+    pub text: String,
+    /// Requirement ids.
+    pub id: Vec<String>,
     /// Number of values; 0 for a scalar.
     pub count: usize,
     /// What the values of an array are, for messages: `SG1 to SG4`.

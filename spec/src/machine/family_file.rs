@@ -43,7 +43,6 @@ struct ParamData {
     md: Vec<u32>,
     #[serde(default)]
     name: String,
-    #[allow(dead_code)] // for readers of the data
     text: String,
     quantity: Spanned<Quantity>,
     #[serde(default)]
@@ -56,7 +55,6 @@ struct ParamData {
     rotary: Option<LimitsData>,
     #[serde(default)]
     choice: IndexMap<String, i64>,
-    #[allow(dead_code)]
     id: Vec<String>,
 }
 
@@ -83,7 +81,7 @@ struct RuleData {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct ExploreData {
+pub(super) struct ExploreData {
     file: String,
     system: String,
     each: Scope,
@@ -140,8 +138,9 @@ struct Known {
     door: Vec<String>,
 }
 
-struct Check {
-    findings: Findings,
+/// Reads one file of a family's data and collects what is wrong in it.
+pub(super) struct Check {
+    pub findings: Findings,
 }
 
 impl Check {
@@ -206,7 +205,9 @@ impl Check {
         let rules = data.plausibility.into_iter();
         let rules = rules.filter_map(|r| self.rule(r, &known)).collect();
         let explore = data.explore.into_iter();
-        let explore = explore.filter_map(|e| self.explore(e, &known)).collect();
+        let explore = explore
+            .filter_map(|e| self.explore(e, &known.axis))
+            .collect();
         Some(Family {
             folder: folder.to_owned(),
             file: file.to_owned(),
@@ -243,6 +244,8 @@ impl Check {
         let mut param = Param {
             quantity: data.quantity.into_inner(),
             manual: manual.trim().to_owned(),
+            text: data.text,
+            id: data.id,
             count: data.count,
             elements: data.elements,
             choices: data.choice.into_iter().collect(),
@@ -298,7 +301,7 @@ impl Check {
     }
 
     /// Parses an expression and checks that the names in it are `known`.
-    fn formula(&mut self, text: Spanned<String>, known: &[String]) -> Option<Formula> {
+    pub fn formula(&mut self, text: Spanned<String>, known: &[String]) -> Option<Formula> {
         let expr = match parse_expr(text.get_ref()) {
             Ok(expr) => expr,
             Err(error) => {
@@ -354,7 +357,8 @@ impl Check {
         })
     }
 
-    fn explore(&mut self, data: ExploreData, known: &Known) -> Option<Explore> {
+    /// What one entry of `[[explore]]` says; its expressions may read `known`.
+    pub fn explore(&mut self, data: ExploreData, known: &[String]) -> Option<Explore> {
         if matches!(data.each, Scope::Control | Scope::Door) {
             let help = "write each = \"axis\" or \"group\"";
             self.findings.add(
@@ -366,13 +370,13 @@ impl Check {
         }
         let mut params = Vec::new();
         for (name, text) in data.param {
-            params.push(Binding::Value(name, self.formula(text, &known.axis)?));
+            params.push(Binding::Value(name, self.formula(text, known)?));
         }
         for (name, text) in data.time {
-            params.push(Binding::Time(name, self.formula(text, &known.axis)?));
+            params.push(Binding::Time(name, self.formula(text, known)?));
         }
         for (list, names) in data.rank {
-            if !known.axis.contains(list.get_ref()) {
+            if !known.contains(list.get_ref()) {
                 let message = format!("unknown name '{}'", list.get_ref());
                 self.findings
                     .add(list.span(), message, "", "name a list of values");
@@ -380,13 +384,13 @@ impl Check {
             params.push(Binding::Rank(list.into_inner(), names));
         }
         for (text, names) in data.member {
-            params.push(Binding::Member(self.formula(text, &known.axis)?, names));
+            params.push(Binding::Member(self.formula(text, known)?, names));
         }
         Some(Explore {
             file: data.file,
             system: data.system,
             each: data.each,
-            when: self.formula(data.when, &known.axis)?,
+            when: self.formula(data.when, known)?,
             text: data.text,
             note: data.note,
             members: data.members,

@@ -13,28 +13,35 @@
 //! STANDSTILL_TOL = "0.5 mm"
 //! ```
 
+pub mod acceptance;
+pub mod data;
 mod document;
 mod eval;
 mod family;
 mod family_file;
 #[cfg(test)]
 mod family_tests;
+mod ground;
 mod plausible;
+pub mod reaction;
 mod read;
 mod runs;
+mod template;
 pub mod units;
 mod value;
 
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use crate::diag::{Result, nearest};
 use document::Findings;
-use family::Param;
+use family::{Family, Param};
+use plausible::Judged;
 
 /// A byte range of the machine file.
 pub type Place = Range<usize>;
@@ -67,6 +74,7 @@ pub struct Machine {
     pub runs: Vec<Run>,
     /// What the file describes but no run explores, in words.
     pub not_explored: Vec<String>,
+    basis: Arc<Basis>,
 }
 
 /// Linear axis or rotary axis; a spindle is a rotary axis.
@@ -139,6 +147,71 @@ pub struct Run {
     pub abstractions: Vec<String>,
 }
 
+/// What the values of a machine were judged with, for further data of its family.
+#[derive(Debug)]
+struct Basis {
+    family: Family,
+    judged: Judged,
+}
+
+/// A parameter with its value, for readers.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Shown {
+    /// Its name in the file.
+    pub name: String,
+    /// The manual's names; empty for what is no machine datum.
+    pub manual: String,
+    /// What it is, in a few words.
+    pub text: String,
+    /// The value with its unit, several of an array with commas.
+    pub value: String,
+    /// Whether the file gives it; else it is the family's default.
+    pub given: bool,
+}
+
+impl Machine {
+    /// The folder of the family's data.
+    pub fn family_folder(&self) -> &Path {
+        &self.basis.family.folder
+    }
+
+    /// The values of the control, in the order of the family's data.
+    pub fn control_shown(&self) -> Vec<Shown> {
+        shown(&self.basis.family.control, &self.control)
+    }
+
+    /// The values of an axis, in the order of the family's data.
+    pub fn axis_shown(&self, axis: &Axis) -> Vec<Shown> {
+        shown(&self.basis.family.axis, &axis.values)
+    }
+
+    /// The values of a door, in the order of the family's data.
+    pub fn door_shown(&self, door: &Door) -> Vec<Shown> {
+        shown(&self.basis.family.door, &door.values)
+    }
+
+    /// What a function of an axis is, in words.
+    pub fn function_text(&self, name: &str) -> &str {
+        let functions = &self.basis.family.functions;
+        let found = functions.iter().find(|f| f.name == name);
+        found.map_or("", |f| f.text.as_str())
+    }
+}
+
+fn shown(params: &indexmap::IndexMap<String, Param>, settings: &Settings) -> Vec<Shown> {
+    let entry = |(name, param): (&String, &Param)| {
+        let setting = settings.get(name)?;
+        Some(Shown {
+            name: name.clone(),
+            manual: param.manual.clone(),
+            text: param.text.clone(),
+            value: setting.shown.join(", ").replace('"', ""),
+            given: setting.is_given(),
+        })
+    };
+    params.iter().filter_map(entry).collect()
+}
+
 impl Setting {
     /// Whether the machine file gives it.
     pub fn is_given(&self) -> bool {
@@ -199,7 +272,7 @@ pub fn load_bytes(path: &Path, bytes: Vec<u8>, families: &Path) -> Result<Machin
     read_source(path, &source, families)
 }
 
-fn read_source(path: &Path, source: &std::sync::Arc<str>, families: &Path) -> Result<Machine> {
+fn read_source(path: &Path, source: &Arc<str>, families: &Path) -> Result<Machine> {
     let mut findings = Findings::new(&path.display().to_string(), source);
     let Some(table) = findings.parse(source) else {
         return Err(findings.into_diagnostics());
@@ -213,7 +286,7 @@ fn read_source(path: &Path, source: &std::sync::Arc<str>, families: &Path) -> Re
     let (Some(judged), Some(control), true) = (judged, draft.control, findings.none()) else {
         return Err(findings.into_diagnostics());
     };
-    let plan = runs::plan(&family, &draft.axes, &judged)?;
+    let plan = runs::plan(&family, &family.explore, &draft.axes, &judged)?;
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     Ok(Machine {
         name: draft.name.unwrap_or_else(|| stem.into_owned()),
@@ -224,6 +297,7 @@ fn read_source(path: &Path, source: &std::sync::Arc<str>, families: &Path) -> Re
         not_explored: runs::not_explored(&family, &draft.axes, &draft.doors, &plan.groups),
         groups: plan.groups,
         runs: plan.runs,
+        basis: Arc::new(Basis { family, judged }),
         control,
         axes: draft.axes,
         doors: draft.doors,

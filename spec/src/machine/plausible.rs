@@ -9,6 +9,7 @@ use crate::diag::{Diagnostic, Result};
 use crate::lang::ast::{Expr, Kind};
 
 /// What the expressions of a family yield for a machine.
+#[derive(Debug)]
 pub(super) struct Judged {
     /// The monitoring cycle in microseconds.
     pub cycle: i64,
@@ -79,7 +80,7 @@ pub(super) fn judge(
     Ok(Some(Judged { cycle, axes }))
 }
 
-fn insert(values: &mut Values, settings: &Settings) {
+pub(super) fn insert(values: &mut Values, settings: &Settings) {
     values.extend(
         settings
             .iter()

@@ -21,11 +21,16 @@ pub(super) struct Plan {
 ///
 /// # Errors
 /// Faults of the family's data.
-pub(super) fn plan(family: &Family, axes: &[Axis], judged: &Judged) -> Result<Plan> {
+pub(super) fn plan(
+    family: &Family,
+    explored: &[Explore],
+    axes: &[Axis],
+    judged: &Judged,
+) -> Result<Plan> {
     let groups = groups(family, axes, judged)?;
     let singles: Vec<Vec<usize>> = (0..axes.len()).map(|k| vec![k]).collect();
     let mut runs: Vec<Run> = Vec::new();
-    for explore in &family.explore {
+    for explore in explored {
         let scaled = is_scaled(family, explore)?;
         let (candidates, size) = match explore.each {
             Scope::Group => (&groups, explore.members),

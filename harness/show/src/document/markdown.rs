@@ -52,7 +52,8 @@ impl Figures<'_> {
             Self::Text => text(out),
             Self::Beside(stem, pictures) => {
                 let name = format!("{stem}-{}.svg", pictures.len() + 1);
-                let _ = write!(out, "![{}]({name})\n\n", escaped(title));
+                // A page may show it smaller than it is; following it shows it whole.
+                let _ = write!(out, "[![{}]({name})]({name})\n\n", escaped(title));
                 pictures.push((name, svg()));
             }
         }
@@ -362,7 +363,7 @@ mod tests {
             blocks: vec![Block::Graph(Box::new(drawn.clone()))],
         };
         let (text, pictures) = document.markdown_with_pictures("stop");
-        assert_eq!(text, "# T\n\n![states](stop-1.svg)\n");
+        assert_eq!(text, "# T\n\n[![states](stop-1.svg)](stop-1.svg)\n");
         assert_eq!(pictures, [("stop-1.svg".to_owned(), drawn.svg())]);
     }
 

@@ -1,0 +1,526 @@
+//! The acceptance test of a machine: one test for each enabled function and limit.
+//!
+//! The catalogue of tests stands in `acceptance.toml` in the folder of the family: texts with places for the parameters,
+//! and conditions on what is enabled.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use indexmap::IndexMap;
+use serde::Deserialize;
+use toml::Spanned;
+
+use super::Machine;
+use super::family::{Family, Formula};
+use super::family_file::Check;
+use super::ground::{About, DataFile, Ground, PATH, grounds, partners, read_names};
+use super::template::{Template, Words};
+use crate::diag::Result;
+
+/// The protocol of one machine.
+#[derive(Debug, Clone)]
+pub struct Protocol {
+    /// Where the manual describes the acceptance test.
+    pub source: String,
+    /// What holds for all tests: one sentence each.
+    pub before: Vec<String>,
+    /// What is written down about the machine and each axis: to be filled in by hand.
+    pub records: Vec<String>,
+    /// The parts, in order.
+    pub parts: Vec<Part>,
+    /// What is done after the tests: one sentence each.
+    pub after: Vec<String>,
+    /// Who signs.
+    pub signatures: Vec<String>,
+    /// What has to be repeated after which measure: heads, then rows.
+    pub measures: Vec<Vec<String>>,
+    /// The tests, in the order of the catalogue.
+    pub tests: Vec<Test>,
+    /// Parameters that no test depends on, with the reason.
+    pub untested: BTreeMap<String, String>,
+}
+
+/// A part of the protocol.
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Part {
+    /// The name that tests call it by.
+    pub name: String,
+    /// The heading.
+    pub title: String,
+    /// A sentence about it; may be empty.
+    #[serde(default)]
+    pub text: String,
+}
+
+/// One test.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Test {
+    /// Unique in the protocol: `SG1-X`.
+    pub id: String,
+    /// Index of its part.
+    pub part: usize,
+    /// What is tested.
+    pub title: String,
+    /// The axis, if it is about one.
+    pub axis: Option<String>,
+    /// Requirements of the manual.
+    pub req: Vec<String>,
+    /// What must be so before.
+    pub requires: Vec<String>,
+    /// What is done.
+    pub steps: Vec<String>,
+    /// What must be seen.
+    pub expect: Vec<Expect>,
+    /// What is measured.
+    pub measure: Vec<Measure>,
+    /// What the test depends on: parameter and value.
+    pub depends: BTreeMap<String, String>,
+}
+
+/// Something that must be seen.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Expect {
+    /// In words.
+    pub text: String,
+    /// The signal and the value it takes; empty for what is no signal.
+    pub signal: Option<(String, String)>,
+    /// Microseconds after the event that the test provokes; none: whenever it comes.
+    pub after: Option<i64>,
+    /// Monitoring cycles that it may come later than `after`.
+    pub tolerance: i64,
+}
+
+/// A value to be measured.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Measure {
+    /// What.
+    pub text: String,
+    /// Its unit.
+    pub unit: String,
+    /// What it may be; empty: the machine builder decides.
+    pub limit: String,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct FileData {
+    source: String,
+    before: Vec<String>,
+    records: Vec<String>,
+    after: Vec<String>,
+    signatures: Vec<String>,
+    measures: Vec<Vec<String>>,
+    #[serde(default)]
+    words: IndexMap<String, Vec<String>>,
+    untested: IndexMap<Spanned<String>, String>,
+    part: Vec<Part>,
+    test: Vec<TestData>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct TestData {
+    id: Spanned<String>,
+    part: Spanned<String>,
+    of: About,
+    #[serde(default)]
+    each: Vec<i64>,
+    when: Spanned<String>,
+    #[serde(default, rename = "let")]
+    lets: IndexMap<String, Spanned<String>>,
+    title: Spanned<String>,
+    req: Vec<String>,
+    requires: Vec<Spanned<String>>,
+    steps: Vec<Spanned<String>>,
+    expect: Vec<ExpectData>,
+    #[serde(default)]
+    measure: Vec<MeasureData>,
+    #[serde(default)]
+    depends: Vec<Spanned<String>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ExpectData {
+    text: Spanned<String>,
+    when: Option<Spanned<String>>,
+    #[serde(default)]
+    signal: String,
+    value: Option<Spanned<String>>,
+    after: Option<Spanned<String>>,
+    tolerance: Option<Spanned<String>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct MeasureData {
+    text: Spanned<String>,
+    unit: Spanned<String>,
+    limit: Option<Spanned<String>>,
+    when: Option<Spanned<String>>,
+}
+
+/// A test of the catalogue, checked.
+struct Plan {
+    part: usize,
+    of: About,
+    each: Vec<i64>,
+    req: Vec<String>,
+    id: Template,
+    title: Template,
+    when: Formula,
+    lets: Vec<(String, Formula)>,
+    requires: Vec<Template>,
+    steps: Vec<Template>,
+    expect: Vec<ExpectPlan>,
+    measure: Vec<MeasurePlan>,
+    depends: Vec<Formula>,
+}
+
+struct ExpectPlan {
+    text: Template,
+    when: Option<Formula>,
+    signal: String,
+    value: Option<Template>,
+    after: Option<Formula>,
+    tolerance: Option<Formula>,
+}
+
+struct MeasurePlan {
+    text: Template,
+    unit: Template,
+    limit: Option<Template>,
+    when: Option<Formula>,
+}
+
+impl Machine {
+    /// The acceptance test of this machine.
+    ///
+    /// # Errors
+    /// The family has no `acceptance.toml`, or the file is wrong: a parameter that no test depends on and that has no reason
+    /// under `untested` is wrong too.
+    pub fn acceptance(&self) -> Result<Protocol> {
+        let family = &self.basis.family;
+        let file = DataFile::read(&family.folder, "acceptance.toml", "acceptance tests")?;
+        let data: FileData = file.parse()?;
+        let mut check = file.check();
+        let words: Vec<_> = data.words.into_iter().collect();
+        let mut plans = Vec::new();
+        for test in data.test {
+            let known = test.of.known(family);
+            plans.extend(plan(&mut check, test, known, &words, &data.part));
+        }
+        complete(&mut check, family, &plans, &data.untested);
+        check.findings.finish(())?;
+        let mut tests = Vec::new();
+        for plan in &plans {
+            for ground in grounds(self, plan.of) {
+                for k in &plan.each {
+                    tests.extend(plan.test(&file, ground.at(*k))?);
+                }
+            }
+        }
+        let untested = data.untested.into_iter();
+        Ok(Protocol {
+            source: data.source,
+            before: data.before,
+            records: data.records,
+            parts: data.part,
+            after: data.after,
+            signatures: data.signatures,
+            measures: data.measures,
+            tests,
+            untested: untested.map(|(k, v)| (k.into_inner(), v)).collect(),
+        })
+    }
+}
+
+/// Every parameter of the family is read by a test, or there is a reason why not.
+fn complete(
+    check: &mut Check,
+    family: &Family,
+    plans: &[Plan],
+    untested: &IndexMap<Spanned<String>, String>,
+) {
+    let mut read: BTreeSet<String> = plans.iter().flat_map(Plan::reads).collect();
+    loop {
+        let lets = family.lets.iter().filter(|(name, _)| read.contains(name));
+        let more: BTreeSet<String> = lets.flat_map(|(_, f)| read_names(&f.expr)).collect();
+        if more.is_subset(&read) {
+            break;
+        }
+        read.extend(more);
+    }
+    let cycle = read_names(&family.monitoring_cycle.expr);
+    if read.contains("monitoring_cycle") {
+        read.extend(cycle);
+    }
+    let all = [&family.control, &family.axis, &family.door];
+    let all: Vec<&String> = all.into_iter().flat_map(IndexMap::keys).collect();
+    for name in &all {
+        let excused = untested.keys().any(|key| key.get_ref() == *name);
+        if !excused && !read.contains(*name) {
+            check.findings.add(
+                None,
+                format!("no acceptance test depends on {name}"),
+                "",
+                "name it in a test, in `depends` at least, or give the reason why none is needed under [untested]",
+            );
+        }
+    }
+    for key in untested.keys() {
+        if !all.contains(&key.get_ref()) || read.contains(key.get_ref()) {
+            check.findings.add(
+                key.span(),
+                format!("'{}' is no parameter without a test", key.get_ref()),
+                "this entry",
+                "remove it, or correct the name",
+            );
+        }
+    }
+}
+
+/// `None` leaves a finding.
+fn plan(
+    check: &mut Check,
+    data: TestData,
+    mut known: Vec<String>,
+    words: &[(String, Vec<String>)],
+    parts: &[Part],
+) -> Option<Plan> {
+    let Some(part) = parts.iter().position(|p| p.name == *data.part.get_ref()) else {
+        let names: Vec<&str> = parts.iter().map(|p| p.name.as_str()).collect();
+        let help = format!("parts of this file: {}", names.join(", "));
+        let message = format!("there is no part '{}'", data.part.get_ref());
+        check
+            .findings
+            .add(data.part.span(), message, "this part", help);
+        return None;
+    };
+    let when = check.formula(data.when, &known)?;
+    let mut lets = Vec::new();
+    for (name, text) in data.lets {
+        let formula = check.formula(text, &known)?;
+        known.push(name.clone());
+        lets.push((name, formula));
+    }
+    let names = Words {
+        about: data.of,
+        known: &known,
+        words,
+    };
+    let mut depends = Vec::new();
+    for text in data.depends {
+        depends.push(check.formula(text, &known)?);
+    }
+    let mut reader = Reader {
+        check,
+        names: &names,
+    };
+    let mut expect = Vec::new();
+    for entry in data.expect {
+        expect.push(ExpectPlan {
+            text: reader.text(entry.text)?,
+            when: reader.formula(entry.when)?,
+            signal: entry.signal,
+            value: reader.optional(entry.value)?,
+            after: reader.formula(entry.after)?,
+            tolerance: reader.formula(entry.tolerance)?,
+        });
+    }
+    let mut measure = Vec::new();
+    for entry in data.measure {
+        measure.push(MeasurePlan {
+            text: reader.text(entry.text)?,
+            unit: reader.text(entry.unit)?,
+            limit: reader.optional(entry.limit)?,
+            when: reader.formula(entry.when)?,
+        });
+    }
+    Some(Plan {
+        part,
+        of: data.of,
+        each: if data.each.is_empty() {
+            vec![0]
+        } else {
+            data.each
+        },
+        req: data.req,
+        id: reader.text(data.id)?,
+        title: reader.text(data.title)?,
+        requires: reader.texts(data.requires)?,
+        steps: reader.texts(data.steps)?,
+        when,
+        lets,
+        expect,
+        measure,
+        depends,
+    })
+}
+
+struct Reader<'a> {
+    check: &'a mut Check,
+    names: &'a Words<'a>,
+}
+
+impl Reader<'_> {
+    fn text(&mut self, text: Spanned<String>) -> Option<Template> {
+        Template::parse(text, self.names, &mut self.check.findings)
+    }
+
+    fn texts(&mut self, list: Vec<Spanned<String>>) -> Option<Vec<Template>> {
+        list.into_iter().map(|text| self.text(text)).collect()
+    }
+
+    fn optional(&mut self, text: Option<Spanned<String>>) -> Option<Option<Template>> {
+        match text {
+            Some(text) => self.text(text).map(Some),
+            None => Some(None),
+        }
+    }
+
+    fn formula(&mut self, text: Option<Spanned<String>>) -> Option<Option<Formula>> {
+        match text {
+            Some(text) => self.check.formula(text, self.names.known).map(Some),
+            None => Some(None),
+        }
+    }
+}
+
+impl Plan {
+    fn formulas(&self) -> impl Iterator<Item = &Formula> {
+        let expect = self.expect.iter();
+        let expect = expect.flat_map(|e| [&e.when, &e.after, &e.tolerance]);
+        let measure = self.measure.iter().map(|m| &m.when);
+        [&self.when]
+            .into_iter()
+            .chain(self.lets.iter().map(|(_, f)| f))
+            .chain(&self.depends)
+            .chain(expect.chain(measure).flatten())
+    }
+
+    fn templates(&self) -> impl Iterator<Item = &Template> {
+        let expect = self.expect.iter();
+        let expect = expect.flat_map(|e| [Some(&e.text), e.value.as_ref()]);
+        let measure = self.measure.iter();
+        let measure = measure.flat_map(|m| [Some(&m.text), Some(&m.unit), m.limit.as_ref()]);
+        [&self.id, &self.title]
+            .into_iter()
+            .chain(&self.requires)
+            .chain(&self.steps)
+            .chain(expect.chain(measure).flatten())
+    }
+
+    /// Every name that the test reads.
+    fn reads(&self) -> Vec<String> {
+        let formulas = self.formulas().flat_map(|f| read_names(&f.expr));
+        formulas
+            .chain(self.templates().flat_map(Template::reads))
+            .collect()
+    }
+
+    /// The test for one subject; none where it does not apply.
+    fn test(&self, file: &DataFile, mut ground: Ground<'_>) -> Result<Option<Test>> {
+        if ground.value(file, &self.when)? == 0 {
+            return Ok(None);
+        }
+        for (name, formula) in &self.lets {
+            let value = ground.value(file, formula)?;
+            ground.set(name, value);
+        }
+        let texts = |list: &[Template]| {
+            let filled = list.iter().map(|text| text.fill(file, &ground));
+            filled.collect::<Result<Vec<String>>>()
+        };
+        let holds = |when: &Option<Formula>| match when {
+            Some(when) => ground.value(file, when).map(|v| v != 0),
+            None => Ok(true),
+        };
+        let number = |formula: &Option<Formula>| match formula {
+            Some(formula) => ground.value(file, formula).map(Some),
+            None => Ok(None),
+        };
+        let mut expect = Vec::new();
+        for entry in &self.expect {
+            if holds(&entry.when)? {
+                let value = match &entry.value {
+                    Some(value) => Some((entry.signal.clone(), value.fill(file, &ground)?)),
+                    None => None,
+                };
+                expect.push(Expect {
+                    text: entry.text.fill(file, &ground)?,
+                    signal: value,
+                    after: number(&entry.after)?,
+                    tolerance: number(&entry.tolerance)?.unwrap_or(0),
+                });
+            }
+        }
+        let mut measure = Vec::new();
+        for entry in &self.measure {
+            if holds(&entry.when)? {
+                let limit = match &entry.limit {
+                    Some(limit) => limit.fill(file, &ground)?,
+                    None => String::new(),
+                };
+                measure.push(Measure {
+                    text: entry.text.fill(file, &ground)?,
+                    unit: entry.unit.fill(file, &ground)?,
+                    limit,
+                });
+            }
+        }
+        Ok(Some(Test {
+            id: self.id.fill(file, &ground)?,
+            part: self.part,
+            title: self.title.fill(file, &ground)?,
+            axis: ground.axis.map(|a| a.name.clone()),
+            req: self.req.clone(),
+            requires: texts(&self.requires)?,
+            steps: texts(&self.steps)?,
+            expect,
+            measure,
+            depends: self.dependence(&ground),
+        }))
+    }
+
+    /// What the test reads of this subject: parameters, the functions enabled, what a door gives access to.
+    fn dependence(&self, ground: &Ground<'_>) -> BTreeMap<String, String> {
+        let family = &ground.machine.basis.family;
+        let mut open: Vec<String> = self.reads();
+        let mut found = BTreeMap::new();
+        for formula in self.formulas() {
+            found.extend(ground.reads(&formula.expr));
+        }
+        for text in self.templates() {
+            found.extend(text.values(ground));
+        }
+        let mut seen = BTreeSet::new();
+        while let Some(name) = open.pop() {
+            if !seen.insert(name.clone()) {
+                continue;
+            }
+            if let Some((_, formula)) = family.lets.iter().find(|(n, _)| *n == name) {
+                found.extend(ground.reads(&formula.expr));
+                open.extend(read_names(&formula.expr));
+            }
+            if let (PATH, Some(axis)) = (name.as_str(), ground.axis) {
+                found.insert(name.clone(), partners(axis));
+            }
+            if name == "monitoring_cycle" {
+                found.extend(ground.reads(&family.monitoring_cycle.expr));
+            }
+            for function in family.functions.iter().filter(|f| f.variable == name) {
+                found.extend([ground.enabled(&function.name)]);
+            }
+        }
+        // An array named as a whole.
+        for formula in &self.depends {
+            found.extend(ground.elements(formula.text.get_ref()));
+        }
+        if let Some(door) = ground.door {
+            let axes: Vec<&str> = door.axes.iter().map(|a| a.get_ref().as_str()).collect();
+            found.insert("axes".to_owned(), axes.join(", "));
+        }
+        found
+    }
+}

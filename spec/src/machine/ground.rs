@@ -1,0 +1,330 @@
+//! What the formulas and texts of a family's further data (reaction chains, acceptance tests) are about: one axis, a door,
+//! a door and an axis behind it, or the whole machine, with the values that can be read there.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::sync::Arc;
+
+use serde::Deserialize;
+
+use super::document::Findings;
+use super::eval::{Values, eval, names};
+use super::family::{Family, Formula, Quantity};
+use super::family_file::Check;
+use super::plausible::insert;
+use super::{Axis, AxisKind, Door, Machine, Settings};
+use crate::diag::{Diagnostic, Result};
+use crate::lang::ast::{Expr, Kind};
+use crate::text::read_text;
+
+/// A file of a family's data, for diagnostics about it.
+#[derive(Debug)]
+pub(super) struct DataFile {
+    pub file: String,
+    pub source: Arc<str>,
+}
+
+impl DataFile {
+    /// Reads `name` in the folder of the family.
+    ///
+    /// # Errors
+    /// The family has no such file, or it cannot be read.
+    pub fn read(folder: &Path, name: &str, what: &str) -> Result<Self> {
+        let path = folder.join(name);
+        let source = read_text(&path, what)?;
+        let file = path.display().to_string();
+        Ok(Self { file, source })
+    }
+
+    /// Deserialises the file.
+    ///
+    /// # Errors
+    /// It is not TOML of this form.
+    pub fn parse<T: for<'de> Deserialize<'de>>(&self) -> Result<T> {
+        toml::from_str(&self.source).map_err(|e| {
+            Diagnostic::new(&self.file, &self.source, e.span(), e.message())
+                .label("here")
+                .help("compare with the other entries of this file")
+                .into()
+        })
+    }
+
+    /// Collects what is wrong in it.
+    pub fn check(&self) -> Check {
+        Check {
+            findings: Findings::new(&self.file, &self.source),
+        }
+    }
+}
+
+/// As a number how many axes an axis moves with on one path, as a text which ones.
+pub(super) const PATH: &str = "interpolates_with";
+
+/// What an entry of the data is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum About {
+    /// Once for the machine.
+    Machine,
+    /// Once for each axis.
+    Axis,
+    /// Once for each door.
+    Door,
+    /// Once for each door and each axis behind it.
+    DoorAxis,
+}
+
+impl About {
+    /// The names that formulas may read.
+    pub fn known(self, family: &Family) -> Vec<String> {
+        let mut known: Vec<String> = ["monitoring_cycle", "k", "n"].map(str::to_owned).to_vec();
+        known.extend(family.control.keys().cloned());
+        known.extend(family.functions.iter().map(|f| f.variable.clone()));
+        known.extend(family.lets.iter().map(|(name, _)| name.clone()));
+        known.push("enabled_any".to_owned());
+        if matches!(self, Self::Axis | Self::DoorAxis) {
+            known.extend(["kind", "LINEAR", "ROTARY", PATH].map(str::to_owned));
+            known.extend(family.axis.keys().cloned());
+        }
+        if matches!(self, Self::Door | Self::DoorAxis) {
+            known.extend(family.door.keys().cloned());
+        }
+        known
+    }
+
+    /// The names of things that texts may show beside values.
+    pub fn titles(self) -> &'static [&'static str] {
+        match self {
+            Self::Machine => &["machine", "axes"],
+            Self::Axis => &["machine", "axis", "partners"],
+            Self::Door => &["machine", "door", "axes"],
+            Self::DoorAxis => &["machine", "door", "axis", "axes"],
+        }
+    }
+}
+
+/// One subject and its values.
+#[derive(Debug, Clone)]
+pub(super) struct Ground<'a> {
+    pub machine: &'a Machine,
+    pub axis: Option<&'a Axis>,
+    pub door: Option<&'a Door>,
+    /// Values by name: also functions, named expressions and `k`.
+    pub values: Values,
+}
+
+/// All subjects of a kind, in the order of the machine file.
+pub(super) fn grounds<'a>(machine: &'a Machine, about: About) -> Vec<Ground<'a>> {
+    let whole = Ground {
+        machine,
+        axis: None,
+        door: None,
+        values: common(machine),
+    };
+    let axes = || machine.axes.iter().zip(&machine.basis.judged.axes);
+    let of_axis = |(axis, values): (&'a Axis, &Values)| {
+        let partners = i64::try_from(axis.interpolates_with.len()).unwrap_or(i64::MAX);
+        let mut ground = Ground {
+            axis: Some(axis),
+            values: values.clone(),
+            ..whole.clone()
+        };
+        ground.set(PATH, partners);
+        ground
+    };
+    let mut list = Vec::new();
+    match about {
+        About::Machine => list.push(whole),
+        About::Axis => list.extend(axes().map(of_axis)),
+        About::Door => list.extend(machine.doors.iter().map(|door| whole.clone().behind(door))),
+        About::DoorAxis => {
+            for door in &machine.doors {
+                let inside = axes().filter(|(axis, _)| door.has(&axis.name));
+                list.extend(inside.map(|pair| of_axis(pair).behind(door)));
+            }
+        }
+    }
+    list
+}
+
+/// The values of the control, and of functions and named expressions the greatest of all axes: whether any has them.
+fn common(machine: &Machine) -> Values {
+    let family = &machine.basis.family;
+    let mut values = Values::new();
+    insert(&mut values, &machine.control);
+    values.insert(
+        "monitoring_cycle".to_owned(),
+        vec![machine.monitoring_cycle],
+    );
+    let functions = family.functions.iter().map(|f| f.variable.as_str());
+    let lets = family.lets.iter().map(|(name, _)| name.as_str());
+    for name in functions.chain(lets).chain(["enabled_any"]) {
+        let mut greatest: Vec<i64> = Vec::new();
+        for cells in machine.basis.judged.axes.iter().filter_map(|v| v.get(name)) {
+            greatest.resize(greatest.len().max(cells.len()), i64::MIN);
+            for (g, cell) in greatest.iter_mut().zip(cells) {
+                *g = (*g).max(*cell);
+            }
+        }
+        values.insert(name.to_owned(), greatest);
+    }
+    values
+}
+
+impl Door {
+    /// Whether the axis can be reached through it.
+    pub fn has(&self, axis: &str) -> bool {
+        self.axes.iter().any(|name| name.get_ref() == axis)
+    }
+}
+
+impl<'a> Ground<'a> {
+    fn behind(mut self, door: &'a Door) -> Self {
+        insert(&mut self.values, &door.values);
+        self.door = Some(door);
+        self
+    }
+
+    /// The same with `k` (from 0) and `n` (from 1).
+    pub fn at(&self, k: i64) -> Self {
+        let mut ground = self.clone();
+        ground.set("k", k);
+        ground.set("n", k + 1);
+        ground
+    }
+
+    /// Gives a name a value.
+    pub fn set(&mut self, name: &str, value: i64) {
+        self.values.insert(name.to_owned(), vec![value]);
+    }
+
+    /// Linear where there is no axis.
+    pub fn kind(&self) -> AxisKind {
+        self.axis.map_or(AxisKind::Linear, |a| a.kind)
+    }
+
+    /// Evaluates an expression of `file`.
+    ///
+    /// # Errors
+    /// It has no value here, which is a fault of the family's data.
+    pub fn value(&self, file: &DataFile, formula: &Formula) -> Result<i64> {
+        self.eval(file, &formula.expr, formula.text.span())
+    }
+
+    /// [`Self::value`] of a part of the text at `span`.
+    ///
+    /// # Errors
+    /// As [`Self::value`].
+    pub fn eval(&self, file: &DataFile, expr: &Expr, span: super::Place) -> Result<i64> {
+        eval(expr, &self.values, self.machine.monitoring_cycle).map_err(|message| {
+            let message = format!("this expression cannot be evaluated: {message}");
+            Diagnostic::new(&file.file, &file.source, Some(span), message)
+                .help("this is an error of the family's data, not of the machine file")
+                .into()
+        })
+    }
+
+    /// A name that texts may show: of the machine, the axis, the door, or the axes behind it.
+    pub fn title(&self, name: &str) -> Option<String> {
+        match name {
+            "machine" => Some(self.machine.name.clone()),
+            "axis" => self.axis.map(|a| a.name.clone()),
+            "door" => self.door.map(|d| d.name.clone()),
+            "partners" => self.axis.map(partners),
+            "axes" => {
+                let all = self.machine.axes.iter().map(|a| a.name.as_str());
+                let axes = all.filter(|name| self.door.is_none_or(|d| d.has(name)));
+                Some(axes.collect::<Vec<_>>().join(", "))
+            }
+            _ => None,
+        }
+    }
+
+    /// The values of parameters that can be read here: of the door, the axis, the control.
+    fn settings(&self) -> impl Iterator<Item = &'a Settings> {
+        let door = self.door.map(|d| &d.values);
+        let axis = self.axis.map(|a| &a.values);
+        let control = &self.machine.control;
+        door.into_iter().chain(axis).chain([control])
+    }
+
+    /// The value of a parameter as its user writes it.
+    pub fn shown(&self, name: &str, index: usize) -> Option<String> {
+        let setting = self.settings().find_map(|s| s.get(name))?;
+        Some(setting.shown.get(index)?.replace('"', ""))
+    }
+
+    /// All elements of an array by name: `VELO_OVR_FACTOR[3]` and `80 %`. Nothing for what is no array.
+    pub fn elements(&self, name: &str) -> Vec<(String, String)> {
+        let setting = self.settings().find_map(|s| s.get(name));
+        let shown = setting.map_or(&[][..], |s| s.shown.as_slice());
+        let entry = |(k, value): (usize, &String)| (format!("{name}[{k}]"), value.replace('"', ""));
+        match shown {
+            [_] => Vec::new(),
+            all => all.iter().enumerate().map(entry).collect(),
+        }
+    }
+
+    /// Whether a function is enabled, as a dependence of a test: on the axis, or on which axes.
+    pub fn enabled(&self, function: &str) -> (String, String) {
+        let has = |axis: &&Axis| axis.functions.iter().any(|f| f == function);
+        let value = match self.axis {
+            Some(axis) if has(&axis) => "enabled".to_owned(),
+            Some(_) => "not enabled".to_owned(),
+            None => {
+                let with = self.machine.axes.iter().filter(has);
+                let with: Vec<&str> = with.map(|a| a.name.as_str()).collect();
+                with.join(", ")
+            }
+        };
+        (format!("function {function}"), value)
+    }
+
+    /// A number as a value of this quantity.
+    pub fn quantity(&self, quantity: Quantity, value: i64) -> String {
+        quantity.dimension(self.kind()).show(value)
+    }
+
+    /// The parameters that an expression reads, with their values: `STOP_SWITCH_TIME_C` and `300 ms`.
+    pub fn reads(&self, expr: &Expr) -> BTreeMap<String, String> {
+        let mut list = BTreeMap::new();
+        self.collect(expr, &mut list);
+        list
+    }
+
+    fn collect(&self, expr: &Expr, list: &mut BTreeMap<String, String>) {
+        match &expr.kind {
+            Kind::Name(name) if self.elements(name).is_empty() => {
+                list.extend(self.shown(name, 0).map(|value| (name.clone(), value)));
+            }
+            Kind::Index(base, index) => {
+                let k = eval(index, &self.values, 1).ok();
+                let k = k.and_then(|k| usize::try_from(k).ok());
+                if let (Kind::Name(name), Some(k)) = (&base.kind, k) {
+                    let shown = self.shown(name, k);
+                    list.extend(shown.map(|value| (format!("{name}[{k}]"), value)));
+                }
+            }
+            Kind::Unary(_, a) => self.collect(a, list),
+            Kind::Binary(_, a, b) => {
+                self.collect(a, list);
+                self.collect(b, list);
+            }
+            Kind::Call(_, args) => args.iter().for_each(|a| self.collect(a, list)),
+            _ => {}
+        }
+    }
+}
+
+/// The axes that an axis moves with on one path.
+pub(super) fn partners(axis: &Axis) -> String {
+    let names = axis.interpolates_with.iter().map(|n| n.get_ref().as_str());
+    names.collect::<Vec<_>>().join(", ")
+}
+
+/// The names that an expression reads.
+pub(super) fn read_names(expr: &Expr) -> Vec<String> {
+    let mut list = Vec::new();
+    names(expr, &mut |name| list.push(name.to_owned()));
+    list
+}

@@ -1,0 +1,427 @@
+//! The reaction chains of a machine: from the sensor to standstill, summand by summand.
+//!
+//! The data stand in `reaction-chain.toml` in the folder of the family: which summands a chain has, their formulas over the
+//! parameters, where they come from, and the explored systems whose properties bound them.
+
+use std::num::NonZeroU32;
+
+use indexmap::IndexMap;
+use serde::Deserialize;
+use toml::Spanned;
+
+use super::family::{Explore, Formula, Quantity};
+use super::family_file::{Check, ExploreData};
+use super::ground::{About, DataFile, Ground, grounds};
+use super::runs;
+use super::template::{Template, Words};
+use super::{AxisKind, Machine, Run};
+use crate::diag::Result;
+
+/// The chains of one machine.
+#[derive(Debug, Clone)]
+pub struct Reactions {
+    /// Where the manual speaks of reaction times.
+    pub source: String,
+    /// What the figures do not contain: one sentence each.
+    pub notes: Vec<String>,
+    /// The titles of the stages, in order.
+    pub stages: Vec<String>,
+    /// How a reaction can end.
+    pub outcomes: Vec<Outcome>,
+    /// The chains, in the order of the data, then of the axes.
+    pub chains: Vec<Chain>,
+    /// The explorations whose properties bound summands.
+    pub runs: Vec<Run>,
+}
+
+/// How a reaction can end.
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Outcome {
+    /// A few words.
+    pub title: String,
+    /// What the axis does meanwhile.
+    pub text: String,
+    /// How many stages it passes through, from the first.
+    pub stages: usize,
+    /// The stage, from 0, in which the axis brakes evenly to standstill; none: it never brakes.
+    pub brakes: Option<usize>,
+}
+
+/// One chain.
+#[derive(Debug, Clone)]
+pub struct Chain {
+    /// A short name: `SG1`.
+    pub name: String,
+    /// What violates what.
+    pub title: String,
+    /// The axis.
+    pub axis: String,
+    /// Its kind.
+    pub kind: AxisKind,
+    /// The speed that the over-travel is counted at, in base units, if nobody names another one.
+    pub speed: i64,
+    /// What that speed is.
+    pub speed_text: String,
+    /// The summands in order.
+    pub steps: Vec<Step>,
+}
+
+/// A summand.
+#[derive(Debug, Clone)]
+pub struct Step {
+    /// Its stage, from 0.
+    pub stage: usize,
+    /// What takes the time.
+    pub text: String,
+    /// The formula as the data have it.
+    pub formula: String,
+    /// The parameters in the formula: name and value.
+    pub values: Vec<(String, String)>,
+    /// The greatest time in microseconds; none: it has to be measured.
+    pub time: Option<i64>,
+    /// A way that belongs to the summand whatever the speed is, in base units.
+    pub length: i64,
+    /// What the monitors tolerate above the speed so far, in base units.
+    pub margin: i64,
+    /// Where the time comes from.
+    pub basis: Basis,
+    /// The requirements that say so.
+    pub id: Vec<String>,
+    /// The property whose bound shows it.
+    pub property: Option<Claim>,
+}
+
+/// What an explored property shows about a summand.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Claim {
+    /// The property.
+    pub id: String,
+    /// The system it belongs to.
+    pub system: String,
+    /// How many cycles of the system one monitoring cycle is.
+    pub per: i64,
+    /// How many summands its bound covers, this one and those before it.
+    pub spans: usize,
+}
+
+/// Where a time comes from, beside exploration.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Basis {
+    /// The manual states it.
+    Manual,
+    /// It follows from parameters of the machine.
+    Computed,
+    /// It depends on the mechanics and has to be measured.
+    Measured,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct FileData {
+    source: String,
+    notes: Vec<String>,
+    stages: Vec<String>,
+    outcome: Vec<Outcome>,
+    #[serde(default)]
+    words: IndexMap<String, Vec<String>>,
+    explore: Vec<ExploreData>,
+    group: IndexMap<String, Vec<StepData>>,
+    chain: Vec<ChainData>,
+}
+
+#[derive(Deserialize, Clone)]
+#[serde(deny_unknown_fields)]
+struct StepData {
+    stage: Spanned<usize>,
+    text: Spanned<String>,
+    when: Option<Spanned<String>>,
+    time: Option<Spanned<String>>,
+    length: Option<Spanned<String>>,
+    margin: Option<Spanned<String>>,
+    basis: Basis,
+    id: Vec<String>,
+    property: Option<PropertyData>,
+}
+
+#[derive(Deserialize, Clone)]
+#[serde(deny_unknown_fields)]
+struct PropertyData {
+    id: String,
+    system: String,
+    #[serde(default = "one")]
+    per: NonZeroU32,
+    #[serde(default = "one")]
+    spans: NonZeroU32,
+}
+
+fn one() -> NonZeroU32 {
+    NonZeroU32::MIN
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ChainData {
+    name: Spanned<String>,
+    title: Spanned<String>,
+    of: About,
+    #[serde(default)]
+    each: Vec<i64>,
+    when: Spanned<String>,
+    #[serde(default, rename = "let")]
+    lets: IndexMap<String, Spanned<String>>,
+    speed: Spanned<String>,
+    speed_text: Spanned<String>,
+    groups: Vec<Spanned<String>>,
+}
+
+/// A chain of the data, checked.
+struct Plan {
+    of: About,
+    each: Vec<i64>,
+    name: Template,
+    title: Template,
+    when: Formula,
+    lets: Vec<(String, Formula)>,
+    speed: Formula,
+    speed_text: Template,
+    steps: Vec<StepPlan>,
+}
+
+struct StepPlan {
+    stage: usize,
+    text: Template,
+    when: Option<Formula>,
+    time: Option<Formula>,
+    length: Option<Formula>,
+    margin: Option<Formula>,
+    basis: Basis,
+    id: Vec<String>,
+    property: Option<PropertyData>,
+}
+
+impl Machine {
+    /// The reaction chains of this machine.
+    ///
+    /// # Errors
+    /// The family has no `reaction-chain.toml`, or the file is wrong.
+    pub fn reactions(&self) -> Result<Reactions> {
+        let family = &self.basis.family;
+        let file = DataFile::read(&family.folder, "reaction-chain.toml", "reaction chains")?;
+        let data: FileData = file.parse()?;
+        let mut check = file.check();
+        let explore: Vec<Explore> = {
+            let known = About::Axis.known(family);
+            let entries = data.explore.into_iter();
+            entries.filter_map(|e| check.explore(e, &known)).collect()
+        };
+        let words: Vec<_> = data.words.into_iter().collect();
+        let mut plans = Vec::new();
+        for chain in data.chain {
+            let known = chain.of.known(family);
+            plans.extend(plan(
+                &mut check,
+                chain,
+                known,
+                &words,
+                &data.group,
+                data.stages.len(),
+            ));
+        }
+        check.findings.finish(())?;
+        let mut chains = Vec::new();
+        for plan in &plans {
+            for ground in grounds(self, plan.of) {
+                for k in &plan.each {
+                    chains.extend(plan.chain(&file, ground.at(*k))?);
+                }
+            }
+        }
+        let runs = runs::plan(family, &explore, &self.axes, &self.basis.judged)?.runs;
+        Ok(Reactions {
+            source: data.source,
+            notes: data.notes,
+            stages: data.stages,
+            outcomes: data.outcome,
+            chains,
+            runs,
+        })
+    }
+}
+
+/// `None` leaves a finding.
+fn plan(
+    check: &mut Check,
+    data: ChainData,
+    mut known: Vec<String>,
+    words: &[(String, Vec<String>)],
+    groups: &IndexMap<String, Vec<StepData>>,
+    stages: usize,
+) -> Option<Plan> {
+    let when = check.formula(data.when, &known)?;
+    let mut lets = Vec::new();
+    for (name, text) in data.lets {
+        let formula = check.formula(text, &known)?;
+        known.push(name.clone());
+        lets.push((name, formula));
+    }
+    let names = Words {
+        about: data.of,
+        known: &known,
+        words,
+    };
+    let mut steps = Vec::new();
+    for name in data.groups {
+        let Some(list) = groups.get(name.get_ref()) else {
+            let message = format!("there is no group '{}'", name.get_ref());
+            let known: Vec<&str> = groups.keys().map(String::as_str).collect();
+            let help = format!("groups of this file: {}", known.join(", "));
+            check.findings.add(name.span(), message, "this group", help);
+            return None;
+        };
+        for step in list {
+            steps.push(step_plan(check, step.clone(), &names, stages)?);
+        }
+    }
+    Some(Plan {
+        of: data.of,
+        each: if data.each.is_empty() {
+            vec![0]
+        } else {
+            data.each
+        },
+        name: Template::parse(data.name, &names, &mut check.findings)?,
+        title: Template::parse(data.title, &names, &mut check.findings)?,
+        speed_text: Template::parse(data.speed_text, &names, &mut check.findings)?,
+        speed: check.formula(data.speed, &known)?,
+        when,
+        lets,
+        steps,
+    })
+}
+
+fn step_plan(
+    check: &mut Check,
+    data: StepData,
+    names: &Words<'_>,
+    stages: usize,
+) -> Option<StepPlan> {
+    if *data.stage.get_ref() >= stages {
+        let help = format!("stages are numbered from 0 to {}", stages.saturating_sub(1));
+        let message = format!("there is no stage {}", data.stage.get_ref());
+        check
+            .findings
+            .add(data.stage.span(), message, "this stage", help);
+    }
+    if data.time.is_none() != (data.basis == Basis::Measured) {
+        let help = "what is measured has no formula, everything else needs one: time = \"...\"";
+        let message = "a summand has either a time or the basis \"measured\"";
+        check
+            .findings
+            .add(data.text.span(), message, "this summand", help);
+    }
+    let mut optional = |text: Option<Spanned<String>>| match text {
+        Some(text) => check.formula(text, names.known).map(Some),
+        None => Some(None),
+    };
+    Some(StepPlan {
+        stage: data.stage.into_inner(),
+        when: optional(data.when)?,
+        time: optional(data.time)?,
+        length: optional(data.length)?,
+        margin: optional(data.margin)?,
+        text: Template::parse(data.text, names, &mut check.findings)?,
+        basis: data.basis,
+        id: data.id,
+        property: data.property,
+    })
+}
+
+impl Plan {
+    /// The chain for one subject; none where it does not apply.
+    fn chain(&self, file: &DataFile, mut ground: Ground<'_>) -> Result<Option<Chain>> {
+        if ground.value(file, &self.when)? == 0 {
+            return Ok(None);
+        }
+        for (name, formula) in &self.lets {
+            let value = ground.value(file, formula)?;
+            ground.set(name, value);
+        }
+        let mut steps = Vec::new();
+        for step in &self.steps {
+            steps.extend(step.step(file, &ground)?);
+        }
+        Ok(Some(Chain {
+            name: self.name.fill(file, &ground)?,
+            title: self.title.fill(file, &ground)?,
+            axis: ground.title("axis").unwrap_or_default(),
+            kind: ground.kind(),
+            speed: ground.value(file, &self.speed)?,
+            speed_text: self.speed_text.fill(file, &ground)?,
+            steps,
+        }))
+    }
+}
+
+impl StepPlan {
+    fn step(&self, file: &DataFile, ground: &Ground<'_>) -> Result<Option<Step>> {
+        let value = |formula: &Option<Formula>| match formula {
+            Some(formula) => ground.value(file, formula).map(Some),
+            None => Ok(None),
+        };
+        if value(&self.when)? == Some(0) {
+            return Ok(None);
+        }
+        let claim = |data: &PropertyData| Claim {
+            id: data.id.clone(),
+            system: data.system.clone(),
+            per: i64::from(data.per.get()),
+            spans: data.spans.get() as usize,
+        };
+        let mut values: Vec<(String, String)> = Vec::new();
+        let formulas = [&self.time, &self.length, &self.margin];
+        for formula in formulas.into_iter().flatten() {
+            let read = ground.reads(&formula.expr).into_iter();
+            values.extend(
+                read.filter(|(name, _)| values.iter().all(|(n, _)| n != name))
+                    .collect::<Vec<_>>(),
+            );
+        }
+        let time = value(&self.time)?;
+        let formula = self.time.as_ref().map(|f| f.text.get_ref().clone());
+        Ok(Some(Step {
+            stage: self.stage,
+            text: self.text.fill(file, ground)?,
+            formula: formula.unwrap_or_default(),
+            values,
+            time,
+            length: value(&self.length)?.unwrap_or(0),
+            margin: value(&self.margin)?.unwrap_or(0),
+            basis: self.basis,
+            id: self.id.clone(),
+            property: self.property.as_ref().map(claim),
+        }))
+    }
+}
+
+/// A way in base units as a reader writes it.
+pub fn show_length(kind: AxisKind, value: i64) -> String {
+    Quantity::Length.dimension(kind).show(value)
+}
+
+/// A speed in base units as a reader writes it.
+pub fn show_speed(kind: AxisKind, value: i64) -> String {
+    Quantity::Speed.dimension(kind).show(value)
+}
+
+/// Reads a speed such as `5000 mm/min` or `300 rev/min` for an axis of this kind, in base units.
+///
+/// # Errors
+/// Not a speed, or one of another kind of axis.
+pub fn parse_speed(
+    kind: AxisKind,
+    text: &str,
+) -> std::result::Result<i64, super::units::UnitError> {
+    super::units::parse(text, Quantity::Speed.dimension(kind))
+}
