@@ -11,6 +11,7 @@ pub mod engine;
 pub mod export;
 pub mod keep;
 pub mod matrix;
+pub mod reaction;
 pub mod readings;
 pub mod recorded;
 pub mod reduce;
