@@ -3,6 +3,7 @@
 //! The library behind the command line: [`subject`] loads what a command works on, [`check`] explores it, [`report`] and
 //! [`timing`] show the result.
 
+pub mod acceptance;
 pub mod atomic;
 pub mod certificate;
 pub mod check;

@@ -1,5 +1,6 @@
 //! Arguments, exit status, and what goes to which stream.
 
+mod acceptance;
 mod certify;
 mod check;
 mod cluster;
@@ -57,6 +58,11 @@ enum Command {
         after_help = "Examples:\n  stillpoint export spec/bench/two-axis.toml --to promela --output two-axis.pml\n  stillpoint export spec/sinumerik-840d/axis.toml --system stop --to dot | dot -Tsvg"
     )]
     Export(export::Arguments),
+    /// The protocol of the acceptance test for exactly this machine, and what of it to repeat after a change
+    #[command(
+        after_help = "Examples:\n  stillpoint acceptance spec/machines/milling-840d.toml > protocol.md\n  stillpoint acceptance spec/machines/milling-840d.toml --html protocol.html\n  stillpoint acceptance milling-840d.toml --since milling-840d.old.toml --html repeat.html"
+    )]
+    Acceptance(acceptance::Arguments),
     /// Reaction times from the sensor to standstill, summand by summand, and the over-travel
     #[command(
         after_help = "Exit status: 0; 1 the exploration contradicts a reaction time; 2 bad input; 3 a limit was reached first.\n\nExamples:\n  stillpoint reaction spec/machines/milling-840d.toml\n  stillpoint reaction spec/machines/milling-840d.toml --axis X --speed \"10000 mm/min\" --acceleration \"2 m/s2\"\n  stillpoint reaction spec/machines/milling-840d.toml --html reaction.html"
@@ -84,6 +90,7 @@ pub fn main() -> ExitCode {
         }
     };
     let status = match arguments.command {
+        Command::Acceptance(arguments) => acceptance::run(&arguments),
         Command::Certify(arguments) => certify::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Diff(arguments) => diff::run(&arguments),
