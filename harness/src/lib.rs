@@ -3,6 +3,7 @@
 //! The library behind the command line: [`subject`] loads what a command works on, [`check`] explores it, [`report`] and
 //! [`timing`] show the result.
 
+pub mod acceptance;
 pub mod atomic;
 pub mod certificate;
 pub mod check;
@@ -15,6 +16,7 @@ pub mod keep;
 pub mod matrix;
 pub mod production;
 pub mod pages;
+pub mod reaction;
 pub mod readings;
 pub mod recorded;
 pub mod recording;

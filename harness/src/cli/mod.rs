@@ -1,5 +1,6 @@
 //! Arguments, exit status, and what goes to which stream.
 
+mod acceptance;
 mod certify;
 mod check;
 mod cluster;
@@ -12,6 +13,7 @@ mod manual;
 mod pages;
 mod progress;
 mod simulate;
+mod reaction;
 mod trace;
 mod values;
 
@@ -72,6 +74,16 @@ enum Command {
         after_help = "Exit status: 0 every expectation of the scenario holds; 1 one does not; 2 bad input, nothing was run.\n\nExamples:\n  stillpoint simulate spec/machines/milling-840d.toml --scenario spec/scenarios/door-while-moving.toml\n  stillpoint simulate spec/machines/milling-840d.toml --scenario spec/scenarios/encoder-freeze.toml --svg freeze.svg --trace freeze.ndjson"
     )]
     Simulate(simulate::Arguments),
+    /// The protocol of the acceptance test for exactly this machine, and what of it to repeat after a change
+    #[command(
+        after_help = "Examples:\n  stillpoint acceptance spec/machines/milling-840d.toml > protocol.md\n  stillpoint acceptance spec/machines/milling-840d.toml --html protocol.html\n  stillpoint acceptance milling-840d.toml --since milling-840d.old.toml --html repeat.html"
+    )]
+    Acceptance(acceptance::Arguments),
+    /// Reaction times from the sensor to standstill, summand by summand, and the over-travel
+    #[command(
+        after_help = "Exit status: 0; 1 the exploration contradicts a reaction time; 2 bad input; 3 a limit was reached first.\n\nExamples:\n  stillpoint reaction spec/machines/milling-840d.toml\n  stillpoint reaction spec/machines/milling-840d.toml --axis X --speed \"10000 mm/min\" --acceleration \"2 m/s2\"\n  stillpoint reaction spec/machines/milling-840d.toml --html reaction.html"
+    )]
+    Reaction(reaction::Arguments),
     /// The requirement matrix: which rules, monitors, proofs and tests carry each requirement
     #[command(
         after_help = "Exit status: 0; 1 if a family declared complete has open core requirements or an id is in no catalogue; 2 bad input.\n\nExample: stillpoint trace --html matrix.html"
@@ -121,12 +133,14 @@ pub fn main() -> ExitCode {
         }
     };
     let status = match arguments.command {
+        Command::Acceptance(arguments) => acceptance::run(&arguments),
         Command::Certify(arguments) => certify::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Diff(arguments) => diff::run(&arguments),
         Command::Explore(arguments) => explore::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),
+        Command::Reaction(arguments) => reaction::run(&arguments),
         Command::Trace(arguments) => trace::run(&arguments),
         Command::Validate { file } => validate(&file),
         Command::Pages(arguments) => pages::run(&arguments),
