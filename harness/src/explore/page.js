@@ -221,8 +221,11 @@ function outcomes(most) {
   choose(0);
 }
 function words(item) {
-  return JSON.stringify([item.rules.map((r) => [r.name, r.requirements]), item.changes, item.when, item.broken, item.fault]).toLowerCase();
+  const rules = item.rules.map((r) => [r.name, ...r.requirements]).flat();
+  return [...rules, ...item.changes.map(change), ...item.when.map(condition), ...item.broken, item.fault || ""].join("\n").toLowerCase();
 }
+const change = ([name, a, b]) => `${name}: ${a} → ${b}`;
+const condition = ([name, values]) => `${name} = ${values.join(", ")}`;
 function holder(input, k, all, readable) {
   const value = all.has(k) ? all.get(k) : null;
   let field;
@@ -247,8 +250,8 @@ function one(item, number) {
   if (item.fault) head.push(" ", span("chip bad", item.fault));
   else if (!item.changes.length) head.push(" ", span("chip", "same state"));
   const lines = [];
-  if (item.changes.length) lines.push(el("span", { class: "line" }, item.changes.map(([name, a, b]) => `${name}: ${a} → ${b}`).join(", ")));
-  const written = (list) => list.map(([name, values]) => `${name} = ${values.join(", ")}`).join("; ");
+  if (item.changes.length) lines.push(el("span", { class: "line" }, item.changes.map(change).join(", ")));
+  const written = (list) => list.map(condition).join("; ");
   const special = item.when.filter(([, , least]) => !least);
   const rest = item.when.length - special.length;
   // Few conditions are told in full, of many those that stand out.
