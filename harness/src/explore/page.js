@@ -79,6 +79,10 @@ async function load() {
     const view = await answer(await post("/api/view", wanted));
     if (mine !== asked) return;
     shown = view;
+    // Rules are told by their numbers.
+    const rules = system(link.system).rules;
+    if (view.fired) view.fired = view.fired.map((k) => rules[k]);
+    if (view.next) for (const item of view.next.classes) item.rules = item.rules.map((k) => rules[k]);
     chosen = 0;
     render();
   } catch (error) {

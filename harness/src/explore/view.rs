@@ -44,13 +44,17 @@ pub fn systems(explorer: &Explorer) -> Value {
                 "written": p.written.iter().map(|(key, text)| json!([key, text])).collect::<Vec<_>>(),
             })
         });
+        let rules = bound.system.rules().map(
+            |rule| json!({ "name": rule.name, "requirements": rule.ids, "note": rule.note }),
+        );
+        let rules: Vec<Value> = rules.collect();
         let inputs: Vec<Value> = inputs.collect();
         json!({
             "name": name, "title": task.title, "system": bound.system.name, "hash": hash,
             "axes": task.axes, "abstractions": task.abstractions,
             "cycle_us": bound.system.cycle_us, "scaled": bound.system.scaled && explorer.subject().machine.is_some(),
             "parameters": params(bound), "readings": bound.readings(),
-            "inputs": inputs, "properties": properties.collect::<Vec<_>>(),
+            "inputs": inputs, "rules": rules, "properties": properties.collect::<Vec<_>>(),
         })
     });
     let systems: Vec<Value> = systems.collect();
@@ -218,16 +222,16 @@ fn inputs(bound: &Bound, walk: &Walk, at: usize) -> Vec<Value> {
         .collect()
 }
 
-/// The rules that fired, one of an instance at most.
-fn rules(bound: &Bound, fired: &[i32]) -> Vec<Value> {
-    let instances = bound.system.instances.iter().zip(fired);
-    let rules = instances.filter_map(|(instance, fired)| {
-        let number = usize::try_from(*fired).ok()?.checked_sub(1)?;
-        instance.rules.get(number)
-    });
-    rules
-        .map(|rule| json!({ "name": rule.name, "requirements": rule.ids, "note": rule.note }))
-        .collect()
+/// The numbers of the rules that fired, one of an instance at most, as the list of all rules counts them.
+fn rules(bound: &Bound, fired: &[i32]) -> Vec<usize> {
+    let mut first = 0;
+    let mut out = Vec::new();
+    for (instance, fired) in bound.system.instances.iter().zip(fired) {
+        let number = usize::try_from(*fired).ok().and_then(|n| n.checked_sub(1));
+        out.extend(number.map(|number| first + number));
+        first += instance.rules.len();
+    }
+    out
 }
 
 fn fault(bound: &Bound, fault: Fault) -> String {
