@@ -259,7 +259,7 @@ function one(item, number) {
   const special = item.when.filter(([, , least]) => !least);
   const rest = item.when.length - special.length;
   // Few conditions are told in full, of many those that stand out.
-  const when = rest > 2 ? [written(special), `${rest} others FALSE or least`].filter(Boolean).join("; ") : written(item.when);
+  const when = rest > 2 ? special.length ? `${written(special)}; ${rest} others FALSE or least` : `${rest} inputs FALSE or least` : written(item.when);
   const exactly = item.exact ? (when ? `if ${when}` : "whatever the inputs are") : when ? `only if ${when}, and more` : "for several combinations of inputs";
   lines.push(el("span", { class: "line dim" }, `${exactly} · ${item.combinations} ${item.combinations === "1" ? "combination" : "combinations"}`));
   const rules = item.rules.map((r) => [r.name, hint(r)].filter(Boolean).join(": ")).concat(rest > 2 ? [written(item.when)] : []).join("\n");
@@ -277,6 +277,7 @@ function choose(number) {
 function step(number) {
   const item = shown && shown.next && listed[number];
   if (!item) return;
+  notice("");
   // The same step as the walk goes on along it, another one begins a new walk here.
   if (shown.parts[shown.at + 1] === item.choice) return move(shown.at + 1);
   if (shown.at >= known.most_cycles) return notice(`A walk has at most ${known.most_cycles} cycles.`);

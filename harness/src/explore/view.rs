@@ -16,7 +16,7 @@ use super::live::{Live, Standing, live};
 use super::path::Choice;
 use super::walk::Walk;
 use super::{Explorer, path};
-use crate::engine::{label, lazy};
+use crate::engine::{Cycle, label, lazy};
 use crate::report::{grouped, params};
 use crate::timing;
 
@@ -71,7 +71,7 @@ pub fn systems(explorer: &Explorer) -> Value {
 
 /// What a walk shows at its cycle number `at` (0 for the initial state), with some inputs of the next cycle held.
 pub fn view(bound: &Bound, walk: &Walk, at: usize, held: &[(u32, u32)]) -> Value {
-    let properties = live(bound, &walk.cycles[..at]);
+    let properties = live(bound, &judged(walk)[..at.min(judged(walk).len())]);
     let path = &walk.path;
     let next = walk.states.get(at).map(|state| classes(bound, state, held));
     let listed = next
@@ -93,11 +93,17 @@ pub fn view(bound: &Bound, walk: &Walk, at: usize, held: &[(u32, u32)]) -> Value
     })
 }
 
+/// The cycles that properties speak of: one that met a fault has no state after it.
+fn judged(walk: &Walk) -> &[Cycle] {
+    let states = walk.states.len().saturating_sub(1);
+    &walk.cycles[..states.min(walk.cycles.len())]
+}
+
 /// The timing diagram of a walk, with marks where properties break and at the cycle shown.
 fn drawn(bound: &Bound, walk: &Walk, at: usize) -> Diagram {
     let mut diagram = timing::of_run(bound, &walk.cycles);
     diagram.cycle = Some(bound.system.cycle_us);
-    let whole = live(bound, &walk.cycles);
+    let whole = live(bound, judged(walk));
     for (property, live) in bound.system.properties.iter().zip(&whole) {
         if let Some(column) = live.broken {
             diagram.marks.push(Mark {
