@@ -10,7 +10,7 @@ use stillpoint_spec::eval::{Frame, UNSET};
 use stillpoint_spec::ir::Form;
 
 use super::path::Choice;
-use super::truth::truth;
+use super::truth::Teller;
 use super::walk::{choice, size};
 
 /// Cycles that are made from one state at most.
@@ -155,7 +155,8 @@ fn read_in(frame: &Frame) -> impl Iterator<Item = u32> {
 
 /// The properties about single cycles that the cycle just made surely breaks.
 fn broken(bound: &Bound, frame: &Frame, held: &[(u32, u32)]) -> Vec<usize> {
-    let is = |atom: usize, value: bool| truth(bound, frame, held, atom) == Ok(value);
+    let mut teller = Teller::new(bound, frame, held);
+    let mut is = |atom: usize, value: bool| teller.truth(atom) == Ok(value);
     let all = bound.system.properties.iter().enumerate();
     all.filter(|(_, property)| match &property.form {
         Form::Always { when, then } => when.is_none_or(|when| is(when, true)) && is(*then, false),

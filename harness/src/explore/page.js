@@ -79,6 +79,10 @@ async function load() {
     const view = await answer(await post("/api/view", wanted));
     if (mine !== asked) return;
     shown = view;
+    // Rules are told by their numbers.
+    const rules = system(link.system).rules;
+    if (view.fired) view.fired = view.fired.map((k) => rules[k]);
+    if (view.next) for (const item of view.next.classes) item.rules = item.rules.map((k) => rules[k]);
     chosen = 0;
     render();
   } catch (error) {
@@ -221,8 +225,11 @@ function outcomes(most) {
   choose(0);
 }
 function words(item) {
-  return JSON.stringify([item.rules.map((r) => [r.name, r.requirements]), item.changes, item.when, item.broken, item.fault]).toLowerCase();
+  const rules = item.rules.map((r) => [r.name, ...r.requirements]).flat();
+  return [...rules, ...item.changes.map(change), ...item.when.map(condition), ...item.broken, item.fault || ""].join("\n").toLowerCase();
 }
+const change = ([name, a, b]) => `${name}: ${a} → ${b}`;
+const condition = ([name, values]) => `${name} = ${values.join(", ")}`;
 function holder(input, k, all, readable) {
   const value = all.has(k) ? all.get(k) : null;
   let field;
@@ -247,12 +254,12 @@ function one(item, number) {
   if (item.fault) head.push(" ", span("chip bad", item.fault));
   else if (!item.changes.length) head.push(" ", span("chip", "same state"));
   const lines = [];
-  if (item.changes.length) lines.push(el("span", { class: "line" }, item.changes.map(([name, a, b]) => `${name}: ${a} → ${b}`).join(", ")));
-  const written = (list) => list.map(([name, values]) => `${name} = ${values.join(", ")}`).join("; ");
+  if (item.changes.length) lines.push(el("span", { class: "line" }, item.changes.map(change).join(", ")));
+  const written = (list) => list.map(condition).join("; ");
   const special = item.when.filter(([, , least]) => !least);
   const rest = item.when.length - special.length;
   // Few conditions are told in full, of many those that stand out.
-  const when = rest > 2 ? [written(special), `${rest} others FALSE or least`].filter(Boolean).join("; ") : written(item.when);
+  const when = rest > 2 ? special.length ? `${written(special)}; ${rest} others FALSE or least` : `${rest} inputs FALSE or least` : written(item.when);
   const exactly = item.exact ? (when ? `if ${when}` : "whatever the inputs are") : when ? `only if ${when}, and more` : "for several combinations of inputs";
   lines.push(el("span", { class: "line dim" }, `${exactly} · ${item.combinations} ${item.combinations === "1" ? "combination" : "combinations"}`));
   const rules = item.rules.map((r) => [r.name, hint(r)].filter(Boolean).join(": ")).concat(rest > 2 ? [written(item.when)] : []).join("\n");
@@ -270,6 +277,7 @@ function choose(number) {
 function step(number) {
   const item = shown && shown.next && listed[number];
   if (!item) return;
+  notice("");
   // The same step as the walk goes on along it, another one begins a new walk here.
   if (shown.parts[shown.at + 1] === item.choice) return move(shown.at + 1);
   if (shown.at >= known.most_cycles) return notice(`A walk has at most ${known.most_cycles} cycles.`);

@@ -157,7 +157,7 @@ fn answer(explorer: &Explorer, port: u16, mut request: Request) {
 /// Whether `authority` is a name of this host with our port: a page of somebody else may reach us under a name that it
 /// resolves to loopback, but its requests carry that name.
 fn ours(authority: &str, port: u16) -> bool {
-    ["127.0.0.1", "localhost", "[::1]"]
+    ["127.0.0.1", "localhost"]
         .iter()
         .any(|name| authority.eq_ignore_ascii_case(&format!("{name}:{port}")))
         || port == 80 && ["127.0.0.1", "localhost"].contains(&authority)

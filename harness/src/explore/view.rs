@@ -16,7 +16,7 @@ use super::live::{Live, Standing, live};
 use super::path::Choice;
 use super::walk::Walk;
 use super::{Explorer, path};
-use crate::engine::{label, lazy};
+use crate::engine::{Cycle, label, lazy};
 use crate::report::{grouped, params};
 use crate::timing;
 
@@ -44,13 +44,17 @@ pub fn systems(explorer: &Explorer) -> Value {
                 "written": p.written.iter().map(|(key, text)| json!([key, text])).collect::<Vec<_>>(),
             })
         });
+        let rules = bound.system.rules().map(
+            |rule| json!({ "name": rule.name, "requirements": rule.ids, "note": rule.note }),
+        );
+        let rules: Vec<Value> = rules.collect();
         let inputs: Vec<Value> = inputs.collect();
         json!({
             "name": name, "title": task.title, "system": bound.system.name, "hash": hash,
             "axes": task.axes, "abstractions": task.abstractions,
             "cycle_us": bound.system.cycle_us, "scaled": bound.system.scaled && explorer.subject().machine.is_some(),
             "parameters": params(bound), "readings": bound.readings(),
-            "inputs": inputs, "properties": properties.collect::<Vec<_>>(),
+            "inputs": inputs, "rules": rules, "properties": properties.collect::<Vec<_>>(),
         })
     });
     let systems: Vec<Value> = systems.collect();
@@ -67,7 +71,7 @@ pub fn systems(explorer: &Explorer) -> Value {
 
 /// What a walk shows at its cycle number `at` (0 for the initial state), with some inputs of the next cycle held.
 pub fn view(bound: &Bound, walk: &Walk, at: usize, held: &[(u32, u32)]) -> Value {
-    let properties = live(bound, &walk.cycles[..at]);
+    let properties = live(bound, &judged(walk)[..at.min(judged(walk).len())]);
     let path = &walk.path;
     let next = walk.states.get(at).map(|state| classes(bound, state, held));
     let listed = next
@@ -89,11 +93,17 @@ pub fn view(bound: &Bound, walk: &Walk, at: usize, held: &[(u32, u32)]) -> Value
     })
 }
 
+/// The cycles that properties speak of: one that met a fault has no state after it.
+fn judged(walk: &Walk) -> &[Cycle] {
+    let states = walk.states.len().saturating_sub(1);
+    &walk.cycles[..states.min(walk.cycles.len())]
+}
+
 /// The timing diagram of a walk, with marks where properties break and at the cycle shown.
 fn drawn(bound: &Bound, walk: &Walk, at: usize) -> Diagram {
     let mut diagram = timing::of_run(bound, &walk.cycles);
     diagram.cycle = Some(bound.system.cycle_us);
-    let whole = live(bound, &walk.cycles);
+    let whole = live(bound, judged(walk));
     for (property, live) in bound.system.properties.iter().zip(&whole) {
         if let Some(column) = live.broken {
             diagram.marks.push(Mark {
@@ -218,16 +228,16 @@ fn inputs(bound: &Bound, walk: &Walk, at: usize) -> Vec<Value> {
         .collect()
 }
 
-/// The rules that fired, one of an instance at most.
-fn rules(bound: &Bound, fired: &[i32]) -> Vec<Value> {
-    let instances = bound.system.instances.iter().zip(fired);
-    let rules = instances.filter_map(|(instance, fired)| {
-        let number = usize::try_from(*fired).ok()?.checked_sub(1)?;
-        instance.rules.get(number)
-    });
-    rules
-        .map(|rule| json!({ "name": rule.name, "requirements": rule.ids, "note": rule.note }))
-        .collect()
+/// The numbers of the rules that fired, one of an instance at most, as the list of all rules counts them.
+fn rules(bound: &Bound, fired: &[i32]) -> Vec<usize> {
+    let mut first = 0;
+    let mut out = Vec::new();
+    for (instance, fired) in bound.system.instances.iter().zip(fired) {
+        let number = usize::try_from(*fired).ok().and_then(|n| n.checked_sub(1));
+        out.extend(number.map(|number| first + number));
+        first += instance.rules.len();
+    }
+    out
 }
 
 fn fault(bound: &Bound, fault: Fault) -> String {

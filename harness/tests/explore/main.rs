@@ -3,5 +3,6 @@
 mod agreement;
 mod api;
 mod chromium;
+mod count;
 mod page;
 mod served;
