@@ -233,10 +233,16 @@ fn one(machine: &Machine, test: &Test) -> Block {
         blocks.push(Block::Paragraph(vec![Inline::Strong("Before".to_owned())]));
         blocks.push(bullets(&test.requires));
     }
-    blocks.push(Block::Paragraph(vec![Inline::Strong("Steps".to_owned())]));
-    let steps = test.steps.iter().enumerate();
-    let steps = steps.map(|(k, step)| vec![Inline::Text(format!("{}. {step}", k + 1))]);
-    blocks.push(Block::List(steps.collect()));
+    let steps = test.steps.iter().enumerate().map(|(k, step)| {
+        let number = Inline::Text((k + 1).to_string());
+        vec![vec![number], vec![text(step)], vec![Inline::Blank(5)]]
+    });
+    let heads = vec![
+        column("", true),
+        column("Step", false),
+        column("Done", false),
+    ];
+    blocks.push(table("", heads, steps.collect()));
     let rows = test.expect.iter().map(|e| {
         let (time, cycles) = match latest(e, cycle) {
             Some((us, cycles)) => (self::time(us), cycles.to_string()),
@@ -286,7 +292,8 @@ fn one(machine: &Machine, test: &Test) -> Block {
         blocks.push(table("", heads, rows.collect()));
     }
     let mut end = vec![
-        Inline::Strong("Passed ".to_owned()),
+        Inline::Strong("Passed".to_owned()),
+        text(" "),
         Inline::Blank(5),
         text("  Alarms "),
         Inline::Blank(24),
