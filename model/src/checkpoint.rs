@@ -297,7 +297,8 @@ fn put_tally<K: Key>(out: &mut Out, tally: &Tally<K>) -> io::Result<()> {
     out.numbers(&tally.coverage)?;
     out.number(tally.absorbing)?;
     out.number(tally.examples.len() as u64)?;
-    tally.examples.iter().try_for_each(|key| out.key(*key))
+    tally.examples.iter().try_for_each(|key| out.key(*key))?;
+    out.number(tally.stored)
 }
 
 fn get_tally<K: Key>(input: &mut In) -> io::Result<Tally<K>> {
@@ -328,6 +329,7 @@ fn get_tally<K: Key>(input: &mut In) -> io::Result<Tally<K>> {
     for _ in 0..input.count()? {
         tally.examples.push(input.key()?);
     }
+    tally.stored = input.number()?;
     Ok(tally)
 }
 

@@ -2,7 +2,7 @@
 
 use crate::crew::Watch;
 use crate::cursor::{Cursor, Leaf};
-use crate::explore::{Job, Stage, crew, on_store};
+use crate::explore::{Job, crew, on_store};
 use crate::process::{Any, Origin};
 use crate::report::{Error, Options, Storage};
 use crate::search::{Model, initial};
@@ -70,7 +70,7 @@ struct Visit<'a> {
 impl Job<Any<'_>> for Visit<'_> {
     type Output = bool;
 
-    fn run<T: Stage>(
+    fn run<T: Store>(
         self,
         model: &Model<Any, T::Key>,
         mut store: T,
@@ -102,7 +102,7 @@ struct Seen<P> {
 impl<P: Ord + Clone + Send, F: Fn(&[i32]) -> P + Sync> Job<Any<'_>> for Project<F> {
     type Output = ControlGraph<P>;
 
-    fn run<T: Stage>(
+    fn run<T: Store>(
         self,
         model: &Model<Any, T::Key>,
         mut store: T,

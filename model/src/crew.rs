@@ -2,6 +2,7 @@
 
 use crate::report::{Error, Limits};
 use std::sync::atomic::{AtomicU8, AtomicU64, AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Why work ended early.
@@ -100,7 +101,8 @@ impl Crew {
         self.pool.current_num_threads()
     }
 
-    /// Does pieces of work, each once, by whichever worker is free.
+    /// Does pieces of work, each once. Each worker runs on a thread of its own and begins with its share of the pieces,
+    /// next to what it did the last time; then it helps the others.
     pub(crate) fn share<W: Send>(
         &self,
         workers: &mut [W],
@@ -113,20 +115,36 @@ impl Crew {
             }
             return;
         }
-        let next = AtomicUsize::new(0);
-        let (next, work) = (&next, &work);
-        self.pool.scope(|scope| {
-            for worker in workers {
-                scope.spawn(move |_| {
-                    loop {
-                        let piece = next.fetch_add(1, Ordering::Relaxed);
-                        if piece >= pieces {
-                            return;
-                        }
-                        work(worker, piece);
+        let number = workers.len();
+        let shares: Vec<Share> = (0..number)
+            .map(|n| Share {
+                next: AtomicUsize::new(pieces * n / number),
+                end: pieces * (n + 1) / number,
+            })
+            .collect();
+        let workers: Vec<Mutex<&mut W>> = workers.iter_mut().map(Mutex::new).collect();
+        self.pool.broadcast(|context| {
+            let first = context.index();
+            let Some(worker) = workers.get(first) else {
+                return;
+            };
+            let mut worker = worker.lock().unwrap_or_else(PoisonError::into_inner);
+            for share in shares.iter().cycle().skip(first).take(number) {
+                loop {
+                    let piece = share.next.fetch_add(1, Ordering::Relaxed);
+                    if piece >= share.end {
+                        break;
                     }
-                });
+                    work(&mut worker, piece);
+                }
             }
         });
     }
+}
+
+/// A worker's share of the pieces, in a cache line of its own.
+#[repr(align(128))]
+struct Share {
+    next: AtomicUsize,
+    end: usize,
 }

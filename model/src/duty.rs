@@ -123,8 +123,6 @@ impl Process for DutyProcess<'_> {
 
     fn count(&self, _: u64, _: &mut [u64]) {}
 
-    fn fired(&self, _: &mut dyn FnMut(usize)) {}
-
     fn discarded(&self) -> bool {
         self.inner.discarded()
     }

@@ -4,7 +4,7 @@ use crate::crew::{Crew, Watch};
 use crate::cursor::Leaf;
 use crate::hashed::{Halves, Hashed, Plain};
 use crate::liveness::{fair, recoverable, recovery};
-use crate::pack::{Key, Packer, Wide, space};
+use crate::pack::{Key, Packer, space};
 use crate::process::{Any, Origin, Process};
 use crate::property::{Eval, Form, Property, Sign, validate};
 use crate::report::{
@@ -25,7 +25,7 @@ const DEFAULT_BITMAP: u64 = 1 << 30;
 /// Work that is written once for every kind of storage.
 pub(crate) trait Job<O> {
     type Output;
-    fn run<T: Stage>(
+    fn run<T: Store>(
         self,
         model: &Model<O, T::Key>,
         store: T,
@@ -154,7 +154,7 @@ impl<K> From<Verdict> for Decision<'_, K> {
 impl Job<Any<'_>> for Explore<'_> {
     type Output = Report;
 
-    fn run<T: Stage>(
+    fn run<T: Store>(
         self,
         model: &Model<Any, T::Key>,
         mut store: T,
@@ -167,53 +167,20 @@ impl Job<Any<'_>> for Explore<'_> {
             self.options,
             self.progress,
         )?;
-        let model = Model::with(model.origin, model.packer.clone(), model.crew, model.watch);
-        T::finish(
-            store,
-            Finish {
-                model,
-                found,
-                properties: self.properties,
-                options: self.options,
-                storage,
-            },
-        )
-    }
-}
-
-/// A store that can finish an exploration. (Not a provided method: what needs no type of a system is compiled here once,
-/// not again with every system.)
-pub(crate) trait Stage: Store + Sized {
-    fn finish(self, finish: Finish<Self::Key>) -> Result<Report, Error>;
-}
-
-impl Stage for Dense {
-    fn finish(self, finish: Finish<u64>) -> Result<Report, Error> {
-        finish.report(self)
-    }
-}
-
-impl Stage for Ticked {
-    fn finish(self, finish: Finish<u64>) -> Result<Report, Error> {
-        finish.report(self)
-    }
-}
-
-impl Stage for Hashed<Plain> {
-    fn finish(self, finish: Finish<u64>) -> Result<Report, Error> {
-        finish.report(self)
-    }
-}
-
-impl Stage for Hashed<Halves> {
-    fn finish(self, finish: Finish<Wide>) -> Result<Report, Error> {
-        finish.report(self)
+        let finish = Finish {
+            model,
+            found,
+            properties: self.properties,
+            options: self.options,
+            storage,
+        };
+        finish.report(store)
     }
 }
 
 /// What is left to do after the search: verdicts and traces.
 pub(crate) struct Finish<'a, K> {
-    pub(crate) model: Model<'a, Any<'a>, K>,
+    pub(crate) model: &'a Model<'a, Any<'a>, K>,
     pub(crate) found: Found<K>,
     pub(crate) properties: &'a [Property],
     pub(crate) options: &'a Options,
@@ -221,7 +188,7 @@ pub(crate) struct Finish<'a, K> {
 }
 
 impl<K: Key> Finish<'_, K> {
-    fn report<T: Store<Key = K>>(self, mut store: T) -> Result<Report, Error> {
+    pub(crate) fn report<T: Store<Key = K>>(self, mut store: T) -> Result<Report, Error> {
         let Finish {
             model,
             found,
@@ -229,10 +196,8 @@ impl<K: Key> Finish<'_, K> {
             options,
             storage,
         } = self;
-        let model = &model;
         let tally = &found.tally;
-        let stored = store.bytes();
-        let decisions = decide(model, &found, properties, options, stored)?;
+        let decisions = decide(model, &found, properties, options, store.bytes())?;
         let mut requests = Vec::new();
         let mut judgements = Vec::new();
         let mut tails = Vec::new();
@@ -334,7 +299,7 @@ impl<K: Key> Finish<'_, K> {
             coverage: tally.coverage.clone(),
             absorbing: tally.absorbing,
             memory: found.bytes.max(model.watch.peak()),
-            stored,
+            stored: tally.stored,
             storage,
             index_space: space(model.origin.domains())?,
             faults,

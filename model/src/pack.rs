@@ -105,6 +105,15 @@ impl Digit {
     }
 }
 
+/// Where the values of a variable stand in an index.
+pub(crate) struct Place {
+    pub(crate) half: usize,
+    pub(crate) stride: u64,
+    pub(crate) size: u64,
+    /// No variable of more than one value is more significant.
+    pub(crate) top: bool,
+}
+
 /// Packs the values of one list of domains; in each half the first variable is the most significant.
 #[derive(Clone, Debug)]
 pub(crate) struct Packer<K> {
@@ -128,6 +137,32 @@ pub(crate) fn space(domains: &[Domain]) -> Result<u128, Error> {
     Ok(space)
 }
 
+/// For each variable the half of the index that has its digit. Two halves get about as many values each, so that many
+/// states share a half.
+fn halves(domains: &[Domain], whole: u128, number: usize) -> Option<Vec<usize>> {
+    let most = 1u128 << 64;
+    let mut first = 1u128;
+    let mut best = (whole, if number == 1 { domains.len() } else { 0 });
+    for (count, domain) in domains.iter().enumerate().filter(|_| number > 1) {
+        first *= u128::from(domain.size());
+        best = best.min((first.max(whole / first), count + 1));
+    }
+    let (larger, cut) = best;
+    if larger <= most {
+        return Some((0..domains.len()).map(|v| usize::from(v >= cut)).collect());
+    }
+    // No cut gives two halves that fit; picking may.
+    let mut spaces = [1u128; 2];
+    let mut picked = Vec::with_capacity(domains.len());
+    for domain in domains {
+        let size = u128::from(domain.size());
+        let half = (0..number).find(|half| spaces[*half] * size <= most)?;
+        spaces[half] *= size;
+        picked.push(half);
+    }
+    Some(picked)
+}
+
 impl<K: Key> Packer<K> {
     /// Fails if an index does not fit `K`.
     pub(crate) fn new(domains: &[Domain]) -> Result<Self, Error> {
@@ -136,16 +171,8 @@ impl<K: Key> Packer<K> {
 
     /// With a variable that is less significant than all others.
     pub(crate) fn with_least(domains: &[Domain], least: Option<usize>) -> Result<Self, Error> {
-        space(domains)?;
-        let mut spaces = [1u128; 2];
-        let mut halves = Vec::with_capacity(domains.len());
-        for domain in domains {
-            let size = u128::from(domain.size());
-            let half = (0..K::HALVES).find(|half| spaces[*half] * size <= 1 << 64);
-            let half = half.ok_or(Error::SpaceTooLarge)?;
-            spaces[half] *= size;
-            halves.push(half);
-        }
+        let whole = space(domains)?;
+        let halves = halves(domains, whole, K::HALVES).ok_or(Error::SpaceTooLarge)?;
         let others = (0..domains.len()).rev().filter(|v| Some(*v) != least);
         let order: Vec<usize> = least.into_iter().chain(others).collect();
         let mut strides = [1u64; 2];
@@ -183,9 +210,16 @@ impl<K: Key> Packer<K> {
         if inside { Some(K::of(key)) } else { None }
     }
 
-    /// The number of variables.
-    pub(crate) fn variables(&self) -> usize {
-        self.digits.len()
+    /// Where the values of a variable stand in an index.
+    pub(crate) fn place(&self, variable: usize) -> Option<Place> {
+        let digit = self.digits.get(variable)?;
+        let above = |other: &Digit| other.half == digit.half && other.stride > digit.stride;
+        Some(Place {
+            half: digit.half,
+            stride: digit.stride,
+            size: digit.size,
+            top: !self.digits.iter().any(above),
+        })
     }
 
     /// What the given variables contribute to the index of a state; none if a value is outside its domain.
@@ -291,6 +325,34 @@ mod tests {
         for key in 0..120 {
             assert_eq!(packer.pack(&packer.state(key)), Some(key));
         }
+    }
+
+    #[test]
+    fn two_halves_have_about_as_many_values() {
+        let of = |sizes: &[i32]| -> Vec<Domain> {
+            let domain = |size: &i32| Domain {
+                lo: 0,
+                hi: size - 1,
+            };
+            sizes.iter().map(domain).collect()
+        };
+        let cut = |sizes: &[i32]| {
+            let domains = of(sizes);
+            halves(&domains, space(&domains).unwrap(), 2)
+        };
+        assert_eq!(cut(&[10, 10, 10, 10]), Some(vec![0, 0, 1, 1]));
+        assert_eq!(cut(&[1000, 2, 2, 2]), Some(vec![0, 1, 1, 1]));
+        assert_eq!(cut(&[2, 2, 1000]), Some(vec![0, 0, 1]));
+        assert_eq!(cut(&[1]), Some(vec![1]));
+        let bits = |bits: &[u32]| -> Vec<i32> { bits.iter().map(|b| 1 << b).collect() };
+        assert_eq!(cut(&bits(&[30, 30, 8, 30, 26])), Some(vec![0, 0, 1, 1, 1]));
+        // No cut fits, but picking does, or nothing does.
+        let odd = bits(&[20, 30, 30, 30, 14]);
+        assert_eq!(cut(&odd), Some(vec![0, 0, 1, 1, 0]));
+        let state = [5, 1 << 29, 77, 1 << 27, 99];
+        let wide = packer::<Wide>(&of(&odd));
+        assert_eq!(wide.state(wide.pack(&state).unwrap()), state);
+        assert_eq!(cut(&bits(&[30, 30, 8, 30, 28])), None);
     }
 
     #[test]

@@ -5,13 +5,18 @@
 //! system is a cycle of each part such that the cubes agree. Which cycles agree depends on the cubes alone; local states
 //! with equal cubes share a *pattern*, and what agrees is found once for each combination of patterns.
 
-use crate::cursor::{Cursor, Leaf};
+mod patterns;
+mod tabulate;
+
+use crate::cursor::Cursor;
 use crate::pack::{Key, Packer};
-use crate::process::{Any, Origin, Process, Source, beyond};
-use crate::property::{Eval, Property};
-use crate::system::{Domain, System};
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use crate::process::{Origin, Source};
+use crate::property::Property;
+use crate::system::System;
+use patterns::{Pattern, Shared, agree};
+use std::collections::HashMap;
 use std::ops::ControlFlow;
+use tabulate::{Builder, Digits, RoughTable, part_of};
 
 /// A part of a system: a system over the same state variables and inputs that changes only its own variables.
 pub struct Component<'s> {
@@ -34,62 +39,41 @@ impl<'s> Component<'s> {
 /// The most parts that are put together, and the most combinations of their patterns.
 const MOST_PARTS: usize = 16;
 const MOST_COMBINED: usize = 1 << 20;
-/// The most states of a part, and the most cycles tabulated, that are worth a table.
-const MOST_STATES: u64 = 1 << 16;
+/// The most cycles that are worth tables.
 const MOST_CYCLES: u32 = 1 << 20;
 
-/// Some inputs with their values, each in bits of its own.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-struct Cube {
-    fixed: u128,
-    values: u128,
-}
-
-impl Cube {
-    fn meet(self, other: Cube) -> Option<Cube> {
-        let both = self.fixed & other.fixed;
-        ((self.values ^ other.values) & both == 0).then_some(Cube {
-            fixed: self.fixed | other.fixed,
-            values: self.values | other.values,
-        })
-    }
-}
-
-/// For each group of cycles the cubes of its cycles, over the inputs that other parts read too.
-type Pattern = Vec<Vec<Cube>>;
-
-/// The cycles of a part from one of its states, in groups with the same end.
-struct Local<K> {
+/// A state of a part, as small as can be, since one is looked up for each state and part.
+#[derive(Clone, Copy)]
+struct Local {
+    /// Number of its pattern; [`UNREACHED`] if the part does not reach it by itself.
     pattern: u32,
-    /// What each group adds to the index of the state.
-    steps: Vec<K>,
-    /// For each group the properties that a cycle of it leaves pending; whether there are any.
-    pending: Vec<Vec<usize>>,
-    is_duty: bool,
+    /// Where its steps begin.
+    steps: u32,
+    /// Number of its marks, the first ones being no marks.
+    marks: u32,
+}
+
+const UNREACHED: u32 = u32::MAX;
+
+/// What a state of a part means for the properties.
+#[derive(Default, PartialEq)]
+struct Marks {
     first: Vec<usize>,
     bad: Vec<usize>,
     met: Vec<usize>,
-    /// Each rule that fires, and in how many input combinations.
-    fired: Vec<(usize, u64)>,
-}
-
-/// Numbers the states of a part. Of each of its variables: which one, its least value, its stride.
-struct Digits(Vec<(usize, i32, usize)>);
-
-impl Digits {
-    #[inline]
-    fn number(&self, state: &[i32]) -> usize {
-        let digit = |(cell, lo, stride): &(usize, i32, usize)| {
-            (state[*cell].wrapping_sub(*lo)) as u32 as usize * stride
-        };
-        self.0.iter().map(digit).sum()
-    }
+    /// For each group of its cycles the properties that a cycle leaves pending.
+    pending: Vec<Vec<usize>>,
 }
 
 /// The table of a part.
 struct Table<K> {
     digits: Digits,
-    locals: Vec<Option<Local<K>>>,
+    locals: Vec<Local>,
+    /// For each group of cycles with the same end what it adds to the index of the state.
+    steps: Vec<K>,
+    marks: Vec<Marks>,
+    /// For each state each rule that fires, and in how many input combinations.
+    fired: Vec<Vec<(usize, u64)>>,
 }
 
 /// The tables of all parts of a system.
@@ -103,7 +87,6 @@ pub(crate) struct Tables<K> {
 
 /// What one worker has put together from the tables.
 pub(crate) struct Joined {
-    state: Vec<i32>,
     /// By the number of a combination of patterns: the groups whose cycles agree, one number a part.
     agreeing: Vec<Option<Box<[u32]>>>,
     /// For each part and each of its states how many states of the system it was a part of.
@@ -129,18 +112,17 @@ impl<K: Key> Tables<K> {
         properties: &[Property],
     ) -> Option<Self> {
         let parts = origin.components();
-        let domains = origin.domains();
         let number = parts.len();
         if !(2..=MOST_PARTS).contains(&number)
             || properties.iter().any(|p| part_of(&parts, p).is_none())
         {
             return None;
         }
-        let mut initial = vec![0; domains.len()];
+        let mut initial = Vec::new();
         Cursor::new(origin)
             .initial(packer, |key, _| {
-                packer.unpack(key, &mut initial);
-                ControlFlow::Break(())
+                initial.push(key);
+                ControlFlow::Continue(())
             })
             .ok()?;
         let mut rough = Vec::new();
@@ -149,38 +131,22 @@ impl<K: Key> Tables<K> {
             let own: Vec<usize> = (0..properties.len())
                 .filter(|p| part_of(&parts, &properties[*p]) == Some(number))
                 .collect();
-            rough.push(
-                Builder {
-                    part,
-                    domains,
-                    packer,
-                    properties,
-                    own: &own,
-                }
-                .build(&initial, origin, &mut budget)?,
-            );
+            let builder = Builder {
+                number,
+                part,
+                packer,
+                properties,
+                own: &own,
+            };
+            rough.push(builder.build(&initial, &mut budget)?);
         }
-        let shared = Shared::new(&rough)?;
-        let mut patterns: Vec<Pattern> = Vec::new();
-        let mut numbers: HashMap<Pattern, u32> = HashMap::new();
-        let mut tables = Vec::new();
-        for (digits, locals) in rough {
-            let locals = locals.into_iter().map(|local| {
-                let local = local?;
-                let pattern = shared.pattern(&local.reads);
-                let next = patterns.len() as u32;
-                let number = *numbers.entry(pattern).or_insert_with_key(|pattern| {
-                    patterns.push(pattern.clone());
-                    next
-                });
-                Some(Local {
-                    pattern: number,
-                    ..local.table
-                })
-            });
-            let locals = locals.collect();
-            tables.push(Table { digits, locals });
-        }
+        let shared = Shared::new(rough.iter().flat_map(|(_, locals)| locals).flatten())?;
+        let mut patterns = Vec::new();
+        let mut numbers = HashMap::new();
+        let tables: Vec<_> = rough
+            .into_iter()
+            .map(|rough| Table::new(rough, &shared, &mut patterns, &mut numbers))
+            .collect();
         let combined = patterns.len().checked_pow(tables.len() as u32)?;
         (combined <= MOST_COMBINED).then_some(Tables {
             parts: tables,
@@ -192,7 +158,6 @@ impl<K: Key> Tables<K> {
 
     pub(crate) fn worker(&self) -> Joined {
         Joined {
-            state: Vec::new(),
             agreeing: vec![None; self.combined],
             visits: self.parts.iter().map(|p| vec![0; p.locals.len()]).collect(),
         }
@@ -207,56 +172,55 @@ impl<K: Key> Tables<K> {
     #[inline]
     pub(crate) fn cycles(
         &self,
-        packer: &Packer<K>,
         joined: &mut Joined,
         key: K,
         mut each: impl FnMut(Event<K>),
     ) -> bool {
-        let Joined {
-            state,
-            agreeing,
-            visits,
-        } = joined;
-        state.resize(packer.variables(), 0);
-        packer.unpack(key, state);
-        let parts = self.parts.len();
+        let Joined { agreeing, visits } = joined;
+        let halves = key.halves();
         let mut places = [0; MOST_PARTS];
-        let mut combination = 0;
-        for (table, place) in self.parts.iter().zip(&mut places) {
-            *place = table.digits.number(state);
-            let Some(Some(local)) = table.locals.get(*place) else {
+        let mut steps: [&[K]; MOST_PARTS] = [&[]; MOST_PARTS];
+        let (mut combination, mut marked) = (0, false);
+        for (number, table) in self.parts.iter().enumerate() {
+            let place = table.digits.number(halves);
+            let Some(local) = table.locals.get(place) else {
                 return false;
             };
+            if local.pattern == UNREACHED {
+                return false;
+            }
             combination = combination * self.patterns.len() + local.pattern as usize;
-        }
-        let mut steps: [&[K]; MOST_PARTS] = [&[]; MOST_PARTS];
-        let locals = self.parts.iter().zip(places);
-        let locals = locals.filter_map(|(table, place)| table.locals[place].as_ref());
-        for (number, local) in locals.clone().enumerate() {
-            visits[number][places[number]] += 1;
-            steps[number] = &local.steps;
-            local.first.iter().for_each(|p| each(Event::First(*p)));
-            local.bad.iter().for_each(|p| each(Event::Bad(*p)));
-            local.met.iter().for_each(|p| each(Event::Met(*p)));
+            marked |= local.marks != 0;
+            places[number] = place;
+            steps[number] = &table.steps[local.steps as usize..];
         }
         let groups = agreeing[combination].get_or_insert_with(|| {
-            let patterns: Vec<u32> = locals.clone().map(|local| local.pattern).collect();
-            self.agree(&patterns).into()
+            let locals = self.parts.iter().zip(places).map(|(t, p)| t.locals[p]);
+            let patterns = locals.map(|local| &self.patterns[local.pattern as usize]);
+            agree(patterns).into()
         });
-        for cycle in groups.chunks_exact(parts) {
-            let mut after = key;
-            for (steps, group) in steps.iter().zip(cycle) {
-                after = after.plus(steps[*group as usize]);
-            }
-            each(Event::To(after));
+        for (visits, place) in visits.iter_mut().zip(places) {
+            visits[place] += 1;
         }
-        if locals.clone().any(|local| local.is_duty) {
+        let parts = self.parts.len();
+        for cycle in groups.chunks_exact(parts) {
+            each(Event::To(joint(key, &steps, cycle)));
+        }
+        if !marked {
+            return true;
+        }
+        let marks = self.parts.iter().zip(places);
+        let marks = marks.map(|(t, place)| &t.marks[t.locals[place].marks as usize]);
+        for own in marks.clone() {
+            own.first.iter().for_each(|p| each(Event::First(*p)));
+            own.bad.iter().for_each(|p| each(Event::Bad(*p)));
+            own.met.iter().for_each(|p| each(Event::Met(*p)));
+        }
+        if marks.clone().any(|own| !own.pending.is_empty()) {
             for cycle in groups.chunks_exact(parts) {
-                let chosen = || locals.clone().zip(cycle);
-                let steps = chosen().map(|(local, group)| local.steps[*group as usize]);
-                let after = steps.fold(key, K::plus);
-                for (local, group) in chosen() {
-                    for property in &local.pending[*group as usize] {
+                let after = joint(key, &steps, cycle);
+                for (own, group) in marks.clone().zip(cycle) {
+                    for property in own.pending.get(*group as usize).into_iter().flatten() {
                         each(Event::Pending(*property, after));
                     }
                 }
@@ -265,41 +229,15 @@ impl<K: Key> Tables<K> {
         true
     }
 
-    /// The combinations of groups with cycles that agree.
-    fn agree(&self, patterns: &[u32]) -> Vec<u32> {
-        let free = Cube {
-            fixed: 0,
-            values: 0,
-        };
-        let mut found: Vec<(Vec<u32>, Vec<Cube>)> = vec![(Vec::new(), vec![free])];
-        for pattern in patterns {
-            let mut next = Vec::new();
-            for (groups, cubes) in &found {
-                for (group, own) in self.patterns[*pattern as usize].iter().enumerate() {
-                    let meets = cubes
-                        .iter()
-                        .flat_map(|a| own.iter().filter_map(|b| a.meet(*b)));
-                    let meets: BTreeSet<Cube> = meets.collect();
-                    if !meets.is_empty() {
-                        let groups = groups.iter().copied().chain([group as u32]).collect();
-                        next.push((groups, meets.into_iter().collect()));
-                    }
-                }
-            }
-            found = next;
-        }
-        found.into_iter().flat_map(|(groups, _)| groups).collect()
-    }
-
     /// Adds to the count of each rule what it fired in the states visited since the last call.
     pub(crate) fn count(&self, joined: &mut Joined, coverage: &mut [u64]) {
         for (table, visits) in self.parts.iter().zip(&mut joined.visits) {
-            for (local, visits) in table.locals.iter().zip(visits) {
+            for (fired, visits) in table.fired.iter().zip(visits) {
                 let times = std::mem::take(visits);
                 if times == 0 {
                     continue;
                 }
-                for (rule, weight) in local.iter().flat_map(|local| &local.fired) {
+                for (rule, weight) in fired {
                     if let Some(count) = coverage.get_mut(*rule) {
                         *count = count.saturating_add(weight.saturating_mul(times));
                     }
@@ -309,223 +247,59 @@ impl<K: Key> Tables<K> {
     }
 }
 
-/// The part that a property speaks of: the first one if it speaks of none, no part if it speaks of several.
-fn part_of(parts: &[Component], property: &Property) -> Option<usize> {
-    let mut found = None;
-    for atom in property.form.atoms() {
-        if let Some(part) = parts.iter().position(|p| p.atoms.contains(&atom)) {
-            if found.is_some_and(|other| other != part) {
-                return None;
-            }
-            found = Some(part);
-        }
+/// The state after a cycle of which each part makes the step of a group.
+#[inline]
+fn joint<K: Key>(key: K, steps: &[&[K]; MOST_PARTS], groups: &[u32]) -> K {
+    let mut after = key;
+    for (steps, group) in steps.iter().zip(groups) {
+        after = after.plus(steps[*group as usize]);
     }
-    Some(found.unwrap_or(0))
+    after
 }
 
-/// What one cycle reads: inputs with their sizes and values.
-type Reads = Vec<(u32, u32, u32)>;
-
-/// A local state before the patterns are known.
-struct Rough<K> {
-    table: Local<K>,
-    /// For each group the reads of its cycles.
-    reads: Vec<Vec<Reads>>,
-}
-
-type RoughTable<K> = (Digits, Vec<Option<Rough<K>>>);
-
-/// Tabulates a part.
-struct Builder<'a, K> {
-    part: &'a Component<'a>,
-    domains: &'a [Domain],
-    packer: &'a Packer<K>,
-    properties: &'a [Property],
-    /// The properties that speak of the part.
-    own: &'a [usize],
-}
-
-impl<K: Key> Builder<'_, K> {
-    /// Every state that the part reaches by itself, the variables of the other parts having their initial values.
-    fn build(
-        &self,
-        initial: &[i32],
-        origin: &impl Origin,
-        budget: &mut u32,
-    ) -> Option<RoughTable<K>> {
-        let mut size = 1u64;
-        let mut digits = Vec::new();
-        for cell in self.part.states.iter().rev() {
-            let domain = self.domains.get(*cell)?;
-            digits.push((*cell, domain.lo, usize::try_from(size).ok()?));
-            size = size.checked_mul(domain.size())?;
-            if size > MOST_STATES {
-                return None;
-            }
-        }
-        let digits = Digits(digits);
-        let mut locals = Vec::new();
-        locals.resize_with(size as usize, || None);
-        let system = Any::of(&*self.part.system);
-        let mut cursor = Cursor::new(&system);
-        let mut open = Vec::new();
-        Cursor::new(origin)
-            .initial(self.packer, |key, _| {
-                let mut state = self.packer.state(key);
-                for (cell, value) in state.iter_mut().enumerate() {
-                    if !self.part.states.contains(&cell) {
-                        *value = initial[cell];
-                    }
-                }
-                open.push(state);
-                ControlFlow::Continue(())
-            })
-            .ok()?;
-        while let Some(state) = open.pop() {
-            let place = digits.number(&state);
-            if locals[place].is_some() {
-                continue;
-            }
-            let (rough, ends) = self.local(&mut cursor, &state, budget)?;
-            locals[place] = Some(rough);
-            open.extend(ends);
-        }
-        Some((digits, locals))
-    }
-
-    /// The cycles from one state, and the states they lead to.
-    fn local(
-        &self,
-        cursor: &mut Cursor<<Any<'_> as Origin>::Process>,
-        state: &[i32],
-        budget: &mut u32,
-    ) -> Option<(Rough<K>, Vec<Vec<i32>>)> {
-        let key = self.packer.pack(state)?;
-        let before = self.packer.share(&self.part.states, state)?;
-        let mut groups: BTreeMap<(K, Vec<usize>), Vec<Reads>> = BTreeMap::new();
-        let mut marks = [BTreeSet::new(), BTreeSet::new(), BTreeSet::new()];
-        let mut coverage: BTreeMap<usize, u64> = BTreeMap::new();
-        let mut sound = true;
-        cursor.leaves(self.packer, key, |process, choices, leaf| {
-            *budget = budget.saturating_sub(1);
-            let Leaf::To(after) = leaf else {
-                sound = false;
-                return ControlFlow::Break(());
-            };
-            process.save();
-            let mut pending = Vec::new();
-            for property in self.own.iter().copied() {
-                beyond(process, choices, |process, choices| {
-                    let fault = |_| sound = false;
-                    let mut eval = Eval {
-                        process,
-                        choices,
-                        fault,
-                    };
-                    let sign = eval.sign(&self.properties[property].form);
-                    let all = [sign.first, sign.bad, sign.met];
-                    for (mark, _) in marks.iter_mut().zip(all).filter(|(_, is)| *is) {
-                        mark.insert(property);
-                    }
-                    if sign.pending && pending.last() != Some(&property) {
-                        pending.push(property);
-                    }
-                });
-            }
-            let weight = u64::try_from(choices.weight()).unwrap_or(u64::MAX);
-            process.fired(&mut |rule| {
-                let count = coverage.entry(rule).or_insert(0);
-                *count = count.saturating_add(weight);
-            });
-            let group = groups.entry((after, pending)).or_default();
-            group.push(choices.reads().collect());
-            match sound && *budget > 0 {
-                true => ControlFlow::Continue(()),
-                false => ControlFlow::Break(()),
-            }
-        });
-        if !sound || *budget == 0 {
-            return None;
-        }
-        let [first, bad, met] = marks.map(|mark| mark.into_iter().collect());
-        let mut local = Local {
-            pattern: 0,
+impl<K: Key> Table<K> {
+    fn new(
+        (digits, locals): RoughTable<K>,
+        shared: &Shared,
+        patterns: &mut Vec<Pattern>,
+        numbers: &mut HashMap<Pattern, u32>,
+    ) -> Self {
+        let mut table = Table {
+            digits,
+            locals: Vec::with_capacity(locals.len()),
             steps: Vec::new(),
-            pending: Vec::new(),
-            is_duty: false,
-            first,
-            bad,
-            met,
-            fired: coverage.into_iter().collect(),
+            marks: vec![Marks::default()],
+            fired: Vec::with_capacity(locals.len()),
         };
-        let (mut reads, mut ends) = (Vec::new(), Vec::new());
-        for ((after, pending), cycles) in groups {
-            let end = self.packer.state(after);
-            let share = self.packer.share(&self.part.states, &end)?;
-            // The step must not change what belongs to another part.
-            if after.minus(key) != share.minus(before) {
-                return None;
+        for local in locals {
+            let Some(local) = local else {
+                table.locals.push(Local {
+                    pattern: UNREACHED,
+                    steps: 0,
+                    marks: 0,
+                });
+                table.fired.push(Vec::new());
+                continue;
+            };
+            let next = patterns.len() as u32;
+            let pattern = numbers
+                .entry(shared.pattern(&local.reads))
+                .or_insert_with_key(|pattern| {
+                    patterns.push(pattern.clone());
+                    next
+                });
+            let marks = table.marks.iter().position(|m| *m == local.marks);
+            table.locals.push(Local {
+                pattern: *pattern,
+                steps: table.steps.len() as u32,
+                marks: marks.unwrap_or(table.marks.len()) as u32,
+            });
+            if marks.is_none() {
+                table.marks.push(local.marks);
             }
-            local.steps.push(share.minus(before));
-            local.is_duty |= !pending.is_empty();
-            local.pending.push(pending);
-            reads.push(cycles);
-            ends.push(end);
+            table.steps.extend(local.steps);
+            table.fired.push(local.fired);
         }
-        let rough = Rough {
-            table: local,
-            reads,
-        };
-        Some((rough, ends))
-    }
-}
-
-/// The bits of the inputs that several parts read.
-struct Shared(BTreeMap<u32, (u32, u32)>);
-
-impl Shared {
-    /// None if they need more bits than a cube has.
-    fn new<K>(parts: &[RoughTable<K>]) -> Option<Self> {
-        let mut readers: BTreeMap<u32, (BTreeSet<usize>, u32)> = BTreeMap::new();
-        for (number, (_, locals)) in parts.iter().enumerate() {
-            let reads = locals.iter().flatten().flat_map(|local| &local.reads);
-            for (input, size, _) in reads.flatten().flatten() {
-                let (parts, _) = readers.entry(*input).or_insert((BTreeSet::new(), *size));
-                parts.insert(number);
-            }
-        }
-        let (mut bits, mut place) = (BTreeMap::new(), 0);
-        for (input, (parts, size)) in readers {
-            if parts.len() > 1 {
-                let width = (32 - size.saturating_sub(1).leading_zeros()).max(1);
-                bits.insert(input, (place, width));
-                place += width;
-            }
-        }
-        (place <= 128).then_some(Shared(bits))
-    }
-
-    fn pattern(&self, groups: &[Vec<Reads>]) -> Pattern {
-        let cubes = |cycles: &Vec<Reads>| -> BTreeSet<Cube> {
-            cycles.iter().map(|reads| self.cube(reads)).collect()
-        };
-        groups
-            .iter()
-            .map(|cycles| cubes(cycles).into_iter().collect())
-            .collect()
-    }
-
-    fn cube(&self, reads: &Reads) -> Cube {
-        let mut cube = Cube {
-            fixed: 0,
-            values: 0,
-        };
-        for (input, _, value) in reads {
-            if let Some((place, width)) = self.0.get(input) {
-                cube.fixed |= ((1u128 << width) - 1) << place;
-                cube.values |= u128::from(*value) << place;
-            }
-        }
-        cube
+        table
     }
 }

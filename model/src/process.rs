@@ -17,8 +17,6 @@ pub(crate) trait Process: Send {
     fn atom(&mut self, atom: usize, choices: &mut Odometer) -> Result<bool, Fault>;
     /// Adds `weight` to the count of each rule that fired.
     fn count(&self, weight: u64, coverage: &mut [u64]);
-    /// Calls `each` with the number of every rule that fired.
-    fn fired(&self, each: &mut dyn FnMut(usize));
     fn discarded(&self) -> bool;
     /// Keeps the work area as it is after a step, for [`Process::restore`].
     fn save(&mut self);
@@ -100,10 +98,6 @@ impl<S: System> Process for Direct<'_, S> {
         });
     }
 
-    fn fired(&self, mut each: &mut dyn FnMut(usize)) {
-        self.system.fired(&self.work, &mut each);
-    }
-
     #[inline]
     fn discarded(&self) -> bool {
         self.system.discarded(&self.work)
@@ -119,41 +113,6 @@ impl<S: System> Process for Direct<'_, S> {
     #[inline]
     fn restore(&mut self) {
         self.work.clone_from(&self.saved);
-    }
-}
-
-/// A system of a known type.
-pub(crate) struct Own<'s, S>(pub(crate) &'s S);
-
-impl<'s, S: System> Origin for Own<'s, S> {
-    type Process = Direct<'s, S>;
-
-    fn process(&self) -> Direct<'s, S> {
-        Direct {
-            system: self.0,
-            work: self.0.work(),
-            saved: self.0.work(),
-        }
-    }
-
-    fn domains(&self) -> &[Domain] {
-        self.0.domains()
-    }
-
-    fn combinations(&self) -> u128 {
-        self.0.combinations()
-    }
-
-    fn rules(&self) -> usize {
-        self.0.rules()
-    }
-
-    fn components(&self) -> Vec<Component<'_>> {
-        self.0.components()
-    }
-
-    fn timer(&self) -> Option<usize> {
-        self.0.timer()
     }
 }
 
@@ -182,10 +141,6 @@ impl Process for AnyProcess<'_> {
         (**self).count(weight, coverage);
     }
 
-    fn fired(&self, each: &mut dyn FnMut(usize)) {
-        (**self).fired(each);
-    }
-
     fn discarded(&self) -> bool {
         (**self).discarded()
     }
@@ -211,7 +166,11 @@ pub(crate) trait Source: Sync {
 
 impl<S: System> Source for S {
     fn process(&self) -> AnyProcess<'_> {
-        Box::new(Own(self).process())
+        Box::new(Direct {
+            system: self,
+            work: self.work(),
+            saved: self.work(),
+        })
     }
 
     fn domains(&self) -> &[Domain] {

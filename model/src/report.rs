@@ -67,6 +67,11 @@ pub trait Progress {
         let _ = (depth, states, transitions, frontier);
     }
 
+    /// Called before [`Progress::on_level`]: the bytes that the tables of this process hold now.
+    fn on_memory(&mut self, bytes: u64) {
+        let _ = bytes;
+    }
+
     /// Called when a checkpoint could not be written; the search goes on, and the last one is still there.
     fn on_lost_checkpoint(&mut self, error: &Error) {
         let _ = error;

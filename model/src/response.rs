@@ -3,7 +3,7 @@
 use crate::crew::{Crew, Watch};
 use crate::cursor::{Cursor, Leaf};
 use crate::duty::Duty;
-use crate::explore::{Decision, Evidence, Job, Stage, Tail, on_store, seen, sign_test};
+use crate::explore::{Decision, Evidence, Job, Tail, on_store, seen, sign_test};
 use crate::graph::{Graph, Mark};
 use crate::pack::Key;
 use crate::process::{Any, Process};
@@ -11,6 +11,7 @@ use crate::property::{Form, Property};
 use crate::report::{Error, Limits, Options, Storage, Trace, Verdict};
 use crate::search::{Model, Signs, search};
 use crate::set::Set;
+use crate::store::Store;
 use crate::trace::{Request, runs};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -203,7 +204,7 @@ struct Counterexample<'a> {
 impl Job<&Duty<'_>> for Counterexample<'_> {
     type Output = Option<Trace>;
 
-    fn run<T: Stage>(
+    fn run<T: Store>(
         self,
         model: &Model<&Duty, T::Key>,
         mut store: T,

@@ -89,6 +89,8 @@ pub(crate) struct Tally<K> {
     pub(crate) coverage: Vec<u64>,
     pub(crate) absorbing: u64,
     pub(crate) examples: Vec<K>,
+    /// Bytes in which the states are stored.
+    pub(crate) stored: u64,
 }
 
 impl<K: Key> Tally<K> {
@@ -111,6 +113,7 @@ impl<K: Key> Tally<K> {
             coverage: vec![0; rules],
             absorbing: 0,
             examples: Vec::new(),
+            stored: 0,
         }
     }
 }
@@ -206,6 +209,7 @@ pub(crate) fn search<O: Origin, T: Store>(
         None => {
             let mut tally = Tally::new(properties.len(), origin.rules());
             tally.states = initial(model, store)?;
+            tally.stored = store.bytes();
             Found {
                 tally,
                 pending: properties.iter().map(|_| Set::new()).collect(),
@@ -249,10 +253,13 @@ pub(crate) fn search<O: Origin, T: Store>(
         // A level that a limit broke off is explored again when the search is continued.
         let stopped = model.watch.stopped().is_some();
         let before = (stopped && keeper.is_some()).then(|| found.tally.clone());
+        // A checkpoint needs the counts of the level; else it is enough to add them up once.
+        let counted = parts.as_ref().filter(|_| keeper.is_some());
         for worker in &mut workers {
-            gather(&mut found, worker, parts.as_ref(), options.examples);
+            gather(&mut found, worker, counted, options.examples);
         }
         found.bytes = found.bytes.max(bytes(store, &found.pending));
+        found.tally.stored = store.bytes();
         let locals = workers.iter_mut().map(|w| &mut w.local).collect();
         if stopped {
             found.tally.states += store.undo(locals);
@@ -264,9 +271,11 @@ pub(crate) fn search<O: Origin, T: Store>(
         let frontier = store.advance(locals);
         found.bytes = found.bytes.max(bytes(store, &found.pending));
         let tally = &mut found.tally;
+        tally.stored = store.bytes();
         tally.states += frontier;
         if frontier > 0 {
             tally.depth += 1;
+            progress.on_memory(bytes(store, &found.pending));
             progress.on_level(tally.depth, tally.states, tally.transitions, frontier);
         }
         tally.complete = frontier == 0;
@@ -282,6 +291,11 @@ pub(crate) fn search<O: Origin, T: Store>(
         }
         if decided {
             break;
+        }
+    }
+    if let Some(parts) = &parts {
+        for joined in workers.iter_mut().filter_map(|w| w.joined.as_mut()) {
+            parts.count(joined, &mut found.tally.coverage);
         }
     }
     let Tally {
@@ -380,7 +394,7 @@ impl<O: Origin, T: Store> Level<'_, O, T> {
             return false;
         };
         let mut stays = true;
-        let known = parts.cycles(&self.model.packer, joined, key, |event| match event {
+        let known = parts.cycles(joined, key, |event| match event {
             Event::First(property) => lower(&mut first[property], key),
             Event::Bad(property) => lower(&mut bad[property], key),
             Event::Met(property) => met[property] = true,
@@ -389,8 +403,10 @@ impl<O: Origin, T: Store> Level<'_, O, T> {
                 self.pending[property].insert(batch, after);
             }
             Event::To(after) => {
-                stays &= after == key;
-                self.store.visit(local, after);
+                if after != key {
+                    stays = false;
+                    self.store.visit(local, after);
+                }
             }
         });
         if known {

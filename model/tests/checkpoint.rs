@@ -125,6 +125,12 @@ fn a_run_broken_off_again_and_again_gives_the_same_report() {
                 time += Duration::from_micros(20);
                 resume = true;
             };
+            let ended = Options {
+                intervals,
+                ..options(&place, "it", None, true)
+            };
+            let again = explore(&table, &properties(), &ended, &mut ()).unwrap();
+            assert!(again.stored > 0 && again.stored == last.stored);
             assert_eq!(plain(last), plain(whole), "{padded} {seed}");
         }
     }

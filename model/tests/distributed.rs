@@ -109,7 +109,9 @@ fn compare(tables: &[Table], options: &Options) {
     for (processes, threads) in [(1, 1), (2, 1), (4, 1), (2, 2)] {
         let reports = together(tables, options, clusters(processes, threads, 7));
         for (number, (report, alone)) in reports.into_iter().zip(&alone).enumerate() {
-            let report = plain(report.unwrap());
+            let report = report.unwrap();
+            assert!(report.stored >= 8 * report.states, "{}", report.stored);
+            let report = plain(report);
             let place = format!("system {number}, {processes} processes with {threads} threads");
             assert_eq!(&report, alone, "{place}");
         }

@@ -109,6 +109,13 @@ impl Node {
         }
     }
 
+    /// The number of its parts, itself included.
+    pub fn size(&self) -> usize {
+        let mut size = 0;
+        self.visit(&mut |_| size += 1);
+        size
+    }
+
     /// Visits this expression and all its parts.
     pub fn visit<'a>(&'a self, f: &mut impl FnMut(&'a Node)) {
         f(self);

@@ -44,7 +44,8 @@ fn produce(file: &Path, threads: usize) -> (Vec<u8>, BTreeMap<(String, String), 
         "{name}-{threads}-{:?}.cert",
         std::thread::current().id()
     ));
-    certificate::certify(&path, &subject, &checked, threads).unwrap_or_else(|e| panic!("{e}"));
+    certificate::certify(&path, &subject, &checked, threads, &|_, _| ())
+        .unwrap_or_else(|e| panic!("{e}"));
     let mut verdicts = BTreeMap::new();
     for (task, done) in subject.tasks.iter().zip(&checked) {
         for judged in &done.outcome.report.properties {
@@ -147,7 +148,7 @@ fn a_limit_leaves_only_what_was_seen() {
     let checked = check(&subject, &settings, &mut |_| Box::new(())).expect("explored");
     assert!(checked.iter().all(|c| !c.outcome.report.complete));
     let path = scratch("limit.cert");
-    let written = certificate::certify(&path, &subject, &checked, 1).expect("written");
+    let written = certificate::certify(&path, &subject, &checked, 1, &|_, _| ()).expect("written");
     let confirmed = certified(&std::fs::read(&path).expect("there"));
     assert!(confirmed.header.task.iter().all(|t| t.states == 0));
     let properties = confirmed.header.task.iter().flat_map(|t| &t.property);

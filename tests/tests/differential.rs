@@ -128,15 +128,17 @@ fn differs(pairings: &[Pairing], mutant: Mutant) -> bool {
         .filter(|p| p.machine == machine)
         .cloned()
         .collect();
-    let found = sample(&concerned, Some(mutant), 400_000, 3, 0).unwrap_or_else(|e| panic!("{e}"));
+    let found = sample(&concerned, Some(mutant), 400_000, 3, 0, &|_, _| ())
+        .unwrap_or_else(|e| panic!("{e}"));
     found.iter().any(|c| c.divergence.is_some())
 }
 
 #[test]
 fn random_runs_find_no_difference_and_repeat() {
     let pairings = all();
-    let runs =
-        |threads| sample(&pairings, None, 3_000_000, 3, threads).unwrap_or_else(|e| panic!("{e}"));
+    let runs = |threads| {
+        sample(&pairings, None, 3_000_000, 3, threads, &|_, _| ()).unwrap_or_else(|e| panic!("{e}"))
+    };
     let once = runs(1);
     for one in &once {
         assert!(

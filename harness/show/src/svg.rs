@@ -14,7 +14,7 @@ pub(crate) fn picture(size: (i32, i32), name: &str, standalone: bool, body: &str
     let _ = writeln!(
         out,
         "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"sp\" role=\"img\" aria-label=\"{}\" width=\"{width}\" \
-         height=\"{height}\" viewBox=\"0 0 {width} {height}\">",
+         height=\"{height}\" viewBox=\"0 0 {width} {height}\" style=\"--width: {width}px\">",
         html(name)
     );
     if standalone {

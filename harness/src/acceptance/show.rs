@@ -357,16 +357,22 @@ fn changed(protocol: &Protocol, since: &Since) -> Vec<Block> {
         protocol.tests.len()
     );
     let rows = since.changes.iter().map(|c| {
-        let why = since.untested.iter().find(|(u, _)| u == c);
-        vec![
+        let mut row = vec![
             vec![text(&c.of)],
             vec![Inline::Code(c.name.clone())],
             vec![text(&c.old)],
             vec![text(&c.new)],
-            vec![text(why.map_or("", |(_, why)| why))],
-        ]
+        ];
+        if !since.untested.is_empty() {
+            let why = since.untested.iter().find(|(u, _)| u == c);
+            row.push(vec![text(why.map_or("", |(_, why)| why))]);
+        }
+        row
     });
-    let heads = columns(&["Of", "What", "Before", "Now", "No test, because"]);
+    let mut heads = columns(&["Of", "What", "Before", "Now"]);
+    if !since.untested.is_empty() {
+        heads.push(column("No test, because", false));
+    }
     let mut blocks = vec![
         Block::Verdict {
             tone,

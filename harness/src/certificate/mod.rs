@@ -32,7 +32,8 @@ pub struct Written {
     pub open: usize,
 }
 
-/// Writes a certificate of a report to `path`; `threads` is 0 for all processors.
+/// Writes a certificate of a report to `path`; `threads` is 0 for all processors. `progress` is told, from any thread, of how
+/// many systems of how many the claims are ready.
 ///
 /// # Errors
 /// One sentence: files that cannot be read or written, a specification that has changed since the check.
@@ -41,6 +42,7 @@ pub fn certify(
     subject: &Subject,
     checked: &[Checked],
     threads: usize,
+    progress: &(dyn Fn(usize, usize) + Sync),
 ) -> Result<Written, String> {
     let kind = match subject.machine {
         Some(_) => Kind::Machine,
@@ -76,6 +78,7 @@ pub fn certify(
             let built = build(bound, checked, task.clone());
             if let Ok(mut done) = done.lock() {
                 done.insert(number, built);
+                progress(done.len(), bounds.len());
             }
         }
     };

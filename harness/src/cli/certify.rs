@@ -8,7 +8,8 @@ use serde_json::json;
 use stillpoint_certify::format::Verdict;
 use stillpoint_certify::{Confirmed, certify};
 
-use super::{BAD_INPUT, Failure, emit};
+use super::progress::Line;
+use super::{BAD_INPUT, Failure, complain, emit, show};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -31,12 +32,15 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         given => given,
     };
     let name = arguments.file.display();
-    match certify(&arguments.file, arguments.spec.as_deref(), threads) {
+    let line = Line::new(&format!("checking {name}"), None);
+    let checked = certify(&arguments.file, arguments.spec.as_deref(), threads);
+    drop(line);
+    match checked {
         Ok(confirmed) => {
-            emit(&match arguments.json {
-                true => format!("{:#}\n", to_json(&confirmed)),
-                false => text(&confirmed),
-            });
+            match arguments.json {
+                true => emit(&format!("{:#}\n", to_json(&confirmed))),
+                false => show(&text(&confirmed)),
+            }
             Ok(0)
         }
         Err(failure) => {
@@ -51,7 +55,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
                     json!({ "result": word, "reason": reason })
                 ));
             }
-            eprintln!("{word}: {name}: {reason}");
+            complain(&format!("{word}: {name}: {reason}"));
             Ok(status)
         }
     }

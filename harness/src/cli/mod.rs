@@ -4,11 +4,14 @@ mod acceptance;
 mod certify;
 mod check;
 mod cluster;
+mod colour;
 mod diff;
 mod export;
 mod limits;
+mod manual;
 mod progress;
 mod reaction;
+mod simulate;
 mod trace;
 mod values;
 
@@ -18,6 +21,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+use miette::MietteHandlerOpts;
 use stillpoint::subject;
 use stillpoint_spec::diag::Diagnostics;
 
@@ -68,6 +72,11 @@ enum Command {
         after_help = "Exit status: 0; 1 the exploration contradicts a reaction time; 2 bad input; 3 a limit was reached first.\n\nExamples:\n  stillpoint reaction spec/machines/milling-840d.toml\n  stillpoint reaction spec/machines/milling-840d.toml --axis X --speed \"10000 mm/min\" --acceleration \"2 m/s2\"\n  stillpoint reaction spec/machines/milling-840d.toml --html reaction.html"
     )]
     Reaction(reaction::Arguments),
+    /// Run a scenario on the production monitors of both channels, with a simple axis before them
+    #[command(
+        after_help = "Exit status: 0 every expectation of the scenario holds; 1 one does not; 2 bad input, nothing was run.\n\nExamples:\n  stillpoint simulate spec/machines/milling-840d.toml --scenario spec/scenarios/door-while-moving.toml\n  stillpoint simulate spec/machines/milling-840d.toml --scenario spec/scenarios/encoder-freeze.toml --svg freeze.svg --trace freeze.ndjson"
+    )]
+    Simulate(simulate::Arguments),
     /// The requirement matrix: which rules, monitors, proofs and tests carry each requirement
     #[command(
         after_help = "Exit status: 0; 1 if a family declared complete has open core requirements or an id is in no catalogue; 2 bad input.\n\nExample: stillpoint trace --html matrix.html"
@@ -79,9 +88,31 @@ enum Command {
         /// Machine or specification file
         file: PathBuf,
     },
+    /// Print completions of commands and options for a shell
+    #[command(
+        after_help = "Examples:\n  stillpoint completions bash > ~/.local/share/bash-completion/completions/stillpoint\n  stillpoint completions zsh > ~/.zfunc/_stillpoint\n  stillpoint completions fish > ~/.config/fish/completions/stillpoint.fish"
+    )]
+    Completions {
+        /// The shell
+        shell: clap_complete::Shell,
+    },
+    /// Print the manual page, or write one for each command
+    #[command(
+        after_help = "Examples:\n  stillpoint man | man -l -\n  stillpoint man --output ~/.local/share/man/man1"
+    )]
+    Man {
+        /// Write stillpoint.1, stillpoint-check.1 and so on to this folder, which is made if it is missing
+        #[arg(long, value_name = "DIR")]
+        output: Option<PathBuf>,
+    },
 }
 
 pub fn main() -> ExitCode {
+    let painted = colour::on_stderr();
+    // Only the first hook counts, and there is no other.
+    let _ = miette::set_hook(Box::new(move |_| {
+        Box::new(MietteHandlerOpts::new().color(painted).build())
+    }));
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
         Err(e) => {
@@ -96,8 +127,11 @@ pub fn main() -> ExitCode {
         Command::Diff(arguments) => diff::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),
         Command::Reaction(arguments) => reaction::run(&arguments),
+        Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Trace(arguments) => trace::run(&arguments),
         Command::Validate { file } => validate(&file),
+        Command::Completions { shell } => manual::completions(shell),
+        Command::Man { output } => manual::pages(output.as_deref()),
     };
     ExitCode::from(status.unwrap_or_else(|failure| failure.show()))
 }
@@ -128,9 +162,25 @@ impl Failure {
                     eprintln!("{n} errors; nothing was run");
                 }
             }
-            Self::Other(message) => eprintln!("error: {message}"),
+            Self::Other(message) => complain(&format!("error: {message}")),
         }
         BAD_INPUT
+    }
+}
+
+/// One line on stderr that begins with what is the matter.
+fn complain(line: &str) {
+    match colour::on_stderr() {
+        true => eprintln!("{}", colour::paint(line)),
+        false => eprintln!("{line}"),
+    }
+}
+
+/// Writes a report to stdout, its verdicts painted where that is a terminal.
+fn show(report: &str) {
+    match colour::on_stdout() {
+        true => emit(&colour::paint(report)),
+        false => emit(report),
     }
 }
 
@@ -157,6 +207,6 @@ fn validate(file: &std::path::Path) -> Result<u8, Failure> {
             let _ = writeln!(out, "    abstraction: {item}");
         }
     }
-    emit(&out);
+    show(&out);
     Ok(0)
 }

@@ -1,10 +1,11 @@
-//! `diff`: checks the production monitors against the tables, exhaustively or with random runs.
+//! `diff`: checks the production monitors against the tables, exhaustively, with random runs, or both against a recording.
 
 pub mod bytes;
 pub mod pairing;
 pub mod peer;
 pub mod product;
 pub mod random;
+pub mod replay;
 pub mod slices;
 
 use std::collections::BTreeMap;
@@ -13,9 +14,9 @@ use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use serde_json::{Value, json};
 use stillpoint_model::{Error, Form, Options, Progress, Property, Verdict, explore};
 use stillpoint_monitors::mutant::Mutant;
+use stillpoint_show::diagram::Diagram;
 
 use crate::report::{grouped, params};
-use crate::timing::Diagram;
 pub use pairing::{Pairing, pairings};
 use product::Product;
 use random::{Driver, Random};
@@ -123,6 +124,7 @@ const BATCH: u64 = 16;
 
 /// Random runs of about `cycles` cycles in all, at full width: besides the parameters of the machine file also random ones.
 /// The pairings share the cycles; `threads` (0 for all processors) share the work. The result depends on the seed alone.
+/// `progress` is told, from any thread, how many cycles of how many are done.
 ///
 /// # Errors
 /// Sides that do not fit each other.
@@ -132,6 +134,7 @@ pub fn sample(
     cycles: u64,
     seed: u64,
     threads: usize,
+    progress: &(dyn Fn(u64, u64) + Sync),
 ) -> Result<Vec<Compared>, DiffError> {
     let threads = match threads {
         0 => std::thread::available_parallelism().map_or(1, usize::from),
@@ -145,6 +148,7 @@ pub fn sample(
     // The first batch of each pairing that found something: later ones need not run, and do not count.
     let found: Vec<AtomicU64> = pairings.iter().map(|_| AtomicU64::new(u64::MAX)).collect();
     let next = AtomicUsize::new(0);
+    let made = AtomicU64::new(0);
     let worker = || -> Result<Vec<Batch>, DiffError> {
         let mut done = Vec::new();
         while let Some(&(pairing, number)) = jobs.get(next.fetch_add(1, Ordering::Relaxed)) {
@@ -157,6 +161,9 @@ pub fn sample(
             if result.divergence.is_some() {
                 found[pairing].fetch_min(number, Ordering::Relaxed);
             }
+            let cycles = left.min(BATCH * random::RUN);
+            let before = made.fetch_add(cycles, Ordering::Relaxed);
+            progress(before + cycles, share * pairings.len() as u64);
             done.push((pairing, number, result));
         }
         Ok(done)

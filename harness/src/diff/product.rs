@@ -1,13 +1,13 @@
 //! The product of a table and its monitor: one system that drives both with the same inputs and compares them.
 
 use stillpoint_model::{Choices, Domain, Fault, System, Trace};
+use stillpoint_show::diagram::{Diagram, Lane, Mark};
 use stillpoint_spec::bind::Bound;
 use stillpoint_spec::eval::Frame;
 use stillpoint_spec::ir::{LazyKind, Ty};
 use stillpoint_tables::Table;
 
 use super::peer::{Numbers, Peer};
-use crate::timing::{Diagram, Lane};
 
 /// What an output of the monitor is compared with.
 #[derive(Clone, Copy)]
@@ -220,6 +220,18 @@ impl<'a> Product<'a> {
         Ok(())
     }
 
+    /// What the table said in the last step, by the names of the monitor's outputs.
+    pub(super) fn said<'w>(
+        &self,
+        work: &'w Work,
+    ) -> impl Iterator<Item = (&'static str, i64)> + use<'w> {
+        self.peer
+            .outputs()
+            .iter()
+            .copied()
+            .zip(work.table.iter().copied())
+    }
+
     /// A work area, also for runs that are not explored.
     pub fn new_work(&self) -> Work {
         Work {
@@ -301,7 +313,7 @@ impl<'a> Product<'a> {
                     .iter()
                     .map(|c| Some(system.show(input.ty, i64::from(c[k]))));
                 lanes.push(Lane {
-                    group: "inputs",
+                    group: "inputs".to_owned(),
                     name: input
                         .name
                         .split_once('.')
@@ -311,14 +323,14 @@ impl<'a> Product<'a> {
                 });
             }
         }
-        let lane = |group, name: &str, ty: Ty| Lane {
-            group,
+        let lane = |group: &str, name: &str, ty: Ty| Lane {
+            group: group.to_owned(),
             name: name.to_owned(),
             level: ty == Ty::Bool,
             values: vec![None],
         };
         let names = self.peer.outputs();
-        let sides = |group| -> Vec<Lane> {
+        let sides = |group: &str| -> Vec<Lane> {
             names
                 .iter()
                 .zip(&self.compared)
@@ -345,10 +357,11 @@ impl<'a> Product<'a> {
                         system.show(ty, work.table[k]),
                         system.show(ty, work.monitor[k]),
                     );
-                    marks.push((
-                        n + 1,
-                        format!("{}: specification {a}, monitor {b}", names[k]),
-                    ));
+                    marks.push(Mark {
+                        column: n + 1,
+                        text: format!("{}: specification {a}, monitor {b}", names[k]),
+                        fault: true,
+                    });
                 }
             }
         }
@@ -369,7 +382,7 @@ impl<'a> Product<'a> {
             lanes,
             columns: cycles.len() + 1,
             marks,
-            loop_start: None,
+            ..Diagram::default()
         }
     }
 }

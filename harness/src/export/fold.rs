@@ -1,6 +1,7 @@
 //! A system with its parameter values put in: constants folded, small named expressions inlined, ranges known.
 
 use stillpoint_spec::bind::Bound;
+use stillpoint_spec::fold::Folder;
 use stillpoint_spec::ir::{BinaryOp, Form, Node, Space, Stmt};
 
 use super::Unsupported;
@@ -37,32 +38,13 @@ impl<'a> Folded<'a> {
     /// An expression whose possible values leave 32 bits, which the target's integers have.
     pub fn new(bound: &'a Bound) -> Result<Self, Unsupported> {
         let system = &bound.system;
-        let mut folder = Folder {
-            bound,
-            done: vec![None; system.lazies.len()],
-        };
+        let mut folder = Folder::new(bound, INLINE);
         let lazies: Vec<Node> = (0..system.lazies.len()).map(|k| folder.lazy(k)).collect();
         let mut rules = Vec::new();
         for instance in &system.instances {
-            let mut list = Vec::new();
-            for (n, rule) in instance.rules.iter().enumerate() {
-                let when = folder.node(&rule.when);
-                if when == Node::Const(0) {
-                    continue;
-                }
-                let last = matches!(when, Node::Const(_));
-                list.push((
-                    n,
-                    Rule {
-                        when,
-                        then: folder.statements(&rule.then),
-                    },
-                ));
-                if last {
-                    break;
-                }
-            }
-            rules.push(list);
+            let list = folder.rules(&instance.rules).into_iter();
+            let list = list.map(|(number, when, then)| (number, Rule { when, then }));
+            rules.push(list.collect());
         }
         let atoms = system.atoms.iter().map(|n| folder.node(n)).collect();
         let mut folded = Self {
@@ -111,168 +93,6 @@ impl<'a> Folded<'a> {
         (0..self.lazies.len())
             .map(|k| ranges.of(&Node::Lazy(k as u32)))
             .collect()
-    }
-}
-
-/// Number of nodes of an expression.
-pub fn size(node: &Node) -> usize {
-    let mut n = 0;
-    node.visit(&mut |_| n += 1);
-    n
-}
-
-struct Folder<'a> {
-    bound: &'a Bound,
-    done: Vec<Option<Node>>,
-}
-
-impl Folder<'_> {
-    fn lazy(&mut self, k: usize) -> Node {
-        if let Some(node) = &self.done[k] {
-            return node.clone();
-        }
-        let bound = self.bound;
-        let node = self.node(&bound.system.lazies[k].value);
-        self.done[k] = Some(node.clone());
-        node
-    }
-
-    fn statements(&mut self, list: &[Stmt]) -> Vec<Stmt> {
-        let mut out = Vec::new();
-        for statement in list {
-            match statement {
-                Stmt::Assign {
-                    base,
-                    index,
-                    value,
-                    checked,
-                    site,
-                } => out.push(Stmt::Assign {
-                    base: *base,
-                    index: index.as_ref().map(|(n, lo, len)| (self.node(n), *lo, *len)),
-                    value: self.node(value),
-                    checked: *checked,
-                    site: *site,
-                }),
-                Stmt::If(branches, rest) => {
-                    let mut kept = Vec::new();
-                    let mut rest = rest.as_slice();
-                    for (guard, body) in branches {
-                        match self.node(guard) {
-                            Node::Const(0) => {}
-                            Node::Const(_) => {
-                                rest = body;
-                                break;
-                            }
-                            guard => kept.push((guard, self.statements(body))),
-                        }
-                    }
-                    let rest = self.statements(rest);
-                    if kept.is_empty() {
-                        out.extend(rest);
-                    } else {
-                        out.push(Stmt::If(kept, rest));
-                    }
-                }
-            }
-        }
-        out
-    }
-
-    fn node(&mut self, node: &Node) -> Node {
-        match node {
-            Node::Cell(Space::Param, k) => Node::Const(i64::from(self.bound.values[*k as usize])),
-            Node::Cell(Space::Before | Space::Now, k) => {
-                fixed(node, self.bound.states[*k as usize])
-            }
-            Node::Cell(Space::Input, k) => fixed(node, self.bound.inputs[*k as usize]),
-            Node::Lazy(k) => {
-                let value = self.lazy(*k as usize);
-                if size(&value) <= INLINE {
-                    value
-                } else {
-                    node.clone()
-                }
-            }
-            _ => {
-                let node = node.map(&mut |n| self.node(n));
-                simplify(&node, &self.bound.values).unwrap_or(node)
-            }
-        }
-    }
-}
-
-/// A cell whose range has one value is that value.
-fn fixed(node: &Node, (lo, hi): (i32, i32)) -> Node {
-    if lo == hi {
-        Node::Const(i64::from(lo))
-    } else {
-        node.clone()
-    }
-}
-
-/// What an expression becomes when parts of it are constants; none if they change nothing.
-fn simplify(node: &Node, params: &[i32]) -> Option<Node> {
-    let constant = |n: &Node| {
-        if let Node::Const(v) = n {
-            Some(*v)
-        } else {
-            None
-        }
-    };
-    let constants = |values: &[Node]| values.iter().map(constant).collect::<Option<Vec<i64>>>();
-    match node {
-        Node::Element {
-            space,
-            base,
-            lo,
-            index,
-            ..
-        } => {
-            let cell = *base as usize + usize::try_from(constant(index)? - lo).ok()?;
-            match space {
-                Space::Param => params.get(cell).map(|v| Node::Const(i64::from(*v))),
-                _ => Some(Node::Cell(*space, u32::try_from(cell).ok()?)),
-            }
-        }
-        Node::Not(a) => constant(a).map(|v| Node::Const(i64::from(v == 0))),
-        Node::Neg(a) => constant(a).and_then(i64::checked_neg).map(Node::Const),
-        Node::Abs(a) => constant(a).and_then(i64::checked_abs).map(Node::Const),
-        Node::Binary(op, a, b) => match (op, constant(a), constant(b)) {
-            (BinaryOp::And, Some(0), _) | (BinaryOp::And, _, Some(0)) => Some(Node::Const(0)),
-            (BinaryOp::Or, Some(1), _) | (BinaryOp::Or, _, Some(1)) => Some(Node::Const(1)),
-            (BinaryOp::And, Some(1), _) | (BinaryOp::Or, Some(0), _) => Some((**b).clone()),
-            (BinaryOp::And, _, Some(1)) | (BinaryOp::Or, _, Some(0)) => Some((**a).clone()),
-            (_, Some(x), Some(y)) => binary(*op, x, y).map(Node::Const),
-            _ => None,
-        },
-        Node::Sel(g, a, b) => match constant(g) {
-            Some(0) => Some((**a).clone()),
-            Some(_) => Some((**b).clone()),
-            None => (a == b).then(|| (**a).clone()),
-        },
-        Node::Mux(k, values) => values.get(usize::try_from(constant(k)?).ok()?).cloned(),
-        Node::Min(values) => constants(values)?.into_iter().min().map(Node::Const),
-        Node::Max(values) => constants(values)?.into_iter().max().map(Node::Const),
-        Node::Const(_) | Node::Cell(..) | Node::Lazy(_) => None,
-    }
-}
-
-fn binary(op: BinaryOp, x: i64, y: i64) -> Option<i64> {
-    match op {
-        BinaryOp::And => Some(i64::from(x != 0 && y != 0)),
-        BinaryOp::Or => Some(i64::from(x != 0 || y != 0)),
-        BinaryOp::Xor | BinaryOp::Ne => Some(i64::from(x != y)),
-        BinaryOp::Eq => Some(i64::from(x == y)),
-        BinaryOp::Lt => Some(i64::from(x < y)),
-        BinaryOp::Gt => Some(i64::from(x > y)),
-        BinaryOp::Le => Some(i64::from(x <= y)),
-        BinaryOp::Ge => Some(i64::from(x >= y)),
-        BinaryOp::Add => x.checked_add(y),
-        BinaryOp::Sub => x.checked_sub(y),
-        BinaryOp::Mul => x.checked_mul(y),
-        BinaryOp::Div => x.checked_div(y),
-        BinaryOp::Mod => x.checked_rem(y),
     }
 }
 

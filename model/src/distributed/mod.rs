@@ -23,11 +23,11 @@ mod work;
 pub use cluster::{Cluster, ClusterError};
 
 use crate::crew::Watch;
-use crate::explore::{Finish, Stage, bitmap_fits, crew};
+use crate::explore::{Finish, bitmap_fits, crew};
 use crate::hashed::{Code, Halves, Hashed, Plain};
 use crate::pack::{Packer, Wide, space};
 use crate::parts::Tables;
-use crate::process::{Any, Origin, Own};
+use crate::process::{Any, Origin};
 use crate::property::{Property, validate};
 use crate::report::{Error, Judgement, Limits, Options, Progress, Report, Storage, Verdict};
 use crate::search::{Found, Model};
@@ -62,12 +62,11 @@ pub fn explore_together<S: System>(
     validate(properties)?;
     // Behind a pointer, so that a new system costs no compile time here.
     let any = Any::new(system);
-    let own = Own(system);
     if u64::try_from(space(any.domains())?).is_ok() {
-        let parts = Tables::new(&own, &Packer::new(any.domains())?, properties);
+        let parts = Tables::new(&any, &Packer::new(any.domains())?, properties);
         run::<Plain>(any, parts, properties, options, progress, cluster)
     } else {
-        let parts = Tables::new(&own, &Packer::new(any.domains())?, properties);
+        let parts = Tables::new(&any, &Packer::new(any.domains())?, properties);
         run::<Halves>(any, parts, properties, options, progress, cluster)
     }
 }
@@ -83,8 +82,11 @@ impl Ending for Plain {
 
     fn finish(finish: Finish<u64>) -> Result<Report, Error> {
         match bitmap_fits(space(finish.model.origin.domains())?, finish.options) {
-            Some(small) => Dense::new(small, finish.model.crew.size()).finish(finish),
-            None => Hashed::<Plain>::new().finish(finish),
+            Some(small) => {
+                let store = Dense::new(small, finish.model.crew.size());
+                finish.report(store)
+            }
+            None => finish.report(Hashed::<Plain>::new()),
         }
     }
 }
@@ -93,7 +95,7 @@ impl Ending for Halves {
     const STORAGE: Storage = Storage::Hash128;
 
     fn finish(finish: Finish<Wide>) -> Result<Report, Error> {
-        Hashed::<Halves>::new().finish(finish)
+        finish.report(Hashed::<Halves>::new())
     }
 }
 
@@ -139,7 +141,7 @@ fn run<C: Ending>(
         return Ok(nothing(properties, watch.elapsed().as_secs_f64()));
     };
     C::finish(Finish {
-        model: Model::new(origin, &crew, &watch)?,
+        model: &task.model,
         found,
         properties,
         options,

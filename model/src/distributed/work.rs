@@ -58,6 +58,7 @@ pub(super) struct Totals<K> {
     explored: u64,
     weights: u128,
     bytes: u64,
+    stored: u64,
     sent: u64,
 }
 
@@ -127,6 +128,7 @@ impl<'a, K: Wire> Task<'a, K> {
                 gather(&mut found, &mut worker, parts, self.options.examples);
             }
             found.bytes = found.bytes.max(bytes(&share, &found.pending));
+            found.tally.stored = share.bytes();
             let explored = Explored {
                 frontier,
                 transitions: found.tally.transitions,
@@ -151,6 +153,7 @@ impl<'a, K: Wire> Task<'a, K> {
             }
             states += frontier;
             if frontier > 0 && post.index() == 0 {
+                progress.on_memory(bytes(&share, &found.pending));
                 progress.on_level(depth, states, transitions, frontier);
             }
             if frontier == 0 || stop {
@@ -238,6 +241,7 @@ impl<'a, K: Wire> Task<'a, K> {
             explored: std::mem::take(&mut tally.explored),
             weights: std::mem::take(&mut tally.weights),
             bytes: std::mem::take(&mut found.bytes),
+            stored: std::mem::take(&mut tally.stored),
             sent,
         };
         post.tell(0, Note::Totals(Box::new(totals)));
@@ -282,6 +286,7 @@ fn seen<K>(signs: &[Signs<K>]) -> Vec<(bool, bool)> {
 fn merge<K: Wire>(found: &mut Found<K>, totals: Totals<K>, examples: usize) {
     found.bytes = found.bytes.saturating_add(totals.bytes);
     let tally = &mut found.tally;
+    tally.stored = tally.stored.saturating_add(totals.stored);
     for (all, (first, bad, met)) in tally.signs.iter_mut().zip(totals.signs) {
         if let Some(place) = first {
             lower(&mut all.first, place);

@@ -13,6 +13,9 @@ pub(super) const HEIGHT: i32 = 118;
 /// Height of the area with the curves.
 const AREA: i32 = 96;
 
+/// Width of the numbers of the axis, left of it.
+pub(super) const NUMBERS: i32 = 56;
+
 /// The range of values of a panel.
 pub(super) struct Scale {
     low: f64,
@@ -53,21 +56,18 @@ impl Scale {
 }
 
 impl Panel {
+    pub(super) fn heading(&self) -> String {
+        match self.unit.as_str() {
+            "" => self.name.clone(),
+            unit => format!("{} ({unit})", self.name),
+        }
+    }
+
     /// Draws the panel in a row, from `top` on.
     pub(super) fn draw(&self, out: &mut String, row: &Row, scale: Option<&Scale>, top: i32) {
         let top = top + 8;
-        let name = format!("{} ({})", self.name, self.unit);
-        let name = if self.unit.is_empty() {
-            &self.name
-        } else {
-            &name
-        };
-        let most = usize::try_from((row.left() - 12) * 10 / 67).unwrap_or(8);
-        let name = match name.chars().count() > most {
-            true => &self.name,
-            false => name,
-        };
-        text(out, 4, top + 6, "head", &cut(name, most));
+        let most = usize::try_from((row.left() - NUMBERS) * 10 / 67).unwrap_or(8);
+        text(out, 4, top + 6, "head", &cut(&self.heading(), most));
         let Some(scale) = scale else {
             return;
         };
@@ -94,10 +94,9 @@ impl Panel {
                 Role::Lower => curve.limit(out, row, scale, top, false),
             }
             let y = top + 22 + 14 * i32::try_from(n).unwrap_or(0);
-            // The legend leaves the last characters before the axis to its numbers.
             if y < top + AREA {
                 path(out, class, &format!("M4 {}H20", y - 4));
-                let most = usize::try_from((row.left() - 70) * 10 / 67).unwrap_or(8);
+                let most = usize::try_from((row.left() - NUMBERS - 27) * 10 / 67).unwrap_or(8);
                 text(out, 25, y, "dim", &cut(&curve.name, most.max(6)));
             }
         }

@@ -1,10 +1,11 @@
 //! Timing diagrams as SVG.
 
 use std::fmt::Write;
+use std::ops::Range;
 
 use super::fold::Column;
 use super::panel::{self, Scale};
-use super::{Diagram, Lane, Mark};
+use super::{Diagram, Lane};
 use crate::escape::{cut, html, lines};
 use crate::number::millis;
 use crate::svg::{path, picture, rect, text};
@@ -61,10 +62,11 @@ impl Diagram {
         let widths = self.widths(&columns);
         let lanes = self.lanes.iter().map(|l| width_of(&l.name) + 12);
         let curves = self.panels.iter().flat_map(|p| &p.curves);
-        let curves = curves.map(|c| width_of(&c.name) + 34);
-        let names = self.panels.iter().map(|p| width_of(&p.name) + 12);
+        let curves = curves.map(|c| width_of(&c.name) + 30 + panel::NUMBERS);
+        let names = self.panels.iter();
+        let names = names.map(|p| width_of(&p.heading()) + 6 + panel::NUMBERS);
         let gutter = lanes.chain(curves).chain(names).max().unwrap_or(0);
-        let gutter = gutter.clamp(70, 230);
+        let gutter = gutter.clamp(70, 250);
         let scales: Vec<Option<Scale>> = self.panels.iter().map(Scale::of).collect();
         let mut body = String::new();
         let mut y = 6;
@@ -86,7 +88,7 @@ impl Diagram {
                 edges,
             };
             right = right.max(row.right());
-            y = self.row(&mut body, &row, &scales, gutter, y) + 10;
+            y = self.row(&mut body, &row, &scales, (gutter, &mut right), y) + 10;
         }
         if let Some(k) = self.loop_start {
             y += LINE;
@@ -140,7 +142,7 @@ impl Diagram {
         out: &mut String,
         row: &Row,
         scales: &[Option<Scale>],
-        gutter: i32,
+        (gutter, right): (i32, &mut i32),
         top: i32,
     ) -> i32 {
         let head = if self.cycle.is_some() { 2 } else { 1 };
@@ -185,7 +187,7 @@ impl Diagram {
             }
             y += LANE;
         }
-        self.remarks(out, row, top_of_signals, bottom)
+        self.remarks(out, row, (top_of_signals, bottom), right)
     }
 
     /// Folded columns and marked ones stand on a ground of their own.
@@ -212,7 +214,7 @@ impl Diagram {
             text(out, 4, top + 2 * LINE - 3, "dim", "time");
         }
         let mut grid = String::new();
-        let mut free = row.left();
+        let mut free = (row.left(), row.left());
         for (n, column) in row.columns.iter().enumerate() {
             let (left, right) = (row.edges[n], row.edges[n + 1]);
             if right - left >= 14 {
@@ -220,22 +222,30 @@ impl Diagram {
             }
             let (name, time) = match column {
                 Column::Cycle(k) => {
-                    let us = self
-                        .cycle
-                        .map(|us| us.saturating_mul(u64::try_from(*k).unwrap_or(u64::MAX)));
-                    (k.to_string(), us.map(millis))
+                    let k = *k;
+                    let again = if self.loop_start == Some(k) {
+                        "↻"
+                    } else {
+                        ""
+                    };
+                    let cycles = u64::try_from(k).unwrap_or(u64::MAX);
+                    let time = self.cycle.map(|us| millis(us.saturating_mul(cycles)));
+                    (format!("{k}{again}"), time)
                 }
                 Column::Idle { count, .. } | Column::Cut { count, .. } => {
                     (format!("+{count}"), None)
                 }
             };
-            let length = width_of(&name).max(time.as_deref().map_or(0, width_of));
-            let middle = (left + right) / 2;
-            if middle - length / 2 < free && n > 0 {
+            let (own, below) = (width_of(&name), time.as_deref().map_or(0, width_of));
+            let length = own.max(below);
+            let middle = ((left + right) / 2).max(row.left() + length / 2);
+            if middle - own / 2 < free.0 || below > 0 && middle - below / 2 < free.1 {
                 continue;
             }
-            free = middle + length / 2 + 8;
-            let middle = middle.max(row.left() + length / 2);
+            free.0 = middle + own / 2 + 8;
+            if below > 0 {
+                free.1 = middle + below / 2 + 8;
+            }
             text(out, middle, top + LINE - 3, "mid", &name);
             if let Some(time) = time {
                 text(out, middle, top + 2 * LINE - 3, "mid dim", &time);
@@ -251,57 +261,61 @@ impl Diagram {
         path(out, "grid", &grid);
     }
 
-    /// Lines and words of the remarks in this row, below it.
-    fn remarks(&self, out: &mut String, row: &Row, top: i32, bottom: i32) -> i32 {
+    /// Lines and words of the remarks in this row, below it; tells where they end.
+    fn remarks(
+        &self,
+        out: &mut String,
+        row: &Row,
+        (top, bottom): (i32, i32),
+        right: &mut i32,
+    ) -> i32 {
         let mut y = bottom;
-        if let Some(n) = row
-            .columns
-            .iter()
-            .position(|c| Some(c.first()) == self.loop_start)
-        {
+        let starts = |c: &Column| Some(c.first()) == self.loop_start;
+        if let Some(n) = row.columns.iter().position(starts) {
             path(
                 out,
                 "noteline",
                 &format!("M{} {top}V{bottom}", row.edges[n]),
             );
-            text(out, row.edges[n] + 3, top - 2, "notetext", "↻");
         }
-        for Mark {
-            column,
-            text: words,
-            fault,
-        } in &self.marks
-        {
-            let Some(n) = row.columns.iter().position(|c| c.holds(*column)) else {
+        for mark in &self.marks {
+            let Some(n) = row.columns.iter().position(|c| c.holds(mark.column)) else {
                 continue;
             };
             let middle = row.middle(n);
-            let (line, class) = match fault {
+            let (line, class) = match mark.fault {
                 true => ("faultline", "faulttext"),
                 false => ("noteline", "notetext"),
             };
             path(out, line, &format!("M{middle} {bottom}V{}", y + 6));
-            for (k, words) in lines(&format!("▲ cycle {column}: {words}"), 120)
-                .iter()
-                .enumerate()
-            {
+            let words = lines(&format!("▲ cycle {}: {}", mark.column, mark.text), 110);
+            let length = words.iter().map(|w| width_of(w)).max().unwrap_or(0);
+            let x = (middle - 4).min(*right - length).max(4);
+            for words in words {
                 y += LINE;
-                let length = width_of(words);
-                let x = if k == 0 { middle - 4 } else { middle + 10 };
-                let x = x.min(row.left() + ROOM - length).max(4);
-                text(out, x, y, class, words);
+                text(out, x, y, class, &words);
             }
+            *right = (*right).max(x + length);
         }
         y + LINE
     }
 }
 
-/// The columns of each row, so that none is wider than there is room.
-fn rows(widths: &[i32]) -> Vec<std::ops::Range<usize>> {
+/// The columns of each row: as few rows as there is room for, of about the same width.
+fn rows(widths: &[i32]) -> Vec<Range<usize>> {
+    let fewest = rows_within(widths, ROOM);
+    let narrower = (1..ROOM / 20).map(|n| rows_within(widths, n * 20));
+    narrower
+        .into_iter()
+        .find(|r| r.len() == fewest.len())
+        .unwrap_or(fewest)
+}
+
+fn rows_within(widths: &[i32], room: i32) -> Vec<Range<usize>> {
     let mut out = Vec::new();
     let (mut start, mut used) = (0, 0);
     for (n, width) in widths.iter().enumerate() {
-        if used + width > ROOM && n > start {
+        if used + width > room && n > start {
             out.push(start..n);
             (start, used) = (n, 0);
         }
@@ -315,8 +329,8 @@ fn rows(widths: &[i32]) -> Vec<std::ops::Range<usize>> {
 
 impl Lane {
     /// Stretches of columns with one value; a folded column in which it counts stands alone.
-    fn segments(&self, columns: &[Column]) -> Vec<std::ops::Range<usize>> {
-        let mut out: Vec<std::ops::Range<usize>> = Vec::new();
+    fn segments(&self, columns: &[Column]) -> Vec<Range<usize>> {
+        let mut out: Vec<Range<usize>> = Vec::new();
         for (n, column) in columns.iter().enumerate() {
             match out.last_mut() {
                 Some(last) if !self.moves(*column) && !self.moves(columns[n - 1]) => {

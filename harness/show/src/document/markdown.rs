@@ -8,11 +8,23 @@ use crate::graph::Graph;
 impl Document {
     /// The document as Markdown: figures as fenced text, graphs as lists of their edges.
     pub fn markdown(&self) -> String {
+        self.write(&mut Figures::Text)
+    }
+
+    /// The document as Markdown with its figures as pictures `{stem}-1.svg` and so on beside it: the text, and the name and
+    /// contents of each picture.
+    pub fn markdown_with_pictures(&self, stem: &str) -> (String, Vec<(String, String)>) {
+        let mut pictures = Vec::new();
+        let text = self.write(&mut Figures::Beside(stem, &mut pictures));
+        (text, pictures)
+    }
+
+    fn write(&self, figures: &mut Figures) -> String {
         let mut out = format!("# {}\n\n", escaped(&self.title));
         if !self.subtitle.is_empty() {
             let _ = write!(out, "{}\n\n", escaped(&self.subtitle));
         }
-        blocks(&mut out, &self.blocks, 2);
+        blocks(&mut out, &self.blocks, 2, figures);
         while out.ends_with("\n\n") {
             out.pop();
         }
@@ -20,13 +32,40 @@ impl Document {
     }
 }
 
-fn blocks(out: &mut String, blocks: &[Block], level: usize) {
-    for block in blocks {
-        one(out, block, level);
+/// What becomes of figures.
+enum Figures<'a> {
+    /// They are written as text.
+    Text,
+    /// They are pictures in files of this stem, which are gathered here.
+    Beside(&'a str, &'a mut Vec<(String, String)>),
+}
+
+impl Figures<'_> {
+    fn add(
+        &mut self,
+        out: &mut String,
+        title: &str,
+        text: impl FnOnce(&mut String),
+        svg: impl FnOnce() -> String,
+    ) {
+        match self {
+            Self::Text => text(out),
+            Self::Beside(stem, pictures) => {
+                let name = format!("{stem}-{}.svg", pictures.len() + 1);
+                let _ = write!(out, "![{}]({name})\n\n", escaped(title));
+                pictures.push((name, svg()));
+            }
+        }
     }
 }
 
-fn one(out: &mut String, block: &Block, level: usize) {
+fn blocks(out: &mut String, blocks: &[Block], level: usize, figures: &mut Figures) {
+    for block in blocks {
+        one(out, block, level, figures);
+    }
+}
+
+fn one(out: &mut String, block: &Block, level: usize, figures: &mut Figures) {
     match block {
         Block::Section {
             title,
@@ -41,7 +80,7 @@ fn one(out: &mut String, block: &Block, level: usize) {
             };
             let hashes = "#".repeat(level.min(6));
             let _ = write!(out, "{hashes} {named}{}\n\n", escaped(title));
-            blocks(out, inner, level + 1);
+            blocks(out, inner, level + 1, figures);
         }
         Block::Paragraph(words) => {
             let _ = write!(out, "{}\n\n", inline(words));
@@ -66,15 +105,22 @@ fn one(out: &mut String, block: &Block, level: usize) {
             out.push('\n');
         }
         Block::Table(rows) => table(out, rows),
-        Block::Timing(diagram) => fenced(out, &diagram.text()),
-        Block::Graph(drawn) => graph(out, drawn),
+        Block::Timing(diagram) => figures.add(
+            out,
+            &diagram.title,
+            |out| fenced(out, &diagram.text()),
+            || diagram.svg(),
+        ),
+        Block::Graph(drawn) => {
+            figures.add(out, &drawn.title, |out| graph(out, drawn), || drawn.svg())
+        }
         Block::Preformatted(text) => fenced(out, text),
         Block::Details {
             summary,
             blocks: inner,
         } => {
             let _ = write!(out, "**{}**\n\n", inline(summary).replace("**", ""));
-            blocks(out, inner, level);
+            blocks(out, inner, level, figures);
         }
     }
 }
@@ -302,6 +348,22 @@ mod tests {
             document.markdown(),
             "# T\n\n## <a id=\"config\"></a>What is set\n\n| name | value |\n| --- | ---: |\n| `a\\|b` | \\_\\_\\_ |\n"
         );
+    }
+
+    #[test]
+    fn figures_can_be_pictures_beside() {
+        let drawn = Graph {
+            title: "states".to_owned(),
+            ..Graph::default()
+        };
+        let document = Document {
+            title: "T".to_owned(),
+            subtitle: String::new(),
+            blocks: vec![Block::Graph(Box::new(drawn.clone()))],
+        };
+        let (text, pictures) = document.markdown_with_pictures("stop");
+        assert_eq!(text, "# T\n\n![states](stop-1.svg)\n");
+        assert_eq!(pictures, [("stop-1.svg".to_owned(), drawn.svg())]);
     }
 
     #[test]

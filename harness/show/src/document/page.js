@@ -9,8 +9,9 @@ for (const figure of document.querySelectorAll("figure.graph")) {
     if (already) { pane.innerHTML = '<p class="hint">Choose a state to see how it is reached and left.</p>'; return; }
     node.classList.add("now");
     for (const edge of svg.querySelectorAll(".edge")) {
-      if (edge.dataset.to === n) edge.classList.add("in");
-      if (edge.dataset.from === n) edge.classList.add("out");
+      const both = "both" in edge.dataset, {from, to} = edge.dataset;
+      if (to === n || (both && from === n)) edge.classList.add("in");
+      if (from === n || (both && to === n)) edge.classList.add("out");
     }
     pane.innerHTML = document.getElementById(node.dataset.info).innerHTML;
   };

@@ -45,7 +45,7 @@ pub(super) struct Line {
 /// Width of a character of the words on an edge; their lines are twice as high.
 const LETTER: usize = 6;
 /// Space around a node.
-const HALO: f64 = 34.0;
+const HALO: f64 = 26.0;
 
 /// Lays out nodes of these sizes and the edges between them.
 pub(super) fn lay_out(sizes: &[At], edges: &[Line]) -> Layout {

@@ -1,6 +1,6 @@
 //! Graphs as SVG.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
 use super::layout::{At, Layout, Line, Way, lay_out};
@@ -9,7 +9,7 @@ use crate::escape::{cut, html};
 use crate::svg::{picture, text};
 
 /// More edges than this stand without words, which would cover each other; they are told when a node is chosen.
-const MOST_WORDS: usize = 28;
+const MOST_WORDS: usize = 14;
 /// Characters of a reason on an edge.
 const WORDS: usize = 26;
 /// Space around the picture.
@@ -29,8 +29,18 @@ impl Graph {
             .map(|n| n.label.lines().collect())
             .collect();
         let sizes: Vec<At> = labels.iter().map(|l| size(l)).collect();
-        let edges = self.drawn();
+        let mut edges = self.drawn();
         let with_words = edges.len() <= MOST_WORDS;
+        let mut both = BTreeSet::new();
+        if !with_words {
+            // A way there and back is one line then.
+            both = edges
+                .keys()
+                .copied()
+                .filter(|(from, to)| from < to && edges.contains_key(&(*to, *from)))
+                .collect();
+            edges.retain(|(from, to), _| !both.contains(&(*to, *from)));
+        }
         let words: Vec<Vec<String>> = edges
             .values()
             .map(|labels| {
@@ -41,21 +51,14 @@ impl Graph {
                 }
             })
             .collect();
+        let width = |words: &[String]| words.iter().map(|w| w.chars().count()).max();
         let lines: Vec<Line> = edges
             .keys()
             .zip(&words)
             .map(|((from, to), words)| Line {
                 from: *from,
                 to: *to,
-                words: (
-                    words
-                        .iter()
-                        .map(|w| w.chars().count())
-                        .max()
-                        .unwrap_or(0)
-                        .max(4),
-                    words.len(),
-                ),
+                words: (width(words).unwrap_or(0).max(4), words.len()),
             })
             .collect();
         let layout = if self.nodes.is_empty() {
@@ -80,12 +83,14 @@ impl Graph {
             let line = &lines[way.edge];
             let pale = !(self.nodes[line.from].reached && self.nodes[line.to].reached);
             let class = if pale { "edge pale" } else { "edge" };
+            let both = both.contains(&(line.from, line.to));
+            let back = if both { " data-both=\"\"" } else { "" };
             let _ = writeln!(
                 body,
-                "<g class=\"{class}\" data-from=\"{}\" data-to=\"{}\">",
+                "<g class=\"{class}\" data-from=\"{}\" data-to=\"{}\"{back}>",
                 line.from, line.to
             );
-            arrow(&mut body, way);
+            arrow(&mut body, way, both);
             if let Some((x, y)) = layout.words.get(&way.edge) {
                 let lines = &words[way.edge];
                 let first = y - 6.0 * (lines.len() as f64 - 1.0) + 3.5;
@@ -241,8 +246,8 @@ fn frame(layout: &Layout) -> (At, At) {
     )
 }
 
-/// A smooth line with its head.
-fn arrow(out: &mut String, way: &Way) {
+/// A smooth line with its head, or with one at each end.
+fn arrow(out: &mut String, way: &Way, both: bool) {
     let [(start, leave), (arrive, end), rest @ ..] = way.path.as_slice() else {
         return;
     };
@@ -254,12 +259,17 @@ fn arrow(out: &mut String, way: &Way) {
         let _ = write!(d, "S{cx:.1} {cy:.1} {x:.1} {y:.1}");
     }
     let _ = writeln!(out, "<path d=\"{d}\"/>");
-    let (tip, from) = if way.reversed {
-        (*start, *leave)
-    } else {
-        let (from, tip) = rest.last().unwrap_or(&way.path[1]);
-        (*tip, *from)
-    };
+    if way.reversed || both {
+        head(out, *start, *leave);
+    }
+    if !way.reversed || both {
+        let (from, tip) = rest.last().copied().unwrap_or((*arrive, *end));
+        head(out, tip, from);
+    }
+}
+
+/// The head of an arrow that comes from somewhere.
+fn head(out: &mut String, tip: At, from: At) {
     let (dx, dy) = (tip.0 - from.0, tip.1 - from.1);
     let length = dx.hypot(dy);
     if length < 0.5 {

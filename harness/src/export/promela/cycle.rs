@@ -6,7 +6,6 @@ use std::fmt::Write;
 use stillpoint_spec::ir::{BinaryOp, Form, Node, Stmt};
 
 use super::{COMBINATION, Emitter, FEW, SMALL, Shared, Used, comment, scratch, wide};
-use crate::export::fold::size;
 use crate::export::known::{Known, Status, read_anywhere};
 
 impl<'a> Emitter<'a> {
@@ -373,7 +372,7 @@ impl<'a> Emitter<'a> {
         let mut text = self.text(value);
         let place = index.map(|(k, lo, len)| (self.small(k), *lo, *len as usize));
         let several = place.is_some() || checked;
-        if several && size(value) > SMALL {
+        if several && value.size() > SMALL {
             text = self.keep(&text);
         }
         let write = |e: &mut Self| match &place {

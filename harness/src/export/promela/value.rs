@@ -3,7 +3,6 @@
 use stillpoint_spec::ir::{BinaryOp, Node, Space};
 
 use super::{Emitter, SMALL, choose, scratch, wide};
-use crate::export::fold::size;
 use crate::export::known::Status;
 
 impl Emitter<'_> {
@@ -139,7 +138,7 @@ impl Emitter<'_> {
     /// The text of an expression that will stand several times.
     pub(super) fn small(&mut self, node: &Node) -> String {
         let text = self.text(node);
-        if size(node) <= SMALL && !matches!(node, Node::Min(_) | Node::Max(_)) {
+        if node.size() <= SMALL && !matches!(node, Node::Min(_) | Node::Max(_)) {
             text
         } else {
             self.keep(&text)
