@@ -5,7 +5,7 @@ use stillpoint_spec::machine::acceptance::{Protocol, Test};
 use stillpoint_spec::machine::units::Dimension;
 use stillpoint_spec::machine::{Machine, Shown};
 
-use super::{Checksums, Since, expected, latest, selected};
+use super::{Checksums, Ran, Since, expected, latest, selected};
 
 /// The protocol of a machine; with `since` only what has to be repeated.
 pub fn document(
@@ -13,11 +13,15 @@ pub fn document(
     protocol: &Protocol,
     checksums: &Checksums,
     since: Option<&Since>,
+    ran: Option<&[Ran]>,
 ) -> Document {
     let tests = selected(protocol, since);
     let mut blocks = Vec::new();
     if let Some(since) = since {
         blocks.extend(changed(protocol, since));
+    }
+    if let Some(ran) = ran {
+        blocks.extend(simulated(ran, tests.len()));
     }
     blocks.push(identity(machine, protocol, checksums));
     blocks.push(configuration(machine));
@@ -309,6 +313,71 @@ fn one(machine: &Machine, test: &Test) -> Block {
         anchor: anchor(&test.id),
         blocks,
     }
+}
+
+/// What the tests gave on the simulated axis.
+fn simulated(ran: &[Ran], tests: usize) -> Vec<Block> {
+    let bad = ran.iter().filter(|r| !r.holds).count();
+    let (tone, head) = match bad {
+        0 => (
+            Tone::Good,
+            "Every simulated test gives what is expected".to_owned(),
+        ),
+        1 => (
+            Tone::Bad,
+            "1 simulated test does not give what is expected".to_owned(),
+        ),
+        n => (
+            Tone::Bad,
+            format!("{n} simulated tests do not give what is expected"),
+        ),
+    };
+    let about = format!(
+        "{} of {tests} tests have a scenario and were run on the production monitors of both channels with a simple axis. This shows that configuration and monitors fit the test; it is no test of the machine.",
+        ran.len()
+    );
+    let mut inner = Vec::new();
+    for r in ran {
+        let (tone, word) = match r.holds {
+            true => (Tone::Good, "as expected"),
+            false => (Tone::Bad, "not as expected"),
+        };
+        let mut points: Vec<Vec<Inline>> = Vec::new();
+        for (expected, holds, cycle) in &r.judged {
+            let came = match (holds, cycle) {
+                (true, Some(cycle)) => format!(" (cycle {cycle})"),
+                (true, None) => String::new(),
+                (false, _) => ": does not hold".to_owned(),
+            };
+            points.push(vec![Inline::Text(format!("{expected}{came}"))]);
+        }
+        points.extend(r.stops.iter().map(|stop| vec![text(stop)]));
+        let mut blocks = vec![Block::List(points)];
+        // The diagrams of all tests would bury the protocol.
+        if !r.holds {
+            blocks.push(Block::Timing(Box::new(r.diagram.clone())));
+        }
+        inner.push(Block::Details {
+            summary: vec![
+                Inline::Code(r.id.clone()),
+                text(" "),
+                Inline::Badge(tone, word.to_owned()),
+            ],
+            blocks,
+        });
+    }
+    vec![
+        Block::Verdict {
+            tone,
+            head,
+            text: vec![Inline::Text(about)],
+        },
+        Block::Section {
+            title: "On the simulated axis".to_owned(),
+            anchor: "simulated".to_owned(),
+            blocks: inner,
+        },
+    ]
 }
 
 fn signatures(protocol: &Protocol) -> Block {

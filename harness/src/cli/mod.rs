@@ -64,7 +64,7 @@ enum Command {
     Export(export::Arguments),
     /// The protocol of the acceptance test for exactly this machine, and what of it to repeat after a change
     #[command(
-        after_help = "Examples:\n  stillpoint acceptance spec/machines/milling-840d.toml > protocol.md\n  stillpoint acceptance spec/machines/milling-840d.toml --html protocol.html\n  stillpoint acceptance milling-840d.toml --since milling-840d.old.toml --html repeat.html"
+        after_help = "Exit status: 0; 1 a test that was run with --run does not give what is expected; 2 bad input.\n\nExamples:\n  stillpoint acceptance spec/machines/milling-840d.toml > protocol.md\n  stillpoint acceptance spec/machines/milling-840d.toml --html protocol.html\n  stillpoint acceptance spec/machines/milling-840d.toml --run --html protocol.html\n  stillpoint acceptance milling-840d.toml --since milling-840d.old.toml --html repeat.html"
     )]
     Acceptance(acceptance::Arguments),
     /// Reaction times from the sensor to standstill, summand by summand, and the over-travel
