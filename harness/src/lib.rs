@@ -15,7 +15,6 @@ pub mod export;
 pub mod keep;
 pub mod matrix;
 pub mod production;
-pub mod pages;
 pub mod reaction;
 pub mod readings;
 pub mod recorded;

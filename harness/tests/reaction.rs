@@ -229,7 +229,7 @@ fn the_page_is_the_same_each_time_and_says_what_is_measured() {
     assert_eq!(page, write("reaction-2.html", "2"));
     for text in [
         "S840D-STOP-031-TIME",
-        "SI0306; 5.5.2 Table 5-24",
+        "5.5.2 Table 5-24",
         "to be measured",
         "CYCLES(STOP_SWITCH_TIME_C)",
     ] {

@@ -1,5 +1,6 @@
 //! `acceptance`: the protocol of the acceptance test of a machine, and what of it has to be repeated after a change.
 
+mod run;
 mod show;
 mod since;
 mod trace;
@@ -12,6 +13,7 @@ use sha2::{Digest, Sha256};
 use stillpoint_spec::machine::Machine;
 use stillpoint_spec::machine::acceptance::{Expect, Protocol, Test};
 
+pub use run::{Error, Ran, run};
 pub use show::document;
 pub use since::{Change, Repeat, Since, since};
 pub use trace::expected;
@@ -80,6 +82,7 @@ pub fn to_json(
     protocol: &Protocol,
     checksums: &Checksums,
     since: Option<&Since>,
+    ran: Option<&[Ran]>,
 ) -> Value {
     let cycle = machine.monitoring_cycle;
     let tests = selected(protocol, since).into_iter().map(|test| {
@@ -107,6 +110,9 @@ pub fn to_json(
         "stillpoint": env!("CARGO_PKG_VERSION"), "monitoring_cycle_us": cycle,
         "tests": tests.collect::<Vec<_>>(),
     });
+    if let Some(ran) = ran {
+        value["simulated"] = run::json(ran);
+    }
     if let Some(since) = since {
         value["since"] = since.to_json();
     }

@@ -5,7 +5,7 @@ use stillpoint_spec::machine::acceptance::{Protocol, Test};
 use stillpoint_spec::machine::units::Dimension;
 use stillpoint_spec::machine::{Machine, Shown};
 
-use super::{Checksums, Since, expected, latest, selected};
+use super::{Checksums, Ran, Since, expected, latest, selected};
 
 /// The protocol of a machine; with `since` only what has to be repeated.
 pub fn document(
@@ -13,11 +13,15 @@ pub fn document(
     protocol: &Protocol,
     checksums: &Checksums,
     since: Option<&Since>,
+    ran: Option<&[Ran]>,
 ) -> Document {
     let tests = selected(protocol, since);
     let mut blocks = Vec::new();
     if let Some(since) = since {
         blocks.extend(changed(protocol, since));
+    }
+    if let Some(ran) = ran {
+        blocks.extend(simulated(ran, tests.len()));
     }
     blocks.push(identity(machine, protocol, checksums));
     blocks.push(configuration(machine));
@@ -233,10 +237,16 @@ fn one(machine: &Machine, test: &Test) -> Block {
         blocks.push(Block::Paragraph(vec![Inline::Strong("Before".to_owned())]));
         blocks.push(bullets(&test.requires));
     }
-    blocks.push(Block::Paragraph(vec![Inline::Strong("Steps".to_owned())]));
-    let steps = test.steps.iter().enumerate();
-    let steps = steps.map(|(k, step)| vec![Inline::Text(format!("{}. {step}", k + 1))]);
-    blocks.push(Block::List(steps.collect()));
+    let steps = test.steps.iter().enumerate().map(|(k, step)| {
+        let number = Inline::Text((k + 1).to_string());
+        vec![vec![number], vec![text(step)], vec![Inline::Blank(5)]]
+    });
+    let heads = vec![
+        column("", true),
+        column("Step", false),
+        column("Done", false),
+    ];
+    blocks.push(table("", heads, steps.collect()));
     let rows = test.expect.iter().map(|e| {
         let (time, cycles) = match latest(e, cycle) {
             Some((us, cycles)) => (self::time(us), cycles.to_string()),
@@ -286,7 +296,8 @@ fn one(machine: &Machine, test: &Test) -> Block {
         blocks.push(table("", heads, rows.collect()));
     }
     let mut end = vec![
-        Inline::Strong("Passed ".to_owned()),
+        Inline::Strong("Passed".to_owned()),
+        text(" "),
         Inline::Blank(5),
         text("  Alarms "),
         Inline::Blank(24),
@@ -302,6 +313,71 @@ fn one(machine: &Machine, test: &Test) -> Block {
         anchor: anchor(&test.id),
         blocks,
     }
+}
+
+/// What the tests gave on the simulated axis.
+fn simulated(ran: &[Ran], tests: usize) -> Vec<Block> {
+    let bad = ran.iter().filter(|r| !r.holds).count();
+    let (tone, head) = match bad {
+        0 => (
+            Tone::Good,
+            "Every simulated test gives what is expected".to_owned(),
+        ),
+        1 => (
+            Tone::Bad,
+            "1 simulated test does not give what is expected".to_owned(),
+        ),
+        n => (
+            Tone::Bad,
+            format!("{n} simulated tests do not give what is expected"),
+        ),
+    };
+    let about = format!(
+        "{} of {tests} tests have a scenario and were run on the production monitors of both channels with a simple axis. This shows that configuration and monitors fit the test; it is no test of the machine.",
+        ran.len()
+    );
+    let mut inner = Vec::new();
+    for r in ran {
+        let (tone, word) = match r.holds {
+            true => (Tone::Good, "as expected"),
+            false => (Tone::Bad, "not as expected"),
+        };
+        let mut points: Vec<Vec<Inline>> = Vec::new();
+        for (expected, holds, cycle) in &r.judged {
+            let came = match (holds, cycle) {
+                (true, Some(cycle)) => format!(" (cycle {cycle})"),
+                (true, None) => String::new(),
+                (false, _) => ": does not hold".to_owned(),
+            };
+            points.push(vec![Inline::Text(format!("{expected}{came}"))]);
+        }
+        points.extend(r.stops.iter().map(|stop| vec![text(stop)]));
+        let mut blocks = vec![Block::List(points)];
+        // The diagrams of all tests would bury the protocol.
+        if !r.holds {
+            blocks.push(Block::Timing(Box::new(r.diagram.clone())));
+        }
+        inner.push(Block::Details {
+            summary: vec![
+                Inline::Code(r.id.clone()),
+                text(" "),
+                Inline::Badge(tone, word.to_owned()),
+            ],
+            blocks,
+        });
+    }
+    vec![
+        Block::Verdict {
+            tone,
+            head,
+            text: vec![Inline::Text(about)],
+        },
+        Block::Section {
+            title: "On the simulated axis".to_owned(),
+            anchor: "simulated".to_owned(),
+            blocks: inner,
+        },
+    ]
 }
 
 fn signatures(protocol: &Protocol) -> Block {
@@ -350,16 +426,22 @@ fn changed(protocol: &Protocol, since: &Since) -> Vec<Block> {
         protocol.tests.len()
     );
     let rows = since.changes.iter().map(|c| {
-        let why = since.untested.iter().find(|(u, _)| u == c);
-        vec![
+        let mut row = vec![
             vec![text(&c.of)],
             vec![Inline::Code(c.name.clone())],
             vec![text(&c.old)],
             vec![text(&c.new)],
-            vec![text(why.map_or("", |(_, why)| why))],
-        ]
+        ];
+        if !since.untested.is_empty() {
+            let why = since.untested.iter().find(|(u, _)| u == c);
+            row.push(vec![text(why.map_or("", |(_, why)| why))]);
+        }
+        row
     });
-    let heads = columns(&["Of", "What", "Before", "Now", "No test, because"]);
+    let mut heads = columns(&["Of", "What", "Before", "Now"]);
+    if !since.untested.is_empty() {
+        heads.push(column("No test, because", false));
+    }
     let mut blocks = vec![
         Block::Verdict {
             tone,

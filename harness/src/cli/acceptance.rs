@@ -3,7 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use stillpoint::acceptance::{checksums, document, since, to_json};
+use stillpoint::acceptance::{
+    Error, checksums, document, run as simulate, selected, since, to_json,
+};
 use stillpoint::atomic::write_with;
 use stillpoint_spec::machine::acceptance::Protocol;
 use stillpoint_spec::machine::{self, Machine, families};
@@ -26,6 +28,9 @@ pub struct Arguments {
     /// An earlier state of the machine file: say what changed, and give only the tests to be repeated
     #[arg(long, value_name = "OLD.toml")]
     since: Option<PathBuf>,
+    /// Run the tests that have a scenario on the production monitors with a simulated axis, and say what came of it
+    #[arg(long)]
+    run: bool,
 }
 
 fn load(path: &Path) -> Result<(Machine, Protocol), Failure> {
@@ -54,17 +59,29 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     };
     let sums = checksums(&arguments.file, &machine)
         .map_err(|e| Failure::Other(format!("the checksums cannot be made: {e}")))?;
-    let document = document(&machine, &protocol, &sums, since.as_ref());
+    let ran = match arguments.run {
+        true => {
+            let tests = selected(&protocol, since.as_ref());
+            let ran = simulate(&machine, &tests).map_err(|e| match e {
+                Error::Scenario(diagnostics) => Failure::Input(diagnostics),
+                Error::Simulation(message) => Failure::Other(message),
+            })?;
+            Some(ran)
+        }
+        false => None,
+    };
+    let document = document(&machine, &protocol, &sums, since.as_ref(), ran.as_deref());
     if let Some(path) = &arguments.html {
         let page = document.html();
         write_with(path, |out| out.write_all(page.as_bytes()))
             .map_err(|e| Failure::Other(format!("{} cannot be written: {e}", path.display())))?;
     }
     if arguments.json {
-        let json = to_json(&machine, &protocol, &sums, since.as_ref());
+        let json = to_json(&machine, &protocol, &sums, since.as_ref(), ran.as_deref());
         emit(&format!("{json:#}\n"));
     } else if arguments.markdown || arguments.html.is_none() {
         emit(&document.markdown());
     }
-    Ok(0)
+    let holds = ran.iter().flatten().all(|r| r.holds);
+    Ok(u8::from(!holds))
 }

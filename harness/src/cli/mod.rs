@@ -12,8 +12,8 @@ mod limits;
 mod manual;
 mod pages;
 mod progress;
-mod simulate;
 mod reaction;
+mod simulate;
 mod trace;
 mod values;
 
@@ -69,14 +69,9 @@ enum Command {
         after_help = "Examples:\n  stillpoint export spec/bench/two-axis.toml --to promela --output two-axis.pml\n  stillpoint export spec/sinumerik-840d/axis.toml --system stop --to dot | dot -Tsvg"
     )]
     Export(export::Arguments),
-    /// Run a scenario on the production monitors of both channels, with a simple axis before them
-    #[command(
-        after_help = "Exit status: 0 every expectation of the scenario holds; 1 one does not; 2 bad input, nothing was run.\n\nExamples:\n  stillpoint simulate spec/machines/milling-840d.toml --scenario spec/scenarios/door-while-moving.toml\n  stillpoint simulate spec/machines/milling-840d.toml --scenario spec/scenarios/encoder-freeze.toml --svg freeze.svg --trace freeze.ndjson"
-    )]
-    Simulate(simulate::Arguments),
     /// The protocol of the acceptance test for exactly this machine, and what of it to repeat after a change
     #[command(
-        after_help = "Examples:\n  stillpoint acceptance spec/machines/milling-840d.toml > protocol.md\n  stillpoint acceptance spec/machines/milling-840d.toml --html protocol.html\n  stillpoint acceptance milling-840d.toml --since milling-840d.old.toml --html repeat.html"
+        after_help = "Exit status: 0; 1 a test that was run with --run does not give what is expected; 2 bad input.\n\nExamples:\n  stillpoint acceptance spec/machines/milling-840d.toml > protocol.md\n  stillpoint acceptance spec/machines/milling-840d.toml --html protocol.html\n  stillpoint acceptance spec/machines/milling-840d.toml --run --html protocol.html\n  stillpoint acceptance milling-840d.toml --since milling-840d.old.toml --html repeat.html"
     )]
     Acceptance(acceptance::Arguments),
     /// Reaction times from the sensor to standstill, summand by summand, and the over-travel
@@ -84,6 +79,11 @@ enum Command {
         after_help = "Exit status: 0; 1 the exploration contradicts a reaction time; 2 bad input; 3 a limit was reached first.\n\nExamples:\n  stillpoint reaction spec/machines/milling-840d.toml\n  stillpoint reaction spec/machines/milling-840d.toml --axis X --speed \"10000 mm/min\" --acceleration \"2 m/s2\"\n  stillpoint reaction spec/machines/milling-840d.toml --html reaction.html"
     )]
     Reaction(reaction::Arguments),
+    /// Run a scenario on the production monitors of both channels, with a simple axis before them
+    #[command(
+        after_help = "Exit status: 0 every expectation of the scenario holds; 1 one does not; 2 bad input, nothing was run.\n\nExamples:\n  stillpoint simulate spec/machines/milling-840d.toml --scenario spec/scenarios/door-while-moving.toml\n  stillpoint simulate spec/machines/milling-840d.toml --scenario spec/scenarios/encoder-freeze.toml --svg freeze.svg --trace freeze.ndjson"
+    )]
+    Simulate(simulate::Arguments),
     /// The requirement matrix: which rules, monitors, proofs and tests carry each requirement
     #[command(
         after_help = "Exit status: 0; 1 if a family declared complete has open core requirements or an id is in no catalogue; 2 bad input.\n\nExample: stillpoint trace --html matrix.html"
@@ -139,8 +139,8 @@ pub fn main() -> ExitCode {
         Command::Diff(arguments) => diff::run(&arguments),
         Command::Explore(arguments) => explore::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),
-        Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Reaction(arguments) => reaction::run(&arguments),
+        Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Trace(arguments) => trace::run(&arguments),
         Command::Validate { file } => validate(&file),
         Command::Pages(arguments) => pages::run(&arguments),

@@ -129,7 +129,7 @@ pub fn control(explorer: &Explorer, body: &str) -> Result<Value, Refusal> {
     let _alone = alone(explorer)?;
     let mut graphs = Vec::new();
     for (number, instance) in bound.system.instances.iter().enumerate() {
-        match crate::control::control(bound, number, &options(explorer.bounds)) {
+        match crate::control::control(bound, number, None, &options(explorer.bounds)) {
             Ok(None) => {}
             Ok(Some(graph)) => graphs.push(json!({ "machine": instance.name, "svg": graph.svg() })),
             Err(e) => return refuse(400, format!("the system cannot be explored: {e}")),

@@ -404,6 +404,7 @@ impl Plan {
             .chain(expect.chain(measure).flatten())
     }
 
+    /// All texts but the scenario, which serves the test and is no part of it.
     fn templates(&self) -> impl Iterator<Item = &Template> {
         let expect = self.expect.iter();
         let expect = expect.flat_map(|e| [Some(&e.text), e.value.as_ref()]);
@@ -413,7 +414,6 @@ impl Plan {
             .into_iter()
             .chain(&self.requires)
             .chain(&self.steps)
-            .chain(&self.simulate)
             .chain(expect.chain(measure).flatten())
     }
 
