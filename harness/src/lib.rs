@@ -6,13 +6,13 @@
 pub mod atomic;
 pub mod certificate;
 pub mod check;
-pub mod control;
 pub mod diff;
 pub mod engine;
 pub mod export;
 pub mod keep;
 pub mod matrix;
 pub mod pages;
+pub mod reaction;
 pub mod readings;
 pub mod recorded;
 pub mod reduce;

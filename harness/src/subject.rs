@@ -7,7 +7,7 @@ use std::sync::Arc;
 use stillpoint_spec::analysis::Analysis;
 use stillpoint_spec::bind::{BindError, Bound};
 use stillpoint_spec::diag::{Diagnostic, Diagnostics, Result};
-use stillpoint_spec::machine::{self, Machine, families};
+use stillpoint_spec::machine::{self, Machine, Run, families};
 use stillpoint_spec::{Spec, read_text};
 
 /// Chosen options of readings, by id; what is missing has the recommended one.
@@ -114,9 +114,23 @@ fn of_spec(path: &Path, text: Arc<str>, readings: &Readings) -> Result<Subject> 
 
 fn of_machine(path: &Path, readings: &Readings) -> Result<Subject> {
     let machine = machine::load(path, &families(path))?;
+    let runs = machine.runs.clone();
+    of_runs(path, machine, &runs, readings)
+}
+
+/// A machine with explorations that need not be its own ones, such as those of its reaction times.
+///
+/// # Errors
+/// As [`load`].
+pub fn of_runs(
+    path: &Path,
+    machine: Machine,
+    runs: &[Run],
+    readings: &Readings,
+) -> Result<Subject> {
     let mut tasks = Vec::new();
     let mut specs: BTreeMap<PathBuf, Spec> = BTreeMap::new();
-    for run in &machine.runs {
+    for run in runs {
         if !specs.contains_key(&run.file) {
             specs.insert(run.file.clone(), Spec::load(&run.file)?);
         }

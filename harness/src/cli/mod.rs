@@ -10,6 +10,7 @@ mod limits;
 mod manual;
 mod pages;
 mod progress;
+mod reaction;
 mod trace;
 mod values;
 
@@ -60,6 +61,11 @@ enum Command {
         after_help = "Examples:\n  stillpoint export spec/bench/two-axis.toml --to promela --output two-axis.pml\n  stillpoint export spec/sinumerik-840d/axis.toml --system stop --to dot | dot -Tsvg"
     )]
     Export(export::Arguments),
+    /// Reaction times from the sensor to standstill, summand by summand, and the over-travel
+    #[command(
+        after_help = "Exit status: 0; 1 the exploration contradicts a reaction time; 2 bad input; 3 a limit was reached first.\n\nExamples:\n  stillpoint reaction spec/machines/milling-840d.toml\n  stillpoint reaction spec/machines/milling-840d.toml --axis X --speed \"10000 mm/min\" --acceleration \"2 m/s2\"\n  stillpoint reaction spec/machines/milling-840d.toml --html reaction.html"
+    )]
+    Reaction(reaction::Arguments),
     /// The requirement matrix: which rules, monitors, proofs and tests carry each requirement
     #[command(
         after_help = "Exit status: 0; 1 if a family declared complete has open core requirements or an id is in no catalogue; 2 bad input.\n\nExample: stillpoint trace --html matrix.html"
@@ -113,6 +119,7 @@ pub fn main() -> ExitCode {
         Command::Check(arguments) => check::run(&arguments),
         Command::Diff(arguments) => diff::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),
+        Command::Reaction(arguments) => reaction::run(&arguments),
         Command::Trace(arguments) => trace::run(&arguments),
         Command::Validate { file } => validate(&file),
         Command::Pages(arguments) => pages::run(&arguments),

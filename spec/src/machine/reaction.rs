@@ -9,11 +9,12 @@ use indexmap::IndexMap;
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::family::{Explore, Formula, Quantity};
+use super::family::{Explore, Formula};
 use super::family_file::{Check, ExploreData};
 use super::ground::{About, DataFile, Ground, grounds};
 use super::runs;
 use super::template::{Template, Words};
+use super::units::Dimension;
 use super::{AxisKind, Machine, Run};
 use crate::diag::Result;
 
@@ -26,6 +27,8 @@ pub struct Reactions {
     pub notes: Vec<String>,
     /// The titles of the stages, in order.
     pub stages: Vec<String>,
+    /// The stages before this one, from 0, are those in which a drive may still accelerate.
+    pub accelerates: usize,
     /// How a reaction can end.
     pub outcomes: Vec<Outcome>,
     /// The chains, in the order of the data, then of the axes.
@@ -123,6 +126,7 @@ struct FileData {
     source: String,
     notes: Vec<String>,
     stages: Vec<String>,
+    accelerates: usize,
     outcome: Vec<Outcome>,
     #[serde(default)]
     words: IndexMap<String, Vec<String>>,
@@ -243,6 +247,7 @@ impl Machine {
             source: data.source,
             notes: data.notes,
             stages: data.stages,
+            accelerates: data.accelerates,
             outcomes: data.outcome,
             chains,
             runs,
@@ -405,23 +410,31 @@ impl StepPlan {
     }
 }
 
-/// A way in base units as a reader writes it.
-pub fn show_length(kind: AxisKind, value: i64) -> String {
-    Quantity::Length.dimension(kind).show(value)
+/// What the figures of a chain are written in: the dimensions of way, speed and acceleration of an axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Dimensions {
+    /// Of a way.
+    pub way: Dimension,
+    /// Of a speed; a base unit is one of the way in a minute.
+    pub speed: Dimension,
+    /// Of an acceleration; a base unit is one of the way in a second squared.
+    pub acceleration: Dimension,
 }
 
-/// A speed in base units as a reader writes it.
-pub fn show_speed(kind: AxisKind, value: i64) -> String {
-    Quantity::Speed.dimension(kind).show(value)
-}
-
-/// Reads a speed such as `5000 mm/min` or `300 rev/min` for an axis of this kind, in base units.
-///
-/// # Errors
-/// Not a speed, or one of another kind of axis.
-pub fn parse_speed(
-    kind: AxisKind,
-    text: &str,
-) -> std::result::Result<i64, super::units::UnitError> {
-    super::units::parse(text, Quantity::Speed.dimension(kind))
+impl AxisKind {
+    /// The dimensions of an axis of this kind.
+    pub fn dimensions(self) -> Dimensions {
+        match self {
+            Self::Linear => Dimensions {
+                way: Dimension::Length,
+                speed: Dimension::Speed,
+                acceleration: Dimension::Acceleration,
+            },
+            Self::Rotary => Dimensions {
+                way: Dimension::Angle,
+                speed: Dimension::Rotation,
+                acceleration: Dimension::AngularAcceleration,
+            },
+        }
+    }
 }

@@ -8,6 +8,7 @@
 //! | pitch | 1 um/rev | mm per revolution with three decimals |
 //! | speed | 1 um/min | mm/min with three decimals |
 //! | rotation | 1 mdeg/min | 1 rev/min = 360000, 1 deg/s = 60000: all units exact |
+//! | acceleration | 1 um/s2, 1 mdeg/s2 | mm/s2 and deg/s2 with three decimals |
 //! | time | 1 us | the clock cycles are multiples of 31.25 us or coarser |
 //! | percent, frequency, count | 1 %, 1 Hz, 1 | whole numbers by definition of the parameters |
 //!
@@ -30,6 +31,10 @@ pub enum Dimension {
     Speed,
     /// Speed of a rotary axis or spindle, base unit 1 mdeg/min.
     Rotation,
+    /// Acceleration of a linear axis, base unit 1 um/s2.
+    Acceleration,
+    /// Acceleration of a rotary axis or spindle, base unit 1 mdeg/s2.
+    AngularAcceleration,
     /// Time, base unit 1 us.
     Time,
     /// Whole percent.
@@ -70,6 +75,8 @@ impl Dimension {
                 ("inch/min", 25_400),
             ],
             Self::Rotation => &[("rev/min", 360_000), ("deg/min", 1_000), ("deg/s", 60_000)],
+            Self::Acceleration => &[("mm/s2", 1_000), ("m/s2", 1_000_000), ("um/s2", 1)],
+            Self::AngularAcceleration => &[("deg/s2", 1_000), ("rev/s2", 360_000), ("mdeg/s2", 1)],
             Self::Time => &[
                 ("ms", 1_000),
                 ("s", 1_000_000),
@@ -92,6 +99,8 @@ impl Dimension {
             Self::Angle => "an angle",
             Self::Speed => "a speed of a linear axis",
             Self::Rotation => "a speed of a rotary axis or spindle",
+            Self::Acceleration => "an acceleration of a linear axis",
+            Self::AngularAcceleration => "an acceleration of a rotary axis or spindle",
             Self::Time => "a time",
             Self::Percent => "a percentage",
             Self::Frequency => "a frequency",
@@ -282,6 +291,8 @@ mod tests {
             Dimension::Angle,
             Dimension::Speed,
             Dimension::Rotation,
+            Dimension::Acceleration,
+            Dimension::AngularAcceleration,
             Dimension::Time,
             Dimension::Percent,
             Dimension::Frequency,
