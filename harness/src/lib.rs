@@ -3,6 +3,7 @@
 //! The library behind the command line: [`subject`] loads what a command works on, [`check`] explores it, [`report`] and
 //! [`timing`] show the result.
 
+pub mod acceptance;
 pub mod atomic;
 pub mod certificate;
 pub mod check;
@@ -12,11 +13,14 @@ pub mod export;
 pub mod keep;
 pub mod matrix;
 pub mod pages;
+pub mod production;
 pub mod reaction;
 pub mod readings;
 pub mod recorded;
+pub mod recording;
 pub mod reduce;
 pub mod report;
+pub mod simulate;
 pub mod states;
 pub mod subject;
 pub mod timing;

@@ -1,14 +1,19 @@
 //! `stillpoint diff`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use clap::Args;
+use stillpoint::diff::replay;
 use stillpoint::diff::slices::slices;
 use stillpoint::diff::{Compared, DiffError, Pairing, exhaustive, pairings, sample, text, to_json};
+use stillpoint::recording::csv::{self, Columns};
+use stillpoint::recording::{self, Target, ndjson};
+use stillpoint::simulate;
 use stillpoint::subject::{self, Readings};
 use stillpoint_model::{Limits, Options};
 use stillpoint_monitors::mutant::Mutant;
+use stillpoint_spec::machine;
 
 use super::limits::LimitOptions;
 use super::progress::Line;
@@ -27,6 +32,15 @@ pub struct Arguments {
     /// Seed of the random runs
     #[arg(long, requires = "random", default_value_t = 1)]
     seed: u64,
+    /// Replay a recording on monitors and tables and compare its outputs: NDJSON, or CSV with --columns
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["exhaustive", "random", "mutant"])]
+    trace: Option<PathBuf>,
+    /// The columns of a CSV recording: a TOML file, or SIGNAL=HEADING,...
+    #[arg(long, value_name = "MAP", requires = "trace", alias = "csv-columns")]
+    columns: Option<String>,
+    /// How many cycles a recorded output may come earlier or later
+    #[arg(long, value_name = "CYCLES", requires = "trace", default_value_t = 0)]
+    tolerance: u32,
     /// Print the report as JSON
     #[arg(long)]
     json: bool,
@@ -38,6 +52,9 @@ pub struct Arguments {
 }
 
 pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
+    if let Some(trace) = &arguments.trace {
+        return replay(arguments, trace);
+    }
     let mutant = arguments
         .mutant
         .as_ref()
@@ -127,4 +144,39 @@ fn explore(
         }
     }
     Ok(compared)
+}
+
+/// Replays a recording.
+fn replay(arguments: &Arguments, trace: &Path) -> Result<u8, Failure> {
+    let machine = machine::load(&arguments.file, &machine::families(&arguments.file))?;
+    let signals = simulate::signals(&machine);
+    let target = Target {
+        machine: &machine.name,
+        cycle_us: u64::try_from(machine.monitoring_cycle).unwrap_or(0),
+        signals: &signals,
+    };
+    let text = recording::read_file(trace)?;
+    let name = trace.display().to_string();
+    let recording = match &arguments.columns {
+        Some(map) => {
+            let columns = match map.contains('=') {
+                true => Columns::parse(map).map_err(Failure::Other)?,
+                false => Columns::load(Path::new(map))?,
+            };
+            csv::read(&name, &text, &columns, &target)?
+        }
+        // A table whose headings are the names of signals needs no map.
+        None if !text.starts_with('{') => {
+            csv::read(&name, &text, &Columns::by_name(&text, &target), &target)?
+        }
+        None => ndjson::read(&name, &text, &target)?,
+    };
+    let replayed =
+        replay::replay(&machine, &recording, arguments.tolerance).map_err(Failure::Other)?;
+    if arguments.json {
+        emit(&format!("{:#}\n", replayed.to_json()));
+    } else {
+        emit(&replayed.text());
+    }
+    Ok(u8::from(!replayed.divergences.is_empty()))
 }

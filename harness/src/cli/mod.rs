@@ -1,5 +1,6 @@
 //! Arguments, exit status, and what goes to which stream.
 
+mod acceptance;
 mod certify;
 mod check;
 mod cluster;
@@ -11,6 +12,7 @@ mod manual;
 mod pages;
 mod progress;
 mod reaction;
+mod simulate;
 mod trace;
 mod values;
 
@@ -61,11 +63,21 @@ enum Command {
         after_help = "Examples:\n  stillpoint export spec/bench/two-axis.toml --to promela --output two-axis.pml\n  stillpoint export spec/sinumerik-840d/axis.toml --system stop --to dot | dot -Tsvg"
     )]
     Export(export::Arguments),
+    /// The protocol of the acceptance test for exactly this machine, and what of it to repeat after a change
+    #[command(
+        after_help = "Exit status: 0; 1 a test that was run with --run does not give what is expected; 2 bad input.\n\nExamples:\n  stillpoint acceptance spec/machines/milling-840d.toml > protocol.md\n  stillpoint acceptance spec/machines/milling-840d.toml --html protocol.html\n  stillpoint acceptance spec/machines/milling-840d.toml --run --html protocol.html\n  stillpoint acceptance milling-840d.toml --since milling-840d.old.toml --html repeat.html"
+    )]
+    Acceptance(acceptance::Arguments),
     /// Reaction times from the sensor to standstill, summand by summand, and the over-travel
     #[command(
         after_help = "Exit status: 0; 1 the exploration contradicts a reaction time; 2 bad input; 3 a limit was reached first.\n\nExamples:\n  stillpoint reaction spec/machines/milling-840d.toml\n  stillpoint reaction spec/machines/milling-840d.toml --axis X --speed \"10000 mm/min\" --acceleration \"2 m/s2\"\n  stillpoint reaction spec/machines/milling-840d.toml --html reaction.html"
     )]
     Reaction(reaction::Arguments),
+    /// Run a scenario on the production monitors of both channels, with a simple axis before them
+    #[command(
+        after_help = "Exit status: 0 every expectation of the scenario holds; 1 one does not; 2 bad input, nothing was run.\n\nExamples:\n  stillpoint simulate spec/machines/milling-840d.toml --scenario spec/scenarios/door-while-moving.toml\n  stillpoint simulate spec/machines/milling-840d.toml --scenario spec/scenarios/encoder-freeze.toml --svg freeze.svg --trace freeze.ndjson"
+    )]
+    Simulate(simulate::Arguments),
     /// The requirement matrix: which rules, monitors, proofs and tests carry each requirement
     #[command(
         after_help = "Exit status: 0; 1 if a family declared complete has open core requirements or an id is in no catalogue; 2 bad input.\n\nExample: stillpoint trace --html matrix.html"
@@ -115,11 +127,13 @@ pub fn main() -> ExitCode {
         }
     };
     let status = match arguments.command {
+        Command::Acceptance(arguments) => acceptance::run(&arguments),
         Command::Certify(arguments) => certify::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Diff(arguments) => diff::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),
         Command::Reaction(arguments) => reaction::run(&arguments),
+        Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Trace(arguments) => trace::run(&arguments),
         Command::Validate { file } => validate(&file),
         Command::Pages(arguments) => pages::run(&arguments),

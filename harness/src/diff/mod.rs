@@ -1,10 +1,11 @@
-//! `diff`: checks the production monitors against the tables, exhaustively or with random runs.
+//! `diff`: checks the production monitors against the tables, exhaustively, with random runs, or both against a recording.
 
 pub mod bytes;
 pub mod pairing;
 pub mod peer;
 pub mod product;
 pub mod random;
+pub mod replay;
 pub mod slices;
 
 use std::collections::BTreeMap;

@@ -220,6 +220,18 @@ impl<'a> Product<'a> {
         Ok(())
     }
 
+    /// What the table said in the last step, by the names of the monitor's outputs.
+    pub(super) fn said<'w>(
+        &self,
+        work: &'w Work,
+    ) -> impl Iterator<Item = (&'static str, i64)> + use<'w> {
+        self.peer
+            .outputs()
+            .iter()
+            .copied()
+            .zip(work.table.iter().copied())
+    }
+
     /// A work area, also for runs that are not explored.
     pub fn new_work(&self) -> Work {
         Work {

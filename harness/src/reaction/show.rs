@@ -29,16 +29,14 @@ pub fn document(
         }
     }
     blocks.push(explored(subject, checked));
-    let notes = judged.reactions.notes.iter().map(|n| vec![plain(n)]);
+    blocks.push(sources(judged));
+    let notes = judged.reactions.notes.iter().map(|n| vec![text(n)]);
     blocks.push(Block::Section {
         title: "What these figures are".to_owned(),
         anchor: "notes".to_owned(),
         blocks: vec![
             Block::List(notes.collect()),
-            Block::Paragraph(vec![plain(&format!(
-                "Manual: {}.",
-                judged.reactions.source
-            ))]),
+            Block::Paragraph(vec![text(&format!("Manual: {}.", judged.reactions.source))]),
         ],
     });
     Document {
@@ -53,8 +51,8 @@ pub fn document(
     }
 }
 
-fn plain(text: &str) -> Inline {
-    Inline::Text(text.to_owned())
+fn text(words: &str) -> Inline {
+    Inline::Text(words.to_owned())
 }
 
 fn column(title: &str, number: bool) -> Column {
@@ -101,7 +99,7 @@ fn overview(judged: &Judged, machine: &Machine) -> Block {
         let chain = &result.chain;
         let requested = Judged::until(result, judged.reactions.accelerates);
         let mut row = vec![
-            vec![plain(&chain.axis)],
+            vec![text(&chain.axis)],
             vec![Inline::Link {
                 text: chain.name.clone(),
                 to: format!("#{}", anchor(result)),
@@ -127,7 +125,7 @@ fn overview(judged: &Judged, machine: &Machine) -> Block {
     let meaning = meaning.map(|o| {
         vec![
             Inline::Strong(o.title.clone()),
-            plain(&format!(": {}.", o.text)),
+            text(&format!(": {}.", o.text)),
         ]
     });
     Block::Section {
@@ -157,7 +155,7 @@ fn chain(judged: &Judged, machine: &Machine, result: &Result) -> Block {
     let mut stage = usize::MAX;
     for (step, proof) in chain.steps.iter().zip(&result.proofs) {
         let title = match judged.reactions.stages.get(step.stage) {
-            Some(title) if step.stage != stage => vec![plain(title)],
+            Some(title) if step.stage != stage => vec![text(title)],
             _ => Vec::new(),
         };
         stage = step.stage;
@@ -166,7 +164,7 @@ fn chain(judged: &Judged, machine: &Machine, result: &Result) -> Block {
             None => ("to be measured".to_owned(), String::new()),
         };
         let mut formula = Vec::new();
-        if !step.formula.is_empty() {
+        if step.time != Some(0) && !step.formula.is_empty() {
             formula.push(Inline::Code(step.formula.clone()));
         }
         for (name, value) in &step.values {
@@ -174,12 +172,12 @@ fn chain(judged: &Judged, machine: &Machine, result: &Result) -> Block {
         }
         rows.push(vec![
             title,
-            vec![plain(&step.text)],
+            vec![text(&step.text)],
             formula,
             vec![Inline::Text(long)],
             vec![Inline::Text(short)],
             grounds(step.basis, proof, step.property.as_ref()),
-            sources(judged, &step.id),
+            vec![Inline::Code(step.id.join(" "))],
         ]);
     }
     let columns = vec![
@@ -189,7 +187,7 @@ fn chain(judged: &Judged, machine: &Machine, result: &Result) -> Block {
         column("At most", true),
         column("Cycles", true),
         column("Basis", false),
-        column("Manual", false),
+        column("Requirement", false),
     ];
     let mut speed = format!(
         "Over-travel at {} ({})",
@@ -246,7 +244,7 @@ fn grounds(
     let Some(claim) = claim else {
         return cell;
     };
-    cell.push(plain(" "));
+    cell.push(text(" "));
     cell.push(Inline::Code(claim.id.clone()));
     cell.push(Inline::Text(match proof {
         Proof::Proven(us) if claim.spans > 1 => {
@@ -263,18 +261,21 @@ fn grounds(
     cell
 }
 
-fn sources(judged: &Judged, ids: &[String]) -> Vec<Inline> {
-    let mut cell = Vec::new();
-    for id in ids {
-        if !cell.is_empty() {
-            cell.push(plain("; "));
-        }
-        cell.push(Inline::Code(id.clone()));
-        if let Some(source) = judged.sources.get(id) {
-            cell.push(Inline::Text(format!(" ({source})")));
-        }
+/// Where the manual says what the summands count on.
+fn sources(judged: &Judged) -> Block {
+    let rows = judged
+        .sources
+        .iter()
+        .map(|(id, source)| vec![vec![Inline::Code(id.clone())], vec![text(source)]]);
+    Block::Section {
+        title: "Places in the manual".to_owned(),
+        anchor: "sources".to_owned(),
+        blocks: vec![Block::Table(Table {
+            caption: String::new(),
+            columns: vec![column("Requirement", false), column("Place", false)],
+            rows: rows.collect(),
+        })],
     }
-    cell
 }
 
 fn explored(subject: &Subject, checked: &[Checked]) -> Block {
@@ -282,15 +283,15 @@ fn explored(subject: &Subject, checked: &[Checked]) -> Block {
     for (task, done) in subject.tasks.iter().zip(checked) {
         let properties = task.bound.system.properties.iter();
         for (property, judged) in properties.zip(&done.outcome.report.properties) {
-            let text = |s: String| vec![Inline::Text(s)];
+            let cell = |s: String| vec![Inline::Text(s)];
             rows.push(vec![
-                text(super::short(&task.bound.system.name).to_owned()),
-                text(task.axes.join(", ")),
-                text(grouped(u128::from(done.outcome.report.states))),
+                cell(super::short(&task.bound.system.name).to_owned()),
+                cell(task.axes.join(", ")),
+                cell(grouped(u128::from(done.outcome.report.states))),
                 vec![Inline::Code(property.id.clone())],
-                text(property.text.clone()),
-                text(verdict_name(judged.verdict).to_owned()),
-                text(judged.bound.map_or(String::new(), |n| n.to_string())),
+                cell(property.text.clone()),
+                cell(verdict_name(judged.verdict).to_owned()),
+                cell(judged.bound.map_or(String::new(), |n| n.to_string())),
             ]);
         }
     }

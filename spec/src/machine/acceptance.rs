@@ -73,6 +73,8 @@ pub struct Test {
     pub expect: Vec<Expect>,
     /// What is measured.
     pub measure: Vec<Measure>,
+    /// A scenario that runs the test on a simulated axis, as the text of a scenario file.
+    pub simulate: Option<String>,
     /// What the test depends on: parameter and value.
     pub depends: BTreeMap<String, String>,
 }
@@ -135,6 +137,7 @@ struct TestData {
     expect: Vec<ExpectData>,
     #[serde(default)]
     measure: Vec<MeasureData>,
+    simulate: Option<Spanned<String>>,
     #[serde(default)]
     depends: Vec<Spanned<String>>,
 }
@@ -174,6 +177,7 @@ struct Plan {
     steps: Vec<Template>,
     expect: Vec<ExpectPlan>,
     measure: Vec<MeasurePlan>,
+    simulate: Option<Template>,
     depends: Vec<Formula>,
 }
 
@@ -350,6 +354,7 @@ fn plan(
         title: reader.text(data.title)?,
         requires: reader.texts(data.requires)?,
         steps: reader.texts(data.steps)?,
+        simulate: reader.optional(data.simulate)?,
         when,
         lets,
         expect,
@@ -399,6 +404,7 @@ impl Plan {
             .chain(expect.chain(measure).flatten())
     }
 
+    /// All texts but the scenario, which serves the test and is no part of it.
     fn templates(&self) -> impl Iterator<Item = &Template> {
         let expect = self.expect.iter();
         let expect = expect.flat_map(|e| [Some(&e.text), e.value.as_ref()]);
@@ -479,6 +485,10 @@ impl Plan {
             steps: texts(&self.steps)?,
             expect,
             measure,
+            simulate: match &self.simulate {
+                Some(text) => Some(text.fill(file, &ground)?),
+                None => None,
+            },
             depends: self.dependence(&ground),
         }))
     }

@@ -161,3 +161,73 @@ fn quantity(name: &str) -> std::result::Result<Quantity, (String, String)> {
         )),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::machine::{families, load};
+
+    fn fill(text: &str) -> std::result::Result<String, String> {
+        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+        let path = path.join("machines/milling-840d.toml");
+        let machine = load(&path, &families(&path)).map_err(|e| e.to_string())?;
+        let file = DataFile {
+            file: "test".to_owned(),
+            source: Arc::from(text),
+        };
+        let known = About::Axis.known(&machine.basis.family);
+        let words = [(
+            "enabled_SE".to_owned(),
+            vec!["no SE".to_owned(), "SE".to_owned()],
+        )];
+        let words = Words {
+            about: About::Axis,
+            known: &known,
+            words: &words,
+        };
+        let mut check = file.check();
+        let spanned = Spanned::new(0..text.len(), text.to_owned());
+        let template = Template::parse(spanned, &words, &mut check.findings);
+        let Some(template) = template else {
+            return Err(check.findings.into_diagnostics().to_string());
+        };
+        let grounds = super::super::ground::grounds(&machine, About::Axis);
+        let ground = grounds.first().ok_or("no axis")?.at(1);
+        template.fill(&file, &ground).map_err(|e| e.to_string())
+    }
+
+    #[test]
+    fn places_are_filled_in() {
+        for (text, filled) in [
+            ("plain", "plain"),
+            ("{axis} with {partners}", "X with Y, Z"),
+            (
+                "SG{n}: {VELO_LIMIT[k]}, {VELO_STOP_REACTION[k]}",
+                "SG2: 5000 mm/min, STOP D",
+            ),
+            ("{CYCLES(STOP_SWITCH_TIME_F)} cycles", "9 cycles"),
+            ("{2 * monitoring_cycle : time}", "24 ms"),
+            ("{STANDSTILL_TOL + 1 : length}", "0.501 mm"),
+            ("{enabled_SE}", "SE"),
+        ] {
+            assert_eq!(fill(text).as_deref(), Ok(filled), "{text}");
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_filled_in_is_an_error() {
+        for text in [
+            "{axis",
+            "{AXIS}",
+            "{door}",
+            "{VELO_LIMIT[9]}",
+            "{monitoring_cycle : colour}",
+            "{1 +}",
+            "{1 / 0}",
+        ] {
+            assert!(fill(text).is_err(), "{text}");
+        }
+    }
+}

@@ -1,0 +1,120 @@
+//! `acceptance`: the protocol of the acceptance test of a machine, and what of it has to be repeated after a change.
+
+mod run;
+mod show;
+mod since;
+mod trace;
+
+use std::io;
+use std::path::Path;
+
+use serde_json::{Value, json};
+use sha2::{Digest, Sha256};
+use stillpoint_spec::machine::Machine;
+use stillpoint_spec::machine::acceptance::{Expect, Protocol, Test};
+
+pub use run::{Error, Ran, run};
+pub use show::document;
+pub use since::{Change, Repeat, Since, since};
+pub use trace::expected;
+
+/// What the protocol belongs to.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Checksums {
+    /// Name of the machine file.
+    pub file: String,
+    /// SHA-256 of the machine file.
+    pub machine: String,
+    /// SHA-256 over names and contents of the family's data and specifications.
+    pub family: String,
+}
+
+/// Hashes the machine file and every `.toml` file in the folder of its family, in the order of their names.
+///
+/// # Errors
+/// A file that cannot be read.
+pub fn checksums(path: &Path, machine: &Machine) -> io::Result<Checksums> {
+    let mut names = Vec::new();
+    for entry in std::fs::read_dir(machine.family_folder())? {
+        let path = entry?.path();
+        if path.extension().is_some_and(|e| e == "toml") {
+            names.push(path);
+        }
+    }
+    names.sort();
+    let mut all = Sha256::new();
+    for name in names {
+        let short = name.file_name().unwrap_or_default().to_string_lossy();
+        all.update(short.as_bytes());
+        all.update([0]);
+        all.update(Sha256::digest(std::fs::read(&name)?));
+    }
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    Ok(Checksums {
+        file: name.into_owned(),
+        machine: hex(&Sha256::digest(std::fs::read(path)?)),
+        family: hex(&all.finalize()),
+    })
+}
+
+fn hex(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// The tests that are to be carried out: all, or those to be repeated.
+pub fn selected<'a>(protocol: &'a Protocol, since: Option<&Since>) -> Vec<&'a Test> {
+    let wanted =
+        |test: &&Test| since.is_none_or(|since| since.repeat.iter().any(|r| r.id == test.id));
+    protocol.tests.iter().filter(wanted).collect()
+}
+
+/// The latest time of something expected, in microseconds and monitoring cycles, tolerance included.
+fn latest(expect: &Expect, cycle: i64) -> Option<(i64, i64)> {
+    let us = expect
+        .after?
+        .saturating_add(expect.tolerance.saturating_mul(cycle));
+    Some((us, us / cycle.max(1) + i64::from(us % cycle.max(1) != 0)))
+}
+
+/// The protocol as JSON.
+pub fn to_json(
+    machine: &Machine,
+    protocol: &Protocol,
+    checksums: &Checksums,
+    since: Option<&Since>,
+    ran: Option<&[Ran]>,
+) -> Value {
+    let cycle = machine.monitoring_cycle;
+    let tests = selected(protocol, since).into_iter().map(|test| {
+        let expect = test.expect.iter().map(|e| {
+            let (us, cycles) = latest(e, cycle).unzip();
+            json!({
+                "text": e.text, "signal": e.signal.as_ref().map(|(s, _)| s),
+                "value": e.signal.as_ref().map(|(_, v)| v), "after_us": e.after,
+                "tolerance_cycles": e.tolerance, "latest_us": us, "latest_cycles": cycles,
+            })
+        });
+        let measure = test.measure.iter();
+        let measure = measure.map(|m| json!({"text": m.text, "unit": m.unit, "limit": m.limit}));
+        json!({
+            "id": test.id, "part": protocol.parts.get(test.part).map(|p| &p.name),
+            "title": test.title, "axis": test.axis, "requirements": test.req,
+            "requires": test.requires, "steps": test.steps,
+            "expect": expect.collect::<Vec<_>>(), "measure": measure.collect::<Vec<_>>(),
+            "depends": test.depends,
+        })
+    });
+    let mut value = json!({
+        "machine": machine.name, "file": checksums.file, "sha256": checksums.machine,
+        "family": machine.family, "family_sha256": checksums.family,
+        "stillpoint": env!("CARGO_PKG_VERSION"), "monitoring_cycle_us": cycle,
+        "tests": tests.collect::<Vec<_>>(),
+    });
+    if let Some(ran) = ran {
+        value["simulated"] = run::json(ran);
+    }
+    if let Some(since) = since {
+        value["since"] = since.to_json();
+    }
+    value
+}

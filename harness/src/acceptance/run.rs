@@ -1,0 +1,82 @@
+//! Tests on a simulated axis: the scenario that the catalogue gives a test, run on the production monitors.
+
+use std::sync::Arc;
+
+use serde_json::{Value, json};
+use stillpoint_show::diagram::Diagram;
+use stillpoint_spec::diag::Diagnostics;
+use stillpoint_spec::machine::Machine;
+use stillpoint_spec::machine::acceptance::Test;
+
+use crate::simulate::{self, Scenario};
+
+/// What became of a test on the simulated axis.
+#[derive(Debug, Clone)]
+pub struct Ran {
+    /// The test.
+    pub id: String,
+    /// Every expectation of the scenario holds.
+    pub holds: bool,
+    /// The expectations: in words, whether it holds, and the cycle in which it came.
+    pub judged: Vec<(String, bool, Option<u64>)>,
+    /// The stops that occurred, in words.
+    pub stops: Vec<String>,
+    /// The run.
+    pub diagram: Diagram,
+}
+
+/// Why a scenario could not be run; none of it is the user's fault but the catalogue's.
+#[derive(Debug)]
+pub enum Error {
+    /// The scenario is wrong.
+    Scenario(Diagnostics),
+    /// The simulation cannot do it: one sentence.
+    Simulation(String),
+}
+
+/// Runs the tests that have a scenario, one after the other; the others are not in the result.
+///
+/// # Errors
+/// A scenario of the catalogue that is wrong for this machine.
+pub fn run(machine: &Machine, tests: &[&Test]) -> Result<Vec<Ran>, Error> {
+    let mut all = Vec::new();
+    for test in tests {
+        let Some(text) = &test.simulate else {
+            continue;
+        };
+        let text: Arc<str> = Arc::from(text.as_str());
+        let name = format!("scenario of {}", test.id);
+        let scenario = Scenario::from_text(&name, &text, machine).map_err(Error::Scenario)?;
+        let simulation = simulate::run(machine, &scenario)
+            .map_err(|e| Error::Simulation(format!("{name}: {e}")))?;
+        let judged = simulation.judged.iter();
+        let stops = simulation.stops.iter().map(|s| {
+            format!(
+                "STOP {} of {} in cycle {} ({}): {}, over-travel {}",
+                s.letter, s.axis, s.cycle, s.channels, s.reason, s.travel_shown
+            )
+        });
+        all.push(Ran {
+            id: test.id.clone(),
+            holds: simulation.holds(),
+            judged: judged.map(|j| (j.text.clone(), j.holds, j.cycle)).collect(),
+            stops: stops.collect(),
+            diagram: simulation.diagram(),
+        });
+    }
+    Ok(all)
+}
+
+/// The results as JSON.
+pub fn json(ran: &[Ran]) -> Value {
+    let one = |r: &Ran| {
+        let judged = r.judged.iter();
+        let judged = judged
+            .map(|(text, holds, cycle)| json!({"text": text, "holds": holds, "cycle": cycle}));
+        json!({
+            "id": r.id, "holds": r.holds, "expectations": judged.collect::<Vec<_>>(),
+            "stops": r.stops,
+        })
+    };
+    ran.iter().map(one).collect::<Vec<_>>().into()
+}

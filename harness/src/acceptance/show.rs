@@ -1,0 +1,481 @@
+//! The protocol as a document to be printed, filled in and signed.
+
+use stillpoint_show::document::{Block, Column, Document, Inline, Table, Tone};
+use stillpoint_spec::machine::acceptance::{Protocol, Test};
+use stillpoint_spec::machine::units::Dimension;
+use stillpoint_spec::machine::{Machine, Shown};
+
+use super::{Checksums, Ran, Since, expected, latest, selected};
+
+/// The protocol of a machine; with `since` only what has to be repeated.
+pub fn document(
+    machine: &Machine,
+    protocol: &Protocol,
+    checksums: &Checksums,
+    since: Option<&Since>,
+    ran: Option<&[Ran]>,
+) -> Document {
+    let tests = selected(protocol, since);
+    let mut blocks = Vec::new();
+    if let Some(since) = since {
+        blocks.extend(changed(protocol, since));
+    }
+    if let Some(ran) = ran {
+        blocks.extend(simulated(ran, tests.len()));
+    }
+    blocks.push(identity(machine, protocol, checksums));
+    blocks.push(configuration(machine));
+    blocks.push(list(&tests));
+    blocks.push(points("Before the tests", "before", &protocol.before));
+    for (k, part) in protocol.parts.iter().enumerate() {
+        let of: Vec<&&Test> = tests.iter().filter(|t| t.part == k).collect();
+        if of.is_empty() {
+            continue;
+        }
+        let mut inner = Vec::new();
+        if !part.text.is_empty() {
+            inner.push(Block::Paragraph(vec![text(&part.text)]));
+        }
+        inner.extend(of.iter().map(|test| one(machine, test)));
+        blocks.push(Block::Section {
+            title: part.title.clone(),
+            anchor: part.name.clone(),
+            blocks: inner,
+        });
+    }
+    blocks.push(points("Completion", "completion", &protocol.after));
+    blocks.push(signatures(protocol));
+    blocks.push(measures(protocol));
+    Document {
+        title: match since {
+            Some(_) => format!("Partial acceptance test of {}", machine.name),
+            None => format!("Acceptance test of {}", machine.name),
+        },
+        subtitle: format!("{}; {}", machine.title, machine.family_title),
+        blocks,
+    }
+}
+
+fn text(words: &str) -> Inline {
+    Inline::Text(words.to_owned())
+}
+
+fn column(title: &str, number: bool) -> Column {
+    Column {
+        title: title.to_owned(),
+        number,
+    }
+}
+
+fn columns(titles: &[&str]) -> Vec<Column> {
+    titles.iter().map(|t| column(t, false)).collect()
+}
+
+fn table(caption: &str, columns: Vec<Column>, rows: Vec<Vec<Vec<Inline>>>) -> Block {
+    Block::Table(Table {
+        caption: caption.to_owned(),
+        columns,
+        rows,
+    })
+}
+
+/// Points with a place for a tick.
+fn points(title: &str, anchor: &str, list: &[String]) -> Block {
+    let rows = list
+        .iter()
+        .map(|p| vec![vec![text(p)], vec![Inline::Blank(6)]]);
+    Block::Section {
+        title: title.to_owned(),
+        anchor: anchor.to_owned(),
+        blocks: vec![table("", columns(&["What", "Done"]), rows.collect())],
+    }
+}
+
+fn identity(machine: &Machine, protocol: &Protocol, checksums: &Checksums) -> Block {
+    let row = |name: &str, value: Inline| vec![vec![text(name)], vec![value]];
+    let mut rows = vec![
+        row("Machine", text(&machine.name)),
+        row("Configuration", Inline::Code(checksums.file.clone())),
+        row(
+            "SHA-256 of the configuration",
+            Inline::Code(checksums.machine.clone()),
+        ),
+        row(
+            "SHA-256 of the family's data and specifications",
+            Inline::Code(checksums.family.clone()),
+        ),
+        row(
+            "Made by",
+            text(concat!("Stillpoint ", env!("CARGO_PKG_VERSION"))),
+        ),
+        row(
+            "Monitoring cycle",
+            Inline::Text(time(machine.monitoring_cycle)),
+        ),
+        row("Follows", text(&protocol.source)),
+    ];
+    for record in &protocol.records {
+        rows.push(row(record, Inline::Blank(24)));
+    }
+    Block::Section {
+        title: "Machine".to_owned(),
+        anchor: "machine".to_owned(),
+        blocks: vec![
+            Block::Paragraph(vec![text(
+                "This protocol belongs to exactly this configuration: a changed file has another checksum and needs a new protocol. It is a template, not a certificate; an authorised person carries out and judges the tests.",
+            )]),
+            table("", columns(&["Item", "Value"]), rows),
+        ],
+    }
+}
+
+fn configuration(machine: &Machine) -> Block {
+    let mut rows = Vec::new();
+    for axis in &machine.axes {
+        let functions = axis.functions.iter();
+        let functions = functions.map(|f| format!("{f} ({})", machine.function_text(f)));
+        let functions: Vec<String> = functions.collect();
+        let none = "none".to_owned();
+        rows.push(vec![
+            vec![Inline::Strong(axis.name.clone())],
+            vec![text(&axis.title)],
+            vec![Inline::Text(if functions.is_empty() {
+                none
+            } else {
+                functions.join("; ")
+            })],
+            vec![Inline::Blank(12)],
+            vec![Inline::Blank(12)],
+        ]);
+    }
+    let mut blocks = vec![table(
+        "Functions of each axis; the checksums stand on the control, of both channels",
+        columns(&[
+            "Axis",
+            "What it is",
+            "Functions",
+            "Checksum NCK",
+            "Checksum drive",
+        ]),
+        rows,
+    )];
+    blocks.push(details("Control", &machine.control_shown()));
+    for axis in &machine.axes {
+        blocks.push(details(
+            &format!("Axis {}", axis.name),
+            &machine.axis_shown(axis),
+        ));
+    }
+    for door in &machine.doors {
+        blocks.push(details(
+            &format!("Door {}", door.name),
+            &machine.door_shown(door),
+        ));
+    }
+    Block::Section {
+        title: "Configuration".to_owned(),
+        anchor: "configuration".to_owned(),
+        blocks,
+    }
+}
+
+fn details(title: &str, values: &[Shown]) -> Block {
+    let rows = values.iter().map(|v| {
+        vec![
+            vec![Inline::Code(v.name.clone())],
+            vec![text(&v.value)],
+            vec![text(if v.given { "" } else { "default" })],
+            vec![text(&v.text)],
+            vec![text(&v.manual)],
+        ]
+    });
+    let heads = columns(&["Parameter", "Value", "", "What it is", "Machine data"]);
+    Block::Details {
+        summary: vec![text(&format!("{title}: all values"))],
+        blocks: vec![table("", heads, rows.collect())],
+    }
+}
+
+fn list(tests: &[&Test]) -> Block {
+    let rows = tests.iter().map(|test| {
+        vec![
+            vec![Inline::Link {
+                text: test.id.clone(),
+                to: format!("#{}", anchor(&test.id)),
+            }],
+            vec![text(&test.title)],
+            vec![Inline::Blank(6)],
+            vec![Inline::Blank(10)],
+        ]
+    });
+    Block::Section {
+        title: format!("{} tests", tests.len()),
+        anchor: "tests".to_owned(),
+        blocks: vec![table(
+            "",
+            columns(&["Test", "What is tested", "Passed", "Date, initials"]),
+            rows.collect(),
+        )],
+    }
+}
+
+fn anchor(id: &str) -> String {
+    let plain = |c: char| match c {
+        '+' => "plus".to_owned(),
+        c if c.is_ascii_alphanumeric() || c == '-' => c.to_ascii_lowercase().to_string(),
+        _ => "-".to_owned(),
+    };
+    let name: String = id.chars().map(plain).collect();
+    format!("test-{name}")
+}
+
+fn one(machine: &Machine, test: &Test) -> Block {
+    let cycle = machine.monitoring_cycle;
+    let bullets = |list: &[String]| Block::List(list.iter().map(|t| vec![text(t)]).collect());
+    let mut blocks = Vec::new();
+    if !test.requires.is_empty() {
+        blocks.push(Block::Paragraph(vec![Inline::Strong("Before".to_owned())]));
+        blocks.push(bullets(&test.requires));
+    }
+    let steps = test.steps.iter().enumerate().map(|(k, step)| {
+        let number = Inline::Text((k + 1).to_string());
+        vec![vec![number], vec![text(step)], vec![Inline::Blank(5)]]
+    });
+    let heads = vec![
+        column("", true),
+        column("Step", false),
+        column("Done", false),
+    ];
+    blocks.push(table("", heads, steps.collect()));
+    let rows = test.expect.iter().map(|e| {
+        let (time, cycles) = match latest(e, cycle) {
+            Some((us, cycles)) => (self::time(us), cycles.to_string()),
+            None => (String::new(), String::new()),
+        };
+        vec![
+            vec![text(&e.text)],
+            vec![Inline::Text(time)],
+            vec![Inline::Text(cycles)],
+            vec![Inline::Text(
+                e.after.map_or(String::new(), |_| e.tolerance.to_string()),
+            )],
+            vec![Inline::Blank(10)],
+            vec![Inline::Blank(5)],
+        ]
+    });
+    let heads = vec![
+        column("Expected", false),
+        column("At the latest after", true),
+        column("Cycles", true),
+        column("of them tolerance", true),
+        column("Measured", false),
+        column("OK", false),
+    ];
+    blocks.push(table("", heads, rows.collect()));
+    if let Some(diagram) = expected(test, cycle) {
+        blocks.push(Block::Details {
+            summary: vec![text("Expected trace, each change at the latest cycle")],
+            blocks: vec![Block::Timing(Box::new(diagram))],
+        });
+    }
+    if !test.measure.is_empty() {
+        let rows = test.measure.iter().map(|m| {
+            let limit = if m.limit.is_empty() {
+                "machine builder"
+            } else {
+                &m.limit
+            };
+            vec![
+                vec![text(&m.text)],
+                vec![text(limit)],
+                vec![Inline::Blank(12), Inline::Text(format!(" {}", m.unit))],
+                vec![Inline::Blank(5)],
+            ]
+        });
+        let heads = columns(&["To be measured", "Limit", "Value", "OK"]);
+        blocks.push(table("", heads, rows.collect()));
+    }
+    let mut end = vec![
+        Inline::Strong("Passed".to_owned()),
+        text(" "),
+        Inline::Blank(5),
+        text("  Alarms "),
+        Inline::Blank(24),
+        text("  Date, initials "),
+        Inline::Blank(14),
+    ];
+    if !test.req.is_empty() {
+        end.push(Inline::Text(format!("  ({})", test.req.join(", "))));
+    }
+    blocks.push(Block::Paragraph(end));
+    Block::Section {
+        title: format!("{}: {}", test.id, test.title),
+        anchor: anchor(&test.id),
+        blocks,
+    }
+}
+
+/// What the tests gave on the simulated axis.
+fn simulated(ran: &[Ran], tests: usize) -> Vec<Block> {
+    let bad = ran.iter().filter(|r| !r.holds).count();
+    let (tone, head) = match bad {
+        0 => (
+            Tone::Good,
+            "Every simulated test gives what is expected".to_owned(),
+        ),
+        1 => (
+            Tone::Bad,
+            "1 simulated test does not give what is expected".to_owned(),
+        ),
+        n => (
+            Tone::Bad,
+            format!("{n} simulated tests do not give what is expected"),
+        ),
+    };
+    let about = format!(
+        "{} of {tests} tests have a scenario and were run on the production monitors of both channels with a simple axis. This shows that configuration and monitors fit the test; it is no test of the machine.",
+        ran.len()
+    );
+    let mut inner = Vec::new();
+    for r in ran {
+        let (tone, word) = match r.holds {
+            true => (Tone::Good, "as expected"),
+            false => (Tone::Bad, "not as expected"),
+        };
+        let mut points: Vec<Vec<Inline>> = Vec::new();
+        for (expected, holds, cycle) in &r.judged {
+            let came = match (holds, cycle) {
+                (true, Some(cycle)) => format!(" (cycle {cycle})"),
+                (true, None) => String::new(),
+                (false, _) => ": does not hold".to_owned(),
+            };
+            points.push(vec![Inline::Text(format!("{expected}{came}"))]);
+        }
+        points.extend(r.stops.iter().map(|stop| vec![text(stop)]));
+        let mut blocks = vec![Block::List(points)];
+        // The diagrams of all tests would bury the protocol.
+        if !r.holds {
+            blocks.push(Block::Timing(Box::new(r.diagram.clone())));
+        }
+        inner.push(Block::Details {
+            summary: vec![
+                Inline::Code(r.id.clone()),
+                text(" "),
+                Inline::Badge(tone, word.to_owned()),
+            ],
+            blocks,
+        });
+    }
+    vec![
+        Block::Verdict {
+            tone,
+            head,
+            text: vec![Inline::Text(about)],
+        },
+        Block::Section {
+            title: "On the simulated axis".to_owned(),
+            anchor: "simulated".to_owned(),
+            blocks: inner,
+        },
+    ]
+}
+
+fn signatures(protocol: &Protocol) -> Block {
+    let rows = protocol.signatures.iter().map(|who| {
+        vec![
+            vec![text(who)],
+            vec![Inline::Blank(20)],
+            vec![Inline::Blank(12)],
+            vec![Inline::Blank(20)],
+        ]
+    });
+    Block::Section {
+        title: "Signatures".to_owned(),
+        anchor: "signatures".to_owned(),
+        blocks: vec![table(
+            "",
+            columns(&["Who", "Name", "Date", "Signature"]),
+            rows.collect(),
+        )],
+    }
+}
+
+fn measures(protocol: &Protocol) -> Block {
+    let mut rows = protocol.measures.iter();
+    let heads: Vec<Column> = rows.next().map_or_else(Vec::new, |heads| {
+        heads.iter().map(|h| column(h, false)).collect()
+    });
+    let rows = rows.map(|row| row.iter().map(|cell| vec![text(cell)]).collect());
+    Block::Section {
+        title: "After a later change".to_owned(),
+        anchor: "measures".to_owned(),
+        blocks: vec![table("", heads, rows.collect())],
+    }
+}
+
+/// What changed and what follows from it.
+fn changed(protocol: &Protocol, since: &Since) -> Vec<Block> {
+    let (tone, head) = match since.repeat.len() {
+        0 => (Tone::Good, "No test has to be repeated".to_owned()),
+        1 => (Tone::Open, "1 test has to be repeated".to_owned()),
+        n => (Tone::Open, format!("{n} tests have to be repeated")),
+    };
+    let about = format!(
+        "{} values changed; the full protocol has {} tests.",
+        since.changes.len(),
+        protocol.tests.len()
+    );
+    let rows = since.changes.iter().map(|c| {
+        let mut row = vec![
+            vec![text(&c.of)],
+            vec![Inline::Code(c.name.clone())],
+            vec![text(&c.old)],
+            vec![text(&c.new)],
+        ];
+        if !since.untested.is_empty() {
+            let why = since.untested.iter().find(|(u, _)| u == c);
+            row.push(vec![text(why.map_or("", |(_, why)| why))]);
+        }
+        row
+    });
+    let mut heads = columns(&["Of", "What", "Before", "Now"]);
+    if !since.untested.is_empty() {
+        heads.push(column("No test, because", false));
+    }
+    let mut blocks = vec![
+        Block::Verdict {
+            tone,
+            head,
+            text: vec![Inline::Text(about)],
+        },
+        Block::Section {
+            title: "What changed".to_owned(),
+            anchor: "changes".to_owned(),
+            blocks: vec![table("", heads, rows.collect())],
+        },
+    ];
+    let rows = since.repeat.iter().map(|r| {
+        vec![
+            vec![Inline::Link {
+                text: r.id.clone(),
+                to: format!("#{}", anchor(&r.id)),
+            }],
+            vec![Inline::Text(r.reasons.join("; "))],
+        ]
+    });
+    let mut inner = vec![table("", columns(&["Test", "Reason"]), rows.collect())];
+    if !since.gone.is_empty() {
+        let gone = format!("No longer there: {}.", since.gone.join(", "));
+        inner.push(Block::Paragraph(vec![Inline::Text(gone)]));
+    }
+    blocks.push(Block::Section {
+        title: "To be repeated".to_owned(),
+        anchor: "repeat".to_owned(),
+        blocks: inner,
+    });
+    blocks
+}
+
+fn time(us: i64) -> String {
+    Dimension::Time.show(us)
+}

@@ -1,0 +1,80 @@
+//! `simulate`: a scenario on the production monitors of both channels, with a simple axis before them.
+//!
+//! ```text
+//! scenario -> inputs of both channels -> monitors -> drive -> axis -> positions of the next cycle
+//! ```
+//!
+//! Everything is an integer; equal files give equal results on every machine. What is simulated is the axis and the
+//! encoders; what answers are the monitors of `stillpoint-monitors` as they would be embedded.
+
+mod axes;
+mod file;
+mod plant;
+mod resolve;
+mod run;
+mod scenario;
+mod show;
+mod summary;
+
+pub use plant::{Drive, Mechanics, Plant, Setpoint};
+pub use run::run;
+pub use scenario::{
+    Condition, Event, Expect, ExternalLetter, Fault, Scenario, Selection, Start, What,
+};
+pub use summary::{Judged, Simulation, Stop};
+
+use stillpoint_spec::machine::{AxisKind, Machine};
+
+use crate::recording::{Kind, Role, Signal, vocabulary};
+
+/// Signals of the axis itself, with what is told of each cycle.
+const OF_AXIS: [(&str, Kind, &str, &str); 4] = [
+    (vocabulary::POSITION, Kind::Int, "nm", "udeg"),
+    (vocabulary::VELOCITY, Kind::Int, "nm/cycle", "udeg/cycle"),
+    (vocabulary::SETPOINT, Kind::Int, "nm/cycle", "udeg/cycle"),
+    ("drive", Kind::Text, "", ""),
+];
+
+/// Every signal that a simulation of this machine records, in the order of its rows.
+pub fn signals(machine: &Machine) -> Vec<Signal> {
+    let mut all: Vec<Signal> = machine
+        .doors
+        .iter()
+        .map(|door| Signal {
+            name: format!("door.{}.open", door.name),
+            kind: Kind::Bool,
+            unit: String::new(),
+            role: Role::Plant,
+        })
+        .collect();
+    for axis in &machine.axes {
+        let rotary = axis.kind == AxisKind::Rotary;
+        all.extend(OF_AXIS.iter().map(|(name, kind, linear, turning)| Signal {
+            name: format!("{}.{name}", axis.name),
+            kind: *kind,
+            unit: (if rotary { turning } else { linear }).to_string(),
+            role: Role::Plant,
+        }));
+        for channel in vocabulary::CHANNELS {
+            let signal = |name: &str, kind, unit: vocabulary::Unit, role| Signal {
+                name: format!("{}.{channel}.{name}", axis.name),
+                kind,
+                unit: unit.text(rotary).to_owned(),
+                role,
+            };
+            let inputs = vocabulary::inputs();
+            all.extend(
+                inputs
+                    .iter()
+                    .map(|i| signal(i.name, i.kind, i.unit, Role::Input)),
+            );
+            let outputs = vocabulary::outputs();
+            all.extend(
+                outputs
+                    .iter()
+                    .map(|o| signal(o.name, o.kind, o.unit, Role::Output)),
+            );
+        }
+    }
+    all
+}

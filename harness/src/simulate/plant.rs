@@ -1,0 +1,233 @@
+//! A simple axis: it follows its setpoint with limited acceleration, brakes on a ramp, coasts without torque.
+//!
+//! All quantities are integers, so that a run gives the same result on every machine: positions in thousandths of an
+//! increment (nm, or millionths of a degree), speeds in these per cycle, accelerations in these per cycle and cycle. In
+//! each cycle first the speed changes, then the position by the new speed.
+
+/// The mechanics of an axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Mechanics {
+    /// With which it follows its setpoint.
+    pub acceleration: i64,
+    /// At the current limit: STOP B, C and reactions to them.
+    pub braking: i64,
+    /// Along the path: STOP D and E.
+    pub path_braking: i64,
+    /// Of friction, without torque.
+    pub friction: i64,
+    /// Towards minus, without torque and until the holding brake has closed; 0 for an axis that does not sag.
+    pub sag: i64,
+    /// Cycles from the loss of torque until the holding brake has closed; none without such a brake.
+    pub brake_time: Option<u32>,
+}
+
+/// What the control asks for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Setpoint {
+    /// Speed with sign; with a target its magnitude counts.
+    pub speed: i64,
+    /// Where to stop.
+    pub target: Option<i64>,
+}
+
+/// What moves the axis in a cycle, in rising order of precedence.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Drive {
+    /// It follows its setpoint.
+    Follow,
+    /// It brakes along its path.
+    Path,
+    /// It brakes at the current limit.
+    CurrentLimit,
+    /// It has no torque.
+    Coast,
+}
+
+impl Drive {
+    /// The word for it.
+    pub const fn keyword(self) -> &'static str {
+        match self {
+            Self::Follow => "FOLLOW",
+            Self::Path => "BRAKE_PATH",
+            Self::CurrentLimit => "BRAKE_MAX",
+            Self::Coast => "COAST",
+        }
+    }
+}
+
+/// An axis in motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Plant {
+    mechanics: Mechanics,
+    /// Where it is.
+    pub position: i64,
+    /// How fast it goes.
+    pub speed: i64,
+    /// What it was asked for.
+    pub setpoint: Setpoint,
+    without_torque: u32,
+}
+
+impl Plant {
+    /// An axis at rest.
+    pub const fn new(mechanics: Mechanics, position: i64) -> Self {
+        Self {
+            mechanics,
+            position,
+            speed: 0,
+            setpoint: Setpoint {
+                speed: 0,
+                target: None,
+            },
+            without_torque: 0,
+        }
+    }
+
+    /// The setpoint of the speed in this cycle.
+    pub fn wanted(&self) -> i64 {
+        let Some(target) = self.setpoint.target else {
+            return self.setpoint.speed;
+        };
+        let way = target - self.position;
+        let rate = self.mechanics.acceleration;
+        let rate = i128::from(rate);
+        // The greatest speed from which the steps v, v - rate, v - 2 rate ... are not longer than the way: after q whole
+        // rates it is (way + rate * q * (q + 1) / 2) / (q + 1).
+        let size = i128::from(way.abs());
+        let whole = ((1 + 8 * size / rate).isqrt() - 1) / 2;
+        let limit = (size + rate * whole * (whole + 1) / 2) / (whole + 1);
+        let speed = i64::try_from(limit).unwrap_or(i64::MAX);
+        speed.min(self.setpoint.speed.abs()) * way.signum()
+    }
+
+    /// One cycle.
+    pub fn advance(&mut self, drive: Drive) {
+        let m = self.mechanics;
+        self.without_torque = match drive {
+            Drive::Coast => self.without_torque.saturating_add(1),
+            _ => 0,
+        };
+        let towards =
+            |speed: i64, wanted: i64, rate: i64| speed + (wanted - speed).clamp(-rate, rate);
+        self.speed = match drive {
+            Drive::Follow => towards(self.speed, self.wanted(), m.acceleration),
+            Drive::Path => towards(self.speed, 0, m.path_braking),
+            Drive::CurrentLimit => towards(self.speed, 0, m.braking),
+            Drive::Coast => {
+                let closed = m.brake_time.is_some_and(|time| self.without_torque > time);
+                match closed {
+                    true => towards(self.speed, 0, m.braking),
+                    false if m.sag > 0 => {
+                        self.speed - m.sag + friction(self.speed, m.friction.min(m.sag))
+                    }
+                    false => towards(self.speed, 0, m.friction),
+                }
+            }
+        };
+        self.position += self.speed;
+    }
+
+    /// Whether it stands.
+    pub const fn stands(&self) -> bool {
+        self.speed == 0
+    }
+}
+
+/// What friction adds to the speed of an axis that another force moves.
+fn friction(speed: i64, rate: i64) -> i64 {
+    (-speed).clamp(-rate, rate)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const M: Mechanics = Mechanics {
+        acceleration: 100,
+        braking: 300,
+        path_braking: 50,
+        friction: 10,
+        sag: 0,
+        brake_time: None,
+    };
+
+    fn moving(mechanics: Mechanics, speed: i64) -> Plant {
+        Plant {
+            speed,
+            ..Plant::new(mechanics, 0)
+        }
+    }
+
+    #[test]
+    fn follows_its_setpoint_with_limited_acceleration() {
+        let mut plant = Plant::new(M, 0);
+        plant.setpoint.speed = 250;
+        for (speed, position) in [(100, 100), (200, 300), (250, 550), (250, 800)] {
+            plant.advance(Drive::Follow);
+            assert_eq!((plant.speed, plant.position), (speed, position));
+        }
+    }
+
+    #[test]
+    fn reaches_a_target_exactly_and_never_passes_it() {
+        for target in [1, 99, 100, 101, 5_000, 123_457, -77_777] {
+            for speed in [1, 50, 100, 777, 5_000] {
+                let mut plant = Plant::new(M, 0);
+                plant.setpoint = Setpoint {
+                    speed,
+                    target: Some(target),
+                };
+                for _ in 0..200_000 {
+                    plant.advance(Drive::Follow);
+                    assert!(plant.position.abs() <= target.abs(), "{target} at {speed}");
+                    if plant.stands() && plant.position == target {
+                        break;
+                    }
+                }
+                assert_eq!(
+                    (plant.position, plant.speed),
+                    (target, 0),
+                    "{target} at {speed}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn each_drive_has_its_ramp() {
+        for (drive, speed) in [
+            (Drive::Path, 950),
+            (Drive::CurrentLimit, 700),
+            (Drive::Coast, 990),
+        ] {
+            let mut plant = moving(M, 1_000);
+            plant.advance(drive);
+            assert_eq!(plant.speed, speed);
+            let mut back = moving(M, -1_000);
+            back.advance(drive);
+            assert_eq!(back.speed, -speed);
+        }
+        let mut slow = moving(M, 7);
+        slow.advance(Drive::Coast);
+        assert!(slow.stands());
+    }
+
+    #[test]
+    fn a_vertical_axis_sags_until_its_brake_has_closed() {
+        let mut plant = Plant::new(
+            Mechanics {
+                sag: 40,
+                brake_time: Some(2),
+                ..M
+            },
+            0,
+        );
+        let mut speeds = Vec::new();
+        for _ in 0..5 {
+            plant.advance(Drive::Coast);
+            speeds.push(plant.speed);
+        }
+        assert_eq!(speeds, [-40, -70, 0, 0, 0]);
+        assert_eq!(plant.position, -110);
+    }
+}

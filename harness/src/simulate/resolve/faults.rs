@@ -1,0 +1,120 @@
+//! Faults of encoders, signals and the drive.
+
+use toml::Spanned;
+
+use super::Resolver;
+use super::events::force;
+use crate::simulate::file;
+use crate::simulate::scenario::{Event, Fault, What};
+
+impl Resolver<'_> {
+    pub(super) fn faults(&mut self, list: &[file::Fault], events: &mut Vec<Event>) {
+        for fault in list {
+            let (cycle, until) = (self.at(&fault.at), self.until(fault.until.as_ref()));
+            let (axes, sides) = (
+                self.axes(Some(&fault.axis)),
+                self.sides(fault.channel.as_ref()),
+            );
+            let kind = fault.kind.get_ref().as_str();
+            let stuck = matches!(kind, "stuck" | "lost");
+            self.fault_keys(fault, kind);
+            if stuck {
+                let Some(signal) = &fault.signal else {
+                    let help = "name it: signal = \"SGE_SS_DISABLE\"".to_owned();
+                    self.add(
+                        fault.kind.span(),
+                        format!("which signal is {kind}?"),
+                        "no signal named",
+                        help,
+                    );
+                    continue;
+                };
+                let value = fault.value.as_ref().is_some_and(|v| *v.get_ref());
+                if let (Some(input), Some(cycle)) = (self.input(signal), cycle) {
+                    force(events, cycle, until, (&axes, sides), (input, value));
+                }
+                continue;
+            }
+            for axis in axes {
+                let what = match kind {
+                    "encoder freeze" => Some(Fault::Freeze),
+                    "no braking" => Some(Fault::NoBraking),
+                    "encoder offset" => self.offset(fault, axis),
+                    _ => {
+                        self.no_such(
+                            &fault.kind,
+                            "kind of fault",
+                            &[
+                                "encoder freeze",
+                                "encoder offset",
+                                "no braking",
+                                "stuck",
+                                "lost",
+                            ],
+                        );
+                        return;
+                    }
+                };
+                let (Some(what), Some(cycle)) = (what, cycle) else {
+                    continue;
+                };
+                let mut push = |cycle, fault| {
+                    events.push(Event {
+                        cycle,
+                        axes: vec![axis],
+                        sides,
+                        what: What::Fault(fault),
+                    });
+                };
+                push(cycle, what);
+                if let Some(until) = until {
+                    push(until, Fault::None);
+                }
+            }
+        }
+    }
+
+    /// Keys that mean nothing with this kind of fault.
+    fn fault_keys(&mut self, fault: &file::Fault, kind: &str) {
+        let stuck = matches!(kind, "stuck" | "lost");
+        let needless = [
+            (
+                fault.offset.as_ref().map(Spanned::span),
+                "offset",
+                kind == "encoder offset",
+            ),
+            (fault.signal.as_ref().map(Spanned::span), "signal", stuck),
+            (
+                fault.value.as_ref().map(Spanned::span),
+                "value",
+                kind == "stuck",
+            ),
+        ];
+        for (place, key, used) in needless {
+            if let (Some(place), false) = (place, used) {
+                let message = format!("a fault of kind \"{kind}\" has no {key}");
+                self.add(
+                    place,
+                    message,
+                    "not used",
+                    format!("remove {key}, or choose the kind that it belongs to"),
+                );
+            }
+        }
+    }
+
+    fn offset(&mut self, fault: &file::Fault, axis: usize) -> Option<Fault> {
+        let Some(offset) = &fault.offset else {
+            let help = "write for example offset = \"0.3 mm\"".to_owned();
+            self.add(
+                fault.kind.span(),
+                "by how much?".to_owned(),
+                "no offset given",
+                help,
+            );
+            return None;
+        };
+        let thousandths = self.length(offset, self.machine.axes[axis].kind)?;
+        i32::try_from(thousandths / 1_000).ok().map(Fault::Offset)
+    }
+}

@@ -1,0 +1,164 @@
+//! Where the axes start and how they move.
+
+use stillpoint_spec::machine::AxisKind;
+use stillpoint_spec::machine::units::{self, Dimension};
+
+use super::{Resolver, Round};
+use crate::simulate::file::{self, File, Text};
+use crate::simulate::plant::Mechanics;
+use crate::simulate::scenario::Start;
+
+impl Resolver<'_> {
+    pub(super) fn starts(&mut self, file: &File) -> Vec<Start> {
+        for name in file.axis.keys() {
+            let _ = self.axis_named(name.get_ref(), name.span());
+        }
+        let machine = self.machine;
+        let mut out = Vec::new();
+        for axis in &machine.axes {
+            let given = file
+                .axis
+                .iter()
+                .find(|(name, _)| *name.get_ref() == axis.name);
+            let none = file::Axis::default();
+            let given = given.map_or(&none, |(_, given)| given);
+            let kind = axis.kind;
+            let position = given
+                .position
+                .as_ref()
+                .and_then(|t| self.length(t, kind))
+                .unwrap_or(0);
+            let mut rate = |text: &Option<Text>, default: &str| match text {
+                Some(text) => self.acceleration(text, kind).unwrap_or(1),
+                None => rate_of(default, kind, self.cycle_us()).unwrap_or(1),
+            };
+            // Usual ones of machine tools; the book names them.
+            let defaults = match kind {
+                AxisKind::Linear => ["2000 mm/s2", "5000 mm/s2", "2000 mm/s2", "500 mm/s2"],
+                AxisKind::Rotary => [
+                    "10000 deg/s2",
+                    "20000 deg/s2",
+                    "10000 deg/s2",
+                    "1000 deg/s2",
+                ],
+            };
+            let mechanics = Mechanics {
+                acceleration: rate(&given.acceleration, defaults[0]),
+                braking: rate(&given.braking, defaults[1]),
+                path_braking: rate(&given.path_braking, defaults[2]),
+                friction: rate(&given.friction, defaults[3]),
+                sag: given
+                    .sag
+                    .as_ref()
+                    .map_or(0, |sag| rate(&Some(sag.clone()), "")),
+                brake_time: given
+                    .brake_time
+                    .as_ref()
+                    .and_then(|t| self.span_of_time(t, "brake_time", Round::Up)),
+            };
+            out.push(Start {
+                position,
+                mechanics,
+            });
+        }
+        out
+    }
+
+    /// A position in thousandths of an increment.
+    pub(super) fn length(&mut self, text: &Text, kind: AxisKind) -> Option<i64> {
+        let (dimension, example) = match kind {
+            AxisKind::Linear => (Dimension::Length, "120 mm"),
+            AxisKind::Rotary => (Dimension::Angle, "90 deg"),
+        };
+        let value = self.value(text, dimension, example)?;
+        let limit = i64::from(i32::MAX);
+        if value.abs() > limit {
+            let message = format!("\"{}\" is too far away", text.get_ref());
+            let most = dimension.show(limit);
+            self.add(
+                text.span(),
+                message,
+                "too large",
+                format!("allowed: -{most} to {most}"),
+            );
+            return None;
+        }
+        Some(value * 1_000)
+    }
+
+    /// A speed in thousandths of an increment per cycle, rounded towards 0.
+    pub(super) fn speed(&mut self, text: &Text, kind: AxisKind) -> Option<i64> {
+        let (dimension, example) = match kind {
+            AxisKind::Linear => (Dimension::Speed, "5000 mm/min"),
+            AxisKind::Rotary => (Dimension::Rotation, "100 rev/min"),
+        };
+        let per_minute = self.value(text, dimension, example)?;
+        // Increments per minute, times 1000, times us, by 60 s in us.
+        let product = i128::from(per_minute) * i128::from(self.cycle_us()) / 60_000;
+        let limit = i128::from(i32::MAX);
+        if product.abs() > limit * 1_000 {
+            let message = format!(
+                "\"{}\" is more than the range of positions in a cycle",
+                text.get_ref()
+            );
+            self.add(
+                text.span(),
+                message,
+                "too fast",
+                format!("write for example \"{example}\""),
+            );
+            return None;
+        }
+        i64::try_from(product).ok()
+    }
+
+    fn acceleration(&mut self, text: &Text, kind: AxisKind) -> Option<i64> {
+        let found = rate_of(text.get_ref(), kind, self.cycle_us());
+        if found.is_none() {
+            let units = match kind {
+                AxisKind::Linear => "mm/s2 or m/s2, for example \"2000 mm/s2\"",
+                AxisKind::Rotary => "deg/s2 or rev/s2, for example \"3600 deg/s2\"",
+            };
+            self.add(
+                text.span(),
+                format!(
+                    "an acceleration above 0 is needed; got \"{}\"",
+                    text.get_ref()
+                ),
+                "not such a value",
+                format!("write a number with {units}"),
+            );
+        }
+        found
+    }
+}
+
+/// An acceleration in thousandths of an increment per cycle and cycle, at least 1; none for a text that is none.
+fn rate_of(text: &str, kind: AxisKind, cycle_us: u64) -> Option<i64> {
+    let text = text.trim();
+    let (dimension, units) = match kind {
+        AxisKind::Linear => (
+            Dimension::Length,
+            [("mm/s2", "mm", 1), ("m/s2", "mm", 1_000)],
+        ),
+        AxisKind::Rotary => (
+            Dimension::Angle,
+            [("deg/s2", "deg", 1), ("rev/s2", "deg", 360)],
+        ),
+    };
+    let (number, unit, factor) = units.iter().find_map(|(suffix, unit, factor)| {
+        let number = text.strip_suffix(suffix)?;
+        Some((number.trim_end(), unit, factor))
+    })?;
+    if number.ends_with(|c: char| c.is_ascii_alphabetic()) {
+        return None;
+    }
+    // Increments per second squared; times 1000 for thousandths, by 10^12 for microseconds squared.
+    let value = units::parse(&format!("{number} {unit}"), dimension).ok()?;
+    let square = i128::from(cycle_us) * i128::from(cycle_us);
+    let rate = i128::from(value) * factor * square / 1_000_000_000;
+    i64::try_from(rate)
+        .ok()
+        .filter(|_| value > 0)
+        .map(|rate| rate.clamp(1, 1 << 40))
+}

@@ -1,0 +1,154 @@
+//! What a scenario asks for, resolved: cycles instead of times, increments instead of lengths, axes by their place.
+
+use super::plant::Mechanics;
+use crate::recording::Value;
+
+/// A scenario for one machine.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Scenario {
+    /// What it shows.
+    pub title: String,
+    /// Cycles to run.
+    pub cycles: u32,
+    /// Running and safely referenced from the start, or not yet run up.
+    pub running: bool,
+    /// The axes, in the order of the machine.
+    pub axes: Vec<Start>,
+    /// What happens, by cycle; in one cycle in the order of the file's kinds.
+    pub events: Vec<Event>,
+    /// What has to come of it.
+    pub expects: Vec<Expect>,
+    /// Times that are no whole number of cycles, and what became of them.
+    pub roundings: Vec<String>,
+}
+
+/// An axis at the start.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Start {
+    /// Where it is, in thousandths of an increment.
+    pub position: i64,
+    /// How it moves.
+    pub mechanics: Mechanics,
+}
+
+/// Something that happens.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Event {
+    /// When.
+    pub cycle: u32,
+    /// To which axes, by their place in the machine; all of a door's or of the machine where it says nothing else.
+    pub axes: Vec<usize>,
+    /// In which channels.
+    pub sides: [bool; 2],
+    /// What.
+    pub what: What,
+}
+
+/// What the safety logic selects.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Selection {
+    /// Neither operating stop nor speed stage.
+    Nothing,
+    /// The operating stop.
+    Standstill,
+    /// A speed stage, 0 to 3 for SG1 to SG4.
+    Stage(u8),
+}
+
+/// What happens.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum What {
+    /// A new setpoint: thousandths of an increment per cycle, and perhaps a target.
+    Motion(super::plant::Setpoint),
+    /// Operating stop or speed stage.
+    Select(Selection),
+    /// The second pair of limit switches instead of the first one.
+    Limits(bool),
+    /// A door, by its place in the machine.
+    Door {
+        /// Which.
+        door: usize,
+        /// Open or closed.
+        open: bool,
+    },
+    /// An input keeps a value whatever else happens: the signal by its place in the vocabulary.
+    Force {
+        /// Which input.
+        input: usize,
+        /// Its value; none: it is released again.
+        value: Option<bool>,
+    },
+    /// A stop asked for by the safety logic; none: it is withdrawn.
+    Stop(Option<ExternalLetter>),
+    /// NC-RESET.
+    Reset,
+    /// Off and on again; run up so many cycles later.
+    Power(u32),
+    /// The user gives or withdraws the agreement.
+    Agreement(bool),
+    /// The axis is referenced where it is.
+    Reference,
+    /// An encoder or drive fault begins, or ends with [`Fault::None`].
+    Fault(Fault),
+}
+
+/// The stops that the safety logic can ask for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ExternalLetter {
+    /// STOP A.
+    A,
+    /// STOP C.
+    C,
+    /// STOP D.
+    D,
+    /// STOP E.
+    E,
+}
+
+/// What is wrong with the encoder of a channel or with the drive.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Fault {
+    /// Nothing.
+    #[default]
+    None,
+    /// The position of the channel stays what it was.
+    Freeze,
+    /// The position of the channel is too large by that many increments.
+    Offset(i32),
+    /// The drive goes on following its setpoint, whatever stop is in force, as long as it has torque.
+    NoBraking,
+}
+
+/// What has to come of a scenario.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Expect {
+    /// As the file puts it.
+    pub text: String,
+    /// What has to be the case in a cycle.
+    pub condition: Condition,
+    /// The first cycle that counts.
+    pub after: u32,
+    /// The last cycle that counts.
+    pub by: u32,
+    /// In none of the cycles, instead of in one of them.
+    pub never: bool,
+}
+
+/// What can be the case in a cycle.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Condition {
+    /// Signals, by full name, all have the value.
+    Signals {
+        /// Which.
+        names: Vec<String>,
+        /// Their value.
+        value: Value,
+    },
+    /// An axis stands, or moves.
+    Standstill {
+        /// Which.
+        axis: usize,
+        /// It stands.
+        stands: bool,
+    },
+}

@@ -1,0 +1,362 @@
+//! Simulations as their user meets them: the example scenarios, what is refused, and what is written.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+const MACHINE: &str = "spec/machines/milling-840d.toml";
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+fn stillpoint(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_stillpoint"))
+        .args(arguments)
+        .current_dir(root())
+        .env("NO_COLOR", "1")
+        .output()
+        .expect("the binary runs")
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).expect("UTF-8")
+}
+
+fn status(output: &Output) -> i32 {
+    output.status.code().expect("no signal ended it")
+}
+
+/// A folder of one test, gone afterwards.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(name: &str) -> Self {
+        let path = std::env::temp_dir().join(format!("stillpoint-{name}-{}", std::process::id()));
+        std::fs::create_dir_all(&path).expect("a folder");
+        Self(path)
+    }
+
+    fn file(&self, name: &str) -> String {
+        self.0.join(name).display().to_string()
+    }
+
+    fn write(&self, name: &str, content: &str) -> String {
+        std::fs::write(self.0.join(name), content).expect("written");
+        self.file(name)
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
+fn simulate(scenario: &str) -> Output {
+    stillpoint(&["simulate", MACHINE, "--scenario", scenario, "--brief"])
+}
+
+/// A scenario of the text that lasts one second.
+fn run(folder: &Folder, text: &str) -> Output {
+    run_for(folder, "1 s", text)
+}
+
+fn run_for(folder: &Folder, duration: &str, text: &str) -> Output {
+    let file = folder.write(
+        "scenario.toml",
+        &format!("duration = \"{duration}\"\n{text}"),
+    );
+    simulate(&file)
+}
+
+#[test]
+fn the_expectations_of_every_example_hold() {
+    let folder = root().join("spec/scenarios");
+    let mut count = 0;
+    for entry in std::fs::read_dir(folder).expect("the folder") {
+        let path = entry.expect("an entry").path().display().to_string();
+        let output = simulate(&path);
+        let out = text(&output.stdout);
+        assert_eq!(status(&output), 0, "{path}: {out}{}", text(&output.stderr));
+        assert!(
+            out.contains("holds") && !out.contains("FAILS"),
+            "{path}: {out}"
+        );
+        count += 1;
+    }
+    assert!(count >= 4, "only {count} examples");
+}
+
+#[test]
+fn stops_have_their_cycle_their_reason_and_their_way() {
+    let output = simulate("spec/scenarios/door-while-moving.toml");
+    let out = text(&output.stdout);
+    // The door opens in cycle 34; t_vel = 200 ms are 17 cycles. Braking from 1600 um a cycle by 576 um each cycle:
+    // 1024 + 448 um.
+    let expected = "X STOP C in cycle 51 (612 ms), nck and drive: speed limit exceeded (alarm 27011); \
+                    stands 36 ms later (3 cycles) after 1.472 mm";
+    assert!(out.contains(expected), "{out}");
+}
+
+#[test]
+fn an_expectation_that_fails_is_exit_status_1() {
+    let folder = Folder::new("simulate-expect");
+    let expect = "[[expect]]\naxis = \"X\"\nstop = \"C\"\nby = \"0.9 s\"\n";
+    let output = run(&folder, expect);
+    let out = text(&output.stdout);
+    assert_eq!(status(&output), 1, "{out}");
+    assert!(
+        out.contains("FAILS  X.nck.stop and X.drive.stop = C"),
+        "{out}"
+    );
+    let never = run(&folder, &format!("{expect}never = true\n"));
+    assert_eq!(status(&never), 0, "{}", text(&never.stdout));
+}
+
+/// STOP A coasts, STOP D brakes on the path, STOP C at the current limit: the way grows in the other order.
+#[test]
+fn each_stop_brakes_with_its_ramp() {
+    let folder = Folder::new("simulate-ramps");
+    let way = |stop: &str| -> f64 {
+        let scenario = format!(
+            "[axis.X]\nbraking = \"4000 mm/s2\"\npath_braking = \"2000 mm/s2\"\nfriction = \"400 mm/s2\"\n\
+             [[motion]]\nat = \"0 s\"\naxis = \"X\"\nspeed = \"6000 mm/min\"\n\
+             [[stop]]\nat = \"0.3 s\"\naxis = \"X\"\nstop = \"{stop}\"\n\
+             [[expect]]\naxis = \"X\"\nstop = \"{stop}\"\nafter = \"0.3 s\"\nby = \"0.32 s\"\n\
+             [[expect]]\naxis = \"X\"\nstandstill = true\nafter = \"0.4 s\"\n"
+        );
+        let output = run(&folder, &scenario);
+        let out = text(&output.stdout);
+        assert_eq!(status(&output), 0, "{stop}: {out}{}", text(&output.stderr));
+        let line = out
+            .lines()
+            .find(|l| l.starts_with("X STOP"))
+            .expect("a stop");
+        let (_, way) = line.rsplit_once("after ").expect("a way");
+        way.trim_end_matches(" mm").parse().expect("a number")
+    };
+    let (c, d, a) = (way("C"), way("D"), way("A"));
+    assert!(c < d && d < a, "C {c} mm, D {d} mm, A {a} mm");
+    // 100 mm/s at 400 mm/s2: 12.5 mm, less what the steps of a cycle leave out, at most a cycle's way.
+    assert!((11.0..=12.5).contains(&a), "{a}");
+}
+
+/// A STOP C of X reaches Y, which interpolates with it, and not the spindle.
+#[test]
+fn a_stop_reaches_the_axes_of_its_group() {
+    let folder = Folder::new("simulate-group");
+    let scenario = "[[select]]\nat = \"0 s\"\naxis = \"X\"\nfunction = \"SG1\"\n\
+         [[motion]]\nat = \"0 s\"\naxis = [\"X\", \"Y\"]\nspeed = \"6000 mm/min\"\n\
+         [[motion]]\nat = \"0 s\"\naxis = \"S\"\nspeed = \"500 rev/min\"\n\
+         [[expect]]\naxis = \"X\"\nstop = \"C\"\n\
+         [[expect]]\naxis = \"Y\"\nstandstill = true\nafter = \"0.5 s\"\n\
+         [[expect]]\naxis = \"Y\"\nstop = \"C\"\nnever = true\n\
+         [[expect]]\naxis = \"S\"\nstandstill = true\nafter = \"0.5 s\"\nnever = true\n";
+    let output = run(&folder, scenario);
+    assert_eq!(
+        status(&output),
+        0,
+        "{}{}",
+        text(&output.stdout),
+        text(&output.stderr)
+    );
+}
+
+/// Without braking the braking ramp cancels the pulses; a signal lost in one channel is found by the comparison.
+#[test]
+fn faults_are_found() {
+    let folder = Folder::new("simulate-faults");
+    let deaf = "[[motion]]\nat = \"0 s\"\naxis = \"X\"\nspeed = \"6000 mm/min\"\n\
+         [[fault]]\nat = \"0.2 s\"\naxis = \"X\"\nkind = \"no braking\"\n\
+         [[motion]]\nat = \"0.3 s\"\naxis = \"X\"\nspeed = \"12000 mm/min\"\n\
+         [[stop]]\nat = \"0.3 s\"\naxis = \"X\"\nstop = \"C\"\n\
+         [[expect]]\naxis = \"X\"\nstop = \"A\"\nafter = \"0.3 s\"\nby = \"0.4 s\"\n";
+    let output = run(&folder, deaf);
+    let out = text(&output.stdout);
+    assert_eq!(status(&output), 0, "{out}{}", text(&output.stderr));
+    assert!(out.contains("braking ramp exceeded"), "{out}");
+    let lost = "[[select]]\nat = \"0 s\"\naxis = \"X\"\nfunction = \"SG2\"\n\
+         [[fault]]\nat = \"0.1 s\"\naxis = \"X\"\nchannel = \"drive\"\nkind = \"lost\"\nsignal = \"SGE_SS_DISABLE\"\n\
+         [[expect]]\naxis = \"X\"\nstop = \"F\"\nafter = \"0.1 s\"\n";
+    // The tolerance time of the comparison is 500 ms, then its list comes round to the result.
+    let output = run_for(&folder, "3 s", lost);
+    assert_eq!(
+        status(&output),
+        0,
+        "{}{}",
+        text(&output.stdout),
+        text(&output.stderr)
+    );
+    let offset = "[[select]]\nat = \"0 s\"\naxis = \"X\"\nfunction = \"SBH\"\n\
+         [[fault]]\nat = \"0.2 s\"\naxis = \"X\"\nchannel = \"nck\"\nkind = \"encoder offset\"\noffset = \"0.6 mm\"\n\
+         [[expect]]\naxis = \"X\"\nstop = \"B\"\nchannel = \"nck\"\nafter = \"0.2 s\"\nby = \"0.25 s\"\n";
+    let output = run(&folder, offset);
+    let out = text(&output.stdout);
+    assert_eq!(status(&output), 0, "{out}{}", text(&output.stderr));
+    assert!(
+        out.contains("standstill tolerance exceeded (alarm 27010)"),
+        "{out}"
+    );
+}
+
+/// STOP A ends with power-on only; RESET acknowledges STOP C.
+#[test]
+fn stops_are_acknowledged() {
+    let folder = Folder::new("simulate-acknowledge");
+    let offset = "[[select]]\nat = \"0 s\"\naxis = \"X\"\nfunction = \"SBH\"\n\
+         [[fault]]\nat = \"0.2 s\"\nuntil = \"0.4 s\"\naxis = \"X\"\nkind = \"encoder offset\"\noffset = \"0.6 mm\"\n\
+         [[reset]]\nat = \"0.5 s\"\n\
+         [[power]]\nat = \"0.7 s\"\n\
+         [[expect]]\naxis = \"X\"\nstop = \"A\"\nby = \"0.3 s\"\n\
+         [[expect]]\naxis = \"X\"\nstop = \"NONE\"\nafter = \"0.5 s\"\nby = \"0.69 s\"\nnever = true\n\
+         [[expect]]\naxis = \"X\"\nstop = \"NONE\"\nafter = \"0.7 s\"\nby = \"0.75 s\"\n";
+    let output = run(&folder, offset);
+    assert_eq!(
+        status(&output),
+        0,
+        "{}{}",
+        text(&output.stdout),
+        text(&output.stderr)
+    );
+}
+
+#[test]
+fn equal_files_give_equal_bytes() {
+    let folder = Folder::new("simulate-bytes");
+    let once = |n: &str| {
+        let [svg, csv, trace] = ["svg", "csv", "ndjson"].map(|e| folder.file(&format!("{n}.{e}")));
+        let scenario = "spec/scenarios/encoder-freeze.toml";
+        let output = stillpoint(&[
+            "simulate",
+            MACHINE,
+            "--scenario",
+            scenario,
+            "--svg",
+            &svg,
+            "--csv",
+            &csv,
+            "--trace",
+            &trace,
+        ]);
+        assert_eq!(status(&output), 0, "{}", text(&output.stderr));
+        let files = [svg, csv, trace].map(|f| std::fs::read(f).expect("written"));
+        (output.stdout, files)
+    };
+    let (first, second) = (once("a"), once("b"));
+    assert!(first == second);
+    let [svg, csv, trace] = first.1.map(|bytes| text(&bytes));
+    assert!(
+        svg.starts_with("<svg") && svg.contains("speed of Y"),
+        "{svg}"
+    );
+    assert_eq!(csv.lines().count(), 101);
+    assert!(csv.starts_with("cycle,time_us,door.front.open,X.Monitoring.PositionActualValue"));
+    assert_eq!(trace.lines().count(), 101);
+    assert!(!trace.contains("/tmp") && !svg.contains("/tmp"));
+}
+
+/// Each mistake is named with its place and a fix, and nothing is run or written.
+#[test]
+fn mistakes_are_refused() {
+    let folder = Folder::new("simulate-mistakes");
+    for (scenario, place, message) in [
+        (
+            "[[motion]]\nat = \"0.1 s\"\naxis = \"Q\"\nspeed = \"1 mm/min\"\n",
+            ":4:8",
+            "no axis 'Q'",
+        ),
+        (
+            "[[motion]]\nat = \"2 s\"\naxis = \"X\"\nspeed = \"1 mm/min\"\n",
+            ":3:6",
+            "after the end",
+        ),
+        (
+            "[[motion]]\nat = \"0.1\"\naxis = \"X\"\nspeed = \"1 mm/min\"\n",
+            ":3:6",
+            "a time is needed",
+        ),
+        (
+            "[[motion]]\nat = \"0.1 s\"\naxis = \"X\"\nspeed = \"1 rev/min\"\n",
+            ":5:9",
+            "a speed of a linear axis is needed",
+        ),
+        (
+            "[[door]]\nat = \"0.1 s\"\ndoor = \"back\"\nopen = true\n",
+            ":4:8",
+            "no door of this machine",
+        ),
+        (
+            "[[select]]\nat = \"0.1 s\"\nfunction = \"SG5\"\n",
+            ":4:12",
+            "no function to select",
+        ),
+        (
+            "[[signal]]\nat = \"0.1 s\"\nsignal = \"SGE_SS_DISABEL\"\nvalue = true\n",
+            ":4:10",
+            "no signal that a channel reads",
+        ),
+        (
+            "[[stop]]\nat = \"0.1 s\"\nstop = \"B\"\n",
+            ":4:8",
+            "no stop that the safety logic can ask for",
+        ),
+        (
+            "[[fault]]\nat = \"0.1 s\"\naxis = \"X\"\nkind = \"broken\"\n",
+            ":5:8",
+            "no kind of fault",
+        ),
+        (
+            "[[fault]]\nat = \"0.1 s\"\naxis = \"X\"\nkind = \"encoder offset\"\n",
+            ":5:8",
+            "by how much?",
+        ),
+        (
+            "[[expect]]\naxis = \"X\"\nstop = \"G\"\n",
+            ":4:8",
+            "no stop",
+        ),
+        (
+            "[[expect]]\naxis = \"X\"\nstop = \"C\"\nafter = \"0.5 s\"\nby = \"0.4 s\"\n",
+            ":6:6",
+            "no cycle lies in this time",
+        ),
+        (
+            "[[expect]]\nsignal = \"X.nck.stop\"\nvalue = 3\n",
+            ":4:9",
+            "is a text; got 3",
+        ),
+        (
+            "[axis.X]\nbraking = \"5 mm/s\"\n",
+            ":3:11",
+            "an acceleration above 0 is needed",
+        ),
+        ("[[moton]]\nat = \"0 s\"\n", ":2:3", "unknown field `moton`"),
+    ] {
+        let svg = folder.file("never.svg");
+        let file = folder.write("wrong.toml", &format!("duration = \"1 s\"\n{scenario}"));
+        let output = stillpoint(&["simulate", MACHINE, "--scenario", &file, "--svg", &svg]);
+        let err = text(&output.stderr).replace("\n  │ ", " ");
+        assert_eq!(
+            status(&output),
+            2,
+            "{scenario}: {}{err}",
+            text(&output.stdout)
+        );
+        assert!(
+            err.contains(place) && err.contains(message),
+            "{scenario}: {err}"
+        );
+        assert!(err.contains("help: "), "{scenario}: {err}");
+        assert!(
+            output.stdout.is_empty() && !Path::new(&svg).exists(),
+            "{scenario}"
+        );
+    }
+    let other = stillpoint(&[
+        "simulate",
+        "spec/bench/two-axis.toml",
+        "--scenario",
+        "spec/scenarios/power-up.toml",
+    ]);
+    assert_eq!(status(&other), 2);
+}
