@@ -9,7 +9,7 @@ use stillpoint_model::table::{Generated, Interpreted};
 use stillpoint_model::{Choices, Domain, Error, Fault, Options, System, reachable};
 use stillpoint_show::graph::{Edge, Graph, Node};
 use stillpoint_spec::bind::Bound;
-use stillpoint_spec::ir::Ty;
+use stillpoint_spec::ir::{Ty, Var};
 
 /// How many cycles are gone through at most, by the evaluator of the system.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -36,15 +36,57 @@ pub fn control_states(
     budget: Budget,
     options: &Options,
 ) -> Result<Option<Vec<(String, Graph)>>, Error> {
-    let machines = machines(bound);
+    let machines = machines(bound, &|_, var| matches!(var.ty, Ty::Enum(_)));
+    graphs(bound, &machines, budget, options)
+}
+
+/// The control states of one instance, made of these of its variables; of all whose type is an enum where none are named.
+///
+/// None where there is no such instance or variable.
+///
+/// # Errors
+/// As [`control_states`].
+pub fn control_states_of(
+    bound: &Bound,
+    instance: &str,
+    variables: Option<&[String]>,
+    options: &Options,
+) -> Result<Option<Graph>, Error> {
+    let machines = machines(bound, &|name, var| {
+        let own = var
+            .name
+            .strip_prefix(name)
+            .and_then(|n| n.strip_prefix('.'));
+        let chosen = match variables {
+            Some(chosen) => own.is_some_and(|own| chosen.iter().any(|v| v == own)),
+            None => matches!(var.ty, Ty::Enum(_)),
+        };
+        name == instance && chosen
+    });
+    let budget = Budget {
+        generated: u64::MAX,
+        interpreted: u64::MAX,
+    };
+    let found = graphs(bound, &machines, budget, options)?;
+    Ok(found
+        .and_then(|graphs| graphs.into_iter().next())
+        .map(|(_, graph)| graph))
+}
+
+fn graphs(
+    bound: &Bound,
+    machines: &[Machine],
+    budget: Budget,
+    options: &Options,
+) -> Result<Option<Vec<(String, Graph)>>, Error> {
     if machines.is_empty() {
         return Ok(Some(Vec::new()));
     }
     let seen = match Generated::find(bound) {
-        Some(system) => pass(&system, &machines, budget.generated, options)?,
+        Some(system) => pass(&system, machines, budget.generated, options)?,
         None => {
             let system = Interpreted::new(bound);
-            pass(&system, &machines, budget.interpreted, options)?
+            pass(&system, machines, budget.interpreted, options)?
         }
     };
     Ok(seen.map(|seen| {
@@ -65,15 +107,16 @@ struct Machine<'a> {
     rules: Range<usize>,
 }
 
-fn machines(bound: &Bound) -> Vec<Machine<'_>> {
+/// The machines with state variables that `chosen`, given the name of the instance and the variable, picks.
+fn machines<'a>(bound: &'a Bound, chosen: &dyn Fn(&str, &Var) -> bool) -> Vec<Machine<'a>> {
     let mut first = 0;
     let mut out = Vec::new();
     for instance in &bound.system.instances {
         let rules = first..first + instance.rules.len();
         first = rules.end;
         let states = instance.states.start as usize..instance.states.end as usize;
-        let named = |k: &usize| matches!(bound.system.states[*k].var.ty, Ty::Enum(_));
-        let cells: Vec<usize> = states.filter(named).collect();
+        let picked = |k: &usize| chosen(&instance.name, &bound.system.states[*k].var);
+        let cells: Vec<usize> = states.filter(picked).collect();
         if !cells.is_empty() {
             out.push(Machine {
                 name: &instance.name,

@@ -32,7 +32,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         given => given,
     };
     let name = arguments.file.display();
-    let line = Line::new(&format!("checking {name}"), None);
+    let line = Line::new(&format!("checking {name}"));
     let checked = certify(&arguments.file, arguments.spec.as_deref(), threads);
     drop(line);
     match checked {

@@ -108,7 +108,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let fail =
         |(title, e): (String, stillpoint_model::Error)| Failure::Other(format!("{title}: {e}"));
     let checked = check(&subject, &settings, &mut |task| {
-        Box::new(Line::new(&task.title, settings.memory))
+        Box::new(Line::new(&task.title).within(settings.memory))
     })
     .map_err(fail)?;
     if place.is_helper() {
@@ -130,7 +130,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
             &checked,
             &settings,
             &choice.chosen,
-            &mut |title| Box::new(Line::new(title, settings.memory)),
+            &mut |title| Box::new(Line::new(title).within(settings.memory)),
         )
         .map_err(|e| match e {
             stillpoint::readings::Failed::Input(d) => Failure::Input(d),
@@ -175,7 +175,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     }
     // The report is out by now: it is not lost if the disk is full.
     if let Some(path) = &arguments.certificate {
-        let line = Line::new("certificate", None);
+        let line = Line::new("certificate");
         let progress = |done: usize, of: usize| line.share(done as u64, of as u64, "systems");
         certificate::certify(path, &subject, &checked, settings.threads, &progress)
             .map_err(Failure::Other)?;

@@ -77,7 +77,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     }
     let compared = match arguments.random {
         Some(cycles) => {
-            let line = Line::new("random runs", None);
+            let line = Line::new("random runs");
             let progress = |done: u64, of: u64| line.share(done, of, "cycles");
             let threads = arguments.limits.threads;
             sample(
@@ -134,7 +134,7 @@ fn explore(
             pairing,
             mutant,
             &options,
-            &mut Line::new(&pairing.machine, given.memory),
+            &mut Line::new(&pairing.machine).within(given.memory),
         )
     };
     let mut compared = Vec::new();

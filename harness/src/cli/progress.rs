@@ -50,12 +50,12 @@ enum Stage {
 }
 
 impl Line {
-    /// A line about the work of this title, within a limit on memory where there is one.
-    pub fn new(title: &str, limit: Option<u64>) -> Self {
+    /// A line about the work of this title.
+    pub fn new(title: &str) -> Self {
         let now = Arc::new(Mutex::new(Now {
             title: title.to_owned(),
             start: Instant::now(),
-            limit,
+            limit: None,
             held: 0,
             stage: Stage::Unknown,
         }));
@@ -77,6 +77,12 @@ impl Line {
             bar
         });
         Self { now, bar }
+    }
+
+    /// The same under a limit on memory, if there is one.
+    pub fn within(self, limit: Option<u64>) -> Self {
+        self.change(|now| now.limit = limit);
+        self
     }
 
     /// Tells that `done` of `of` things are done.

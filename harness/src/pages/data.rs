@@ -33,7 +33,7 @@ pub(super) struct Page {
     pub functions: Vec<Spanned<String>>,
     pub machines: Vec<Spanned<String>>,
     pub parameters: Vec<Spanned<String>>,
-    /// Areas of the catalogue.
+    /// Areas of the catalogue, or single requirements of one.
     pub requirements: Vec<String>,
     #[serde(default)]
     pub diagrams: Vec<Spanned<Figure>>,
@@ -251,10 +251,15 @@ impl Check {
 }
 
 impl Page {
-    /// Whether an id `PREFIX-AREA-...` belongs to the page.
+    /// Whether an id `PREFIX-AREA-...` belongs to the page, by its area or by its beginning.
     pub fn carries(&self, prefix: &str, id: &str) -> bool {
-        let rest = id.strip_prefix(prefix).and_then(|r| r.strip_prefix('-'));
-        let area = rest.and_then(|r| r.split('-').next());
-        area.is_some_and(|area| self.requirements.iter().any(|r| r == area))
+        let Some(rest) = id.strip_prefix(prefix).and_then(|r| r.strip_prefix('-')) else {
+            return false;
+        };
+        let begins = |with: &String| {
+            let more = rest.strip_prefix(with.as_str());
+            more.is_some_and(|more| more.is_empty() || more.starts_with('-'))
+        };
+        self.requirements.iter().any(begins)
     }
 }

@@ -17,7 +17,7 @@ use stillpoint_spec::outline::{Machine, Outline, Property};
 use super::PagesError;
 use super::data::{Family, Figure, Page};
 use super::tables::{self, Cell, code, codes, words};
-use crate::control::control;
+use crate::states::control_states_of;
 
 /// What an example machine tells.
 pub(super) struct Example {
@@ -179,7 +179,7 @@ fn of_machine(family: &Family, machine: &Machine) -> Vec<Block> {
             "It has no state of its own: its outputs follow from the inputs of the same cycle."
         }
         (false, true) => "In each cycle the first rule whose condition holds is taken.",
-        (false, false) => "In each cycle at most one condition holds.",
+        (false, false) => "Conditions that hold together have the same effect.",
     }));
     if machine.stays && !machine.rules.is_empty() {
         about.extend(words(" Where none does, everything stays as it is."));
@@ -229,11 +229,11 @@ fn figures(folder: &Path, family: &Family, page: &Page) -> Result<Vec<Block>, Pa
         let bound = Bound::new(resolved, &BTreeMap::new(), &BTreeMap::new())
             .map_err(|e| failed(&e.to_string()))?;
         // Of several copies of an instance the first one stands for all.
-        let number = bound.system.instances.iter().position(|i| {
-            i.name == *instance || i.name.split('[').next() == Some(instance.as_str())
-        });
-        let number = number.ok_or_else(|| failed("there is no such instance"))?;
-        let mut graph = control(&bound, number, variables.as_deref(), &Options::default())
+        let mut all = bound.system.instances.iter().map(|i| i.name.as_str());
+        let named = all
+            .find(|name| name.split('[').next() == Some(instance.as_str()))
+            .ok_or_else(|| failed("there is no such instance"))?;
+        let mut graph = control_states_of(&bound, named, variables.as_deref(), &Options::default())
             .map_err(|e| failed(&e.to_string()))?
             .ok_or_else(|| failed("it has none of these variables"))?;
         graph.title = format!("{} in system {system}", graph.title);
