@@ -26,6 +26,8 @@ pub struct Settings {
     pub keep: Option<Keep>,
     /// Explore less where that keeps the verdicts.
     pub reductions: Reductions,
+    /// Rebuild the runs that show what must be reachable, not only those that break a property.
+    pub witnesses: bool,
     /// The processes that explore together; none for this one alone.
     pub cluster: Option<Arc<Cluster>>,
 }
@@ -81,8 +83,8 @@ pub fn check(
                 time: settings.time.map(|t| t.saturating_sub(start.elapsed())),
                 threads: settings.threads,
             },
-            // Witnesses are told by their length only; rebuilding their runs would take as long as the search.
-            witnesses: false,
+            // Most reports tell the length of a witness only; rebuilding their runs takes as long as the search.
+            witnesses: settings.witnesses,
             checkpoint: settings.keep.as_ref().map(|k| k.of(number, &task.bound)),
             ..Options::default()
         };

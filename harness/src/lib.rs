@@ -17,6 +17,7 @@ pub mod readings;
 pub mod recorded;
 pub mod reduce;
 pub mod report;
+pub mod states;
 pub mod subject;
 pub mod timing;
 pub mod topics;

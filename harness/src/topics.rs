@@ -77,7 +77,7 @@ pub fn rows(subject: &Subject, checked: &[Checked], topic: Topic) -> Vec<Row> {
 
 impl Row {
     /// Whether the fault of this line is detected; none if that is not known.
-    fn detected(&self) -> Option<bool> {
+    pub(crate) fn detected(&self) -> Option<bool> {
         match self.verdict {
             Verdict::Reached if self.exists => Some(false),
             Verdict::Holds => Some(true),
@@ -85,11 +85,11 @@ impl Row {
         }
     }
 
-    fn cycles(&self) -> String {
+    pub(crate) fn cycles(&self) -> String {
         span(self.range, |cycles| cycles.to_string())
     }
 
-    fn time(&self) -> String {
+    pub(crate) fn time(&self) -> String {
         match self.cycle_us {
             Some(us) => span(self.range, |cycles| time(cycles.saturating_mul(us))),
             None => String::new(),

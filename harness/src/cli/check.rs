@@ -1,16 +1,17 @@
 //! `stillpoint check`.
 
 use std::collections::BTreeSet;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use clap::Args;
+use stillpoint::atomic::write_with;
 use stillpoint::certificate;
 use stillpoint::check::{Settings, check, exit_status, summarise};
 use stillpoint::keep::Keep;
 use stillpoint::readings::compare;
 use stillpoint::reduce::Reductions;
-use stillpoint::report;
+use stillpoint::report::{self, About};
 use stillpoint::subject::{self, Subject};
 
 use super::cluster::ClusterOptions;
@@ -26,6 +27,12 @@ pub struct Arguments {
     /// Print the report as JSON
     #[arg(long)]
     json: bool,
+    /// Print the report as Markdown
+    #[arg(long, conflicts_with = "json")]
+    markdown: bool,
+    /// Write the report to this file as one HTML page that needs nothing else, also no network
+    #[arg(long, value_name = "FILE")]
+    html: Option<PathBuf>,
     #[command(flatten)]
     limits: LimitOptions,
     /// `all` compares every option of every reading; ID=OPTION chooses one
@@ -69,6 +76,9 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
                 .to_owned(),
         ));
     }
+    if let Some(path) = &arguments.html {
+        can_be_written(path)?;
+    }
     let every = arguments.checkpoint_every;
     let keep = match (&arguments.checkpoint, &arguments.resume) {
         (Some(folder), _) => Some(Keep::create(folder, every)),
@@ -91,6 +101,8 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         time: arguments.limits.time,
         interpret: arguments.interpret,
         reductions: arguments.reduce,
+        // Processes that explore together agree on a search without them.
+        witnesses: (arguments.markdown || arguments.html.is_some()) && place.cluster.is_none(),
         cluster: place.cluster.clone(),
     };
     let fail =
@@ -140,11 +152,25 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
             );
         }
         emit(&format!("{json:#}\n"));
-    } else {
+    } else if !arguments.markdown {
         show(&report::text(&subject, &checked, &summaries));
         emit(&report::further(&checked, &settings));
         if let Some(compared) = &compared {
             emit(&stillpoint::readings::text(compared));
+        }
+    }
+    if arguments.markdown || arguments.html.is_some() {
+        let mut about =
+            About::of(&subject, &checked, &settings, &mut |_| ()).map_err(Failure::Other)?;
+        about.readings = compared;
+        let document = report::document(&subject, &checked, &summaries, &about);
+        if arguments.markdown {
+            emit(&document.markdown());
+        }
+        if let Some(path) = &arguments.html {
+            write_with(path, |out| out.write_all(document.html().as_bytes())).map_err(|e| {
+                Failure::Other(format!("{} cannot be written: {e}", path.display()))
+            })?;
         }
     }
     // The report is out by now: it is not lost if the disk is full.
@@ -155,6 +181,25 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
             .map_err(Failure::Other)?;
     }
     Ok(status)
+}
+
+/// A report that cannot be written is better told before the check than after it.
+fn can_be_written(path: &Path) -> Result<(), Failure> {
+    let folder = match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    let why = if path.is_dir() {
+        "is a folder; name a file in it"
+    } else if !folder.is_dir() {
+        "is in no folder that exists; make it first"
+    } else {
+        return Ok(());
+    };
+    Err(Failure::Other(format!(
+        "--html {}: this {why}",
+        path.display()
+    )))
 }
 
 /// The options with which another process explores the same.

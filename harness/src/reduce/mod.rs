@@ -28,7 +28,7 @@ mod show;
 
 use images::Images;
 use plan::Share;
-pub use show::{text, to_json};
+pub use show::{lines, text, to_json};
 
 /// Which reductions to use.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]

@@ -34,7 +34,7 @@ pub fn text(out: &mut String, bound: &Bound, reduction: &Reduction) {
         }
     );
     for part in &reduction.parts {
-        wrapped(out, "   ", &line(bound, part));
+        wrapped(out, "   ", &line(bound, part, true));
     }
     for (id, other) in &reduction.images {
         wrapped(
@@ -45,7 +45,21 @@ pub fn text(out: &mut String, bound: &Bound, reduction: &Reduction) {
     }
 }
 
-fn line(bound: &Bound, part: &Explored) -> String {
+/// What [`text`] tells, each line apart and without times.
+pub fn lines(bound: &Bound, reduction: &Reduction) -> Vec<String> {
+    let names = names(reduction.wanted).join(", ");
+    if let Some(reason) = &reduction.whole {
+        return vec![format!("Reduction ({names}): none, {reason}")];
+    }
+    let parts = reduction.parts.iter();
+    let parts = parts.map(|p| format!("Reduction ({names}): {}", line(bound, p, false)));
+    let images = reduction.images.iter();
+    let images =
+        images.map(|(id, other)| format!("{id}: by symmetry as {other}, not judged again"));
+    parts.chain(images).collect()
+}
+
+fn line(bound: &Bound, part: &Explored, timed: bool) -> String {
     let mut judged = part.properties.clone();
     if part.faults {
         judged.push("no assignment leaves its range".to_owned());
@@ -61,14 +75,17 @@ fn line(bound: &Bound, part: &Explored) -> String {
         Evaluator::Generated => "generated step",
         Evaluator::Interpreter => "interpreter",
     };
+    let seconds = match timed {
+        true => format!(", {:.2} s", part.seconds),
+        false => String::new(),
+    };
     format!(
-        "{} of {} variables, {} of {} inputs, {} {orbits}, {evaluator}, {:.2} s: {}",
+        "{} of {} variables, {} of {} inputs, {} {orbits}, {evaluator}{seconds}: {}",
         part.variables,
         bound.states.len(),
         part.inputs,
         bound.inputs.len(),
         grouped(u128::from(part.states)),
-        part.seconds,
         judged.join(", ")
     )
 }

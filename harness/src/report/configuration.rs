@@ -1,0 +1,115 @@
+//! What was configured: the values of a machine file, or the parameters of a specification.
+
+use stillpoint_show::document::{Block, Inline};
+use stillpoint_spec::machine::{AxisKind, Machine, Settings};
+
+use super::document::{code, paragraph, section, table, words};
+use crate::subject::Subject;
+
+/// The values of a machine with their units; nothing for a specification, whose parameters stand at its explorations.
+pub(super) fn blocks(subject: &Subject) -> Vec<Block> {
+    let Some(machine) = &subject.machine else {
+        return Vec::new();
+    };
+    let mut out = vec![paragraph(format!(
+        "{}, family {}; one monitoring cycle is {} ms.",
+        machine.family_title,
+        machine.family,
+        millis(machine.monitoring_cycle)
+    ))];
+    out.push(Block::List(coverage(machine)));
+    if !machine.control.is_empty() {
+        out.push(section("Control", "control", settings(&machine.control)));
+    }
+    for (n, axis) in machine.axes.iter().enumerate() {
+        let kind = match axis.kind {
+            AxisKind::Linear => "linear axis",
+            AxisKind::Rotary => "rotary axis",
+        };
+        let title = match axis.title.as_str() {
+            "" => format!("Axis {}", axis.name),
+            title => format!("Axis {}: {title}", axis.name),
+        };
+        let functions = match axis.functions.is_empty() {
+            true => "no safety function".to_owned(),
+            false => axis.functions.join(", "),
+        };
+        let mut inside = vec![paragraph(format!("A {kind}; enabled: {functions}."))];
+        inside.extend(settings(&axis.values));
+        out.push(section(&title, &format!("axis-{}", n + 1), inside));
+    }
+    for (n, door) in machine.doors.iter().enumerate() {
+        let title = match door.title.as_str() {
+            "" => format!("Guard door {}", door.name),
+            title => format!("Guard door {}: {title}", door.name),
+        };
+        let axes: Vec<&str> = door.axes.iter().map(|a| a.get_ref().as_str()).collect();
+        let mut inside = vec![paragraph(format!("Within reach: {}.", axes.join(", ")))];
+        inside.extend(settings(&door.values));
+        out.push(section(&title, &format!("door-{}", n + 1), inside));
+    }
+    out
+}
+
+/// What is explored together, apart, or not at all.
+fn coverage(machine: &Machine) -> Vec<Vec<Inline>> {
+    let mut out: Vec<Vec<Inline>> = Vec::new();
+    for group in &machine.groups {
+        out.push(words(format!(
+            "Coupled, explored together: {}.",
+            group.join(", ")
+        )));
+    }
+    let coupled = |name: &str| machine.groups.iter().any(|g| g.iter().any(|m| m == name));
+    let alone: Vec<&str> = machine
+        .axes
+        .iter()
+        .map(|a| a.name.as_str())
+        .filter(|a| !coupled(a))
+        .collect();
+    if !alone.is_empty() {
+        out.push(words(format!(
+            "On its own, explored separately: {}.",
+            alone.join(", ")
+        )));
+    }
+    for item in &machine.not_explored {
+        out.push(vec![
+            Inline::Strong("Not explored: ".to_owned()),
+            Inline::Text(item.clone()),
+        ]);
+    }
+    out
+}
+
+/// Values that the file gives, and those it leaves to the family's default folded away.
+fn settings(values: &Settings) -> Vec<Block> {
+    let rows = |given: bool| -> Vec<Vec<Vec<Inline>>> {
+        values
+            .iter()
+            .filter(|(_, s)| s.is_given() == given)
+            .map(|(name, s)| vec![code(name), words(s.shown.join(", "))])
+            .collect()
+    };
+    let mut out = Vec::new();
+    let (given, defaults) = (rows(true), rows(false));
+    if !given.is_empty() {
+        out.push(table(&["parameter", "value"], given));
+    }
+    if !defaults.is_empty() {
+        out.push(Block::Details {
+            summary: words(format!(
+                "{} parameters have the default of the manual",
+                defaults.len()
+            )),
+            blocks: vec![table(&["parameter", "default"], defaults)],
+        });
+    }
+    out
+}
+
+/// Microseconds in milliseconds, with the decimals that are needed.
+fn millis(us: i64) -> String {
+    let text = format!("{}.{:03}", us / 1000, us % 1000);
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}

@@ -1,0 +1,449 @@
+//! The report as a document, for HTML and Markdown. It tells no times and no memory: equal input gives equal bytes.
+
+use std::collections::BTreeMap;
+
+use stillpoint_certify::format::{Kind, Source};
+use stillpoint_certify::subject as certified;
+use stillpoint_model::{Limits, Options, Verdict};
+use stillpoint_show::document::{Block, Column, Document, Inline, Table, Tone};
+use stillpoint_show::graph::Graph;
+use stillpoint_spec::ir::Topic;
+
+use super::{configuration, exploration, grouped, inventory, properties, result, verdict_name};
+use crate::check::{Checked, Settings, Summary, Unfired, exit_status, violations};
+use crate::readings::Compared;
+use crate::states::{Budget, control_states};
+use crate::subject::{Subject, Task};
+use crate::topics;
+
+/// Beyond this many cycles the control states of a system are not drawn, which would take longer than the check.
+const BUDGET: Budget = Budget {
+    generated: 40_000_000,
+    interpreted: 4_000_000,
+};
+
+/// What a document tells beside the result of the check.
+#[derive(Debug, Default)]
+pub struct About {
+    /// The files that were read, with their SHA-256.
+    pub sources: Vec<Source>,
+    /// For each task its machines' control states.
+    pub control: Vec<Control>,
+    /// The comparison of the readings, if it was made.
+    pub readings: Option<Vec<Compared>>,
+}
+
+/// The control states of the machines of one system.
+#[derive(Debug)]
+pub enum Control {
+    /// Machine instance and its states, for those that have any.
+    Drawn(Vec<(String, Graph)>),
+    /// Why they are not told.
+    Omitted(String),
+}
+
+impl About {
+    /// Collects what [`document`] needs for a checked subject.
+    ///
+    /// # Errors
+    /// One sentence: files that cannot be read any more or have been changed during the check.
+    pub fn of(
+        subject: &Subject,
+        checked: &[Checked],
+        settings: &Settings,
+        begin: &mut dyn FnMut(&Task),
+    ) -> Result<Self, String> {
+        let mut out = Self {
+            sources: sources(subject)?,
+            ..Self::default()
+        };
+        for (task, done) in subject.tasks.iter().zip(checked) {
+            begin(task);
+            out.control.push(drawn(task, done, settings)?);
+        }
+        Ok(out)
+    }
+}
+
+fn sources(subject: &Subject) -> Result<Vec<Source>, String> {
+    let kind = match subject.machine {
+        Some(_) => Kind::Machine,
+        None => Kind::Specification,
+    };
+    let tasks = subject.tasks.iter();
+    let readings: BTreeMap<String, String> = tasks.flat_map(|t| t.bound.readings()).collect();
+    let read =
+        certified::Subject::load(&subject.path, kind, &readings).map_err(|e| e.to_string())?;
+    let same = read.bounds.len() == subject.tasks.len()
+        && (read.bounds.iter().zip(&subject.tasks))
+            .all(|(a, t)| a.system == t.bound.system && a.values == t.bound.values);
+    if !same {
+        return Err("the specification was changed during the check".to_owned());
+    }
+    Ok(read.header.file)
+}
+
+fn drawn(task: &Task, done: &Checked, settings: &Settings) -> Result<Control, String> {
+    let report = &done.outcome.report;
+    if !report.complete {
+        let why = "not drawn, since a limit ended the exploration";
+        return Ok(Control::Omitted(why.to_owned()));
+    }
+    let options = Options {
+        limits: Limits {
+            memory: settings.memory,
+            time: settings.time,
+            threads: settings.threads,
+        },
+        ..Options::default()
+    };
+    let drawn = control_states(&task.bound, BUDGET, &options)
+        .map_err(|e| format!("{}: control states: {e}", task.title))?;
+    Ok(match drawn {
+        Some(drawn) => Control::Drawn(drawn),
+        None => Control::Omitted(
+            "not drawn, since too many cycles would have to be gone through once more; \
+             stillpoint export --to dot draws them"
+                .to_owned(),
+        ),
+    })
+}
+
+/// The whole report as a document.
+pub fn document(
+    subject: &Subject,
+    checked: &[Checked],
+    summaries: &[Summary],
+    about: &About,
+) -> Document {
+    let mut blocks = vec![verdict(subject, checked, summaries)];
+    blocks.push(figures(checked, summaries));
+    let mut part = |title: &str, anchor: &str, inside: Vec<Block>| {
+        if !inside.is_empty() {
+            blocks.push(section(title, anchor, inside));
+        }
+    };
+    part(
+        "Counterexamples",
+        "counterexamples",
+        counterexamples(subject, checked),
+    );
+    part(
+        "Configuration",
+        "configuration",
+        configuration::blocks(subject),
+    );
+    part(
+        "Properties",
+        "properties",
+        properties::blocks(subject, checked),
+    );
+    part(
+        "Single faults",
+        "faults",
+        topic(subject, checked, Topic::Fault),
+    );
+    part(
+        "Reaction times",
+        "reactions",
+        topic(subject, checked, Topic::Reaction),
+    );
+    part(
+        "Explorations",
+        "explorations",
+        exploration::blocks(subject, checked),
+    );
+    part(
+        "Control states",
+        "control-states",
+        exploration::control(subject, &about.control),
+    );
+    part(
+        "Rule coverage",
+        "rule-coverage",
+        exploration::coverage(subject, checked),
+    );
+    part(
+        "Readings of the manual",
+        "readings",
+        readings(subject, about.readings.as_deref()),
+    );
+    if subject.machine.is_some() {
+        part("Proofs of the monitors", "proofs", inventory::blocks());
+    }
+    part("Tool and input", "input", input(about));
+    Document {
+        title: format!("{}: report of the check", subject.name),
+        subtitle: subject.title.clone(),
+        blocks,
+    }
+}
+
+pub(super) fn section(title: &str, anchor: &str, blocks: Vec<Block>) -> Block {
+    Block::Section {
+        title: title.to_owned(),
+        anchor: anchor.to_owned(),
+        blocks,
+    }
+}
+
+pub(super) fn words(text: impl Into<String>) -> Vec<Inline> {
+    vec![Inline::Text(text.into())]
+}
+
+pub(super) fn code(text: impl Into<String>) -> Vec<Inline> {
+    vec![Inline::Code(text.into())]
+}
+
+pub(super) fn paragraph(text: impl Into<String>) -> Block {
+    Block::Paragraph(words(text))
+}
+
+/// A table; a heading that begins with `#` stands over numbers.
+pub(super) fn table(heads: &[&str], rows: Vec<Vec<Vec<Inline>>>) -> Block {
+    let column = |head: &&str| Column {
+        title: head.trim_start_matches('#').to_owned(),
+        number: head.starts_with('#'),
+    };
+    Block::Table(Table {
+        caption: String::new(),
+        columns: heads.iter().map(column).collect(),
+        rows,
+    })
+}
+
+pub(super) fn badge(verdict: Verdict) -> Vec<Inline> {
+    let tone = match verdict {
+        Verdict::Holds | Verdict::Reached => Tone::Good,
+        Verdict::Violated | Verdict::Unreachable => Tone::Bad,
+        Verdict::Vacuous | Verdict::Inconclusive => Tone::Open,
+    };
+    vec![Inline::Badge(tone, verdict_name(verdict).to_owned())]
+}
+
+fn verdict(subject: &Subject, checked: &[Checked], summaries: &[Summary]) -> Block {
+    let status = exit_status(summaries, checked);
+    let tone = match status {
+        0 if summaries.is_empty() => Tone::Plain,
+        0 => Tone::Good,
+        1 => Tone::Bad,
+        _ => Tone::Open,
+    };
+    let counts: Vec<String> = [
+        Verdict::Violated,
+        Verdict::Unreachable,
+        Verdict::Inconclusive,
+        Verdict::Holds,
+        Verdict::Reached,
+        Verdict::Vacuous,
+    ]
+    .into_iter()
+    .filter_map(|v| {
+        let n = summaries.iter().filter(|s| s.verdict == v).count();
+        (n > 0).then(|| format!("{n} {}", verdict_name(v)))
+    })
+    .collect();
+    let mut text = String::new();
+    if !counts.is_empty() {
+        text = format!("Of {} properties: {}. ", summaries.len(), counts.join(", "));
+    }
+    text.push_str(if checked.iter().all(|c| c.outcome.report.complete) {
+        "Every reachable state was explored."
+    } else {
+        "Not every reachable state was explored: a limit was reached first."
+    });
+    let unexplained = checked.iter().flat_map(|c| &c.unfired);
+    let findings = unexplained
+        .filter(|(_, u)| *u == Unfired::Unexplained)
+        .count();
+    if findings > 0 {
+        text.push_str(&format!(
+            " Finding: {findings} rules never fire and nothing says why."
+        ));
+    }
+    if subject.tasks.iter().any(|t| !t.abstractions.is_empty()) {
+        text.push_str(
+            " The explorations are coarser than the machine where their abstractions say so.",
+        );
+    }
+    Block::Verdict {
+        tone,
+        head: result(summaries, checked).to_owned(),
+        text: words(text),
+    }
+}
+
+fn figures(checked: &[Checked], summaries: &[Summary]) -> Block {
+    let reports = || checked.iter().map(|c| &c.outcome.report);
+    let figure = |n: u128, name: &str| (grouped(n), name.to_owned());
+    Block::Figures(vec![
+        figure(summaries.len() as u128, "properties"),
+        figure(checked.len() as u128, "explorations"),
+        figure(reports().map(|r| u128::from(r.states)).sum(), "states"),
+        figure(reports().map(|r| r.transitions).sum(), "transitions"),
+        figure(
+            reports().map(|r| u128::from(r.depth)).max().unwrap_or(0),
+            "cycles to the farthest state",
+        ),
+    ])
+}
+
+fn counterexamples(subject: &Subject, checked: &[Checked]) -> Vec<Block> {
+    let mut out = Vec::new();
+    for (n, violation) in violations(subject, checked).iter().enumerate() {
+        let mut inside = vec![paragraph(&violation.text)];
+        inside.push(paragraph(format!("In: {}", violation.task.title)));
+        if let Some(reason) = violation.refuted {
+            inside.push(paragraph(reason));
+        }
+        let mark = format!("{} is violated here", violation.id);
+        let runs = [violation.trace, violation.second];
+        for (k, trace) in runs.into_iter().flatten().enumerate() {
+            inside.push(paragraph(match k {
+                0 => format!("The shortest run, {} cycles:", trace.steps.len()),
+                _ => "Against the run that differs only in the inputs named:".to_owned(),
+            }));
+            inside.push(properties::timing(
+                subject,
+                violation.task,
+                trace,
+                &mark,
+                true,
+            ));
+        }
+        if violation.trace.is_none() && violation.refuted.is_none() {
+            inside.push(paragraph("No run could be rebuilt within the limits."));
+        }
+        let anchor = format!("counterexample-{}", n + 1);
+        out.push(section(&violation.id, &anchor, inside));
+    }
+    out
+}
+
+fn topic(subject: &Subject, checked: &[Checked], topic: Topic) -> Vec<Block> {
+    let rows = topics::rows(subject, checked, topic);
+    if rows.is_empty() {
+        return Vec::new();
+    }
+    let cells = rows.iter().map(|row| {
+        let verdict = match (topic, row.detected()) {
+            (Topic::Fault, Some(false)) => {
+                vec![Inline::Badge(Tone::Open, "undetected".to_owned())]
+            }
+            _ => badge(row.verdict),
+        };
+        let mut text = row.text.clone();
+        if topic == Topic::Fault && row.detected() == Some(false) {
+            text.push_str(": undetected until the next forced check");
+        }
+        let allowed = row.within.map_or(String::new(), |n| n.to_string());
+        vec![
+            code(&row.id),
+            verdict,
+            words(row.cycles()),
+            words(row.time()),
+            words(allowed),
+            words(text),
+            words(row.axes.join(", ")),
+            words(row.req.join(" ")),
+        ]
+    });
+    let what = match topic {
+        Topic::Fault => "fault",
+        Topic::Reaction => "reaction",
+    };
+    vec![table(
+        &[
+            "property",
+            "verdict",
+            "#cycles",
+            "#time",
+            "#allowed",
+            what,
+            "axes",
+            "requirements",
+        ],
+        cells.collect(),
+    )]
+}
+
+fn readings(subject: &Subject, compared: Option<&[Compared]>) -> Vec<Block> {
+    let mut rows: Vec<(String, Vec<Vec<Inline>>)> = Vec::new();
+    for task in &subject.tasks {
+        let chosen: BTreeMap<String, String> = task.bound.readings().into_iter().collect();
+        for reading in &task.bound.system.readings {
+            if rows.iter().any(|(id, _)| *id == reading.id) {
+                continue;
+            }
+            let option = chosen.get(&reading.id).map_or("", String::as_str);
+            let others: Vec<&str> = reading
+                .options
+                .iter()
+                .map(String::as_str)
+                .filter(|o| *o != option)
+                .collect();
+            let mut row = vec![
+                code(&reading.id),
+                words(&reading.text),
+                code(option),
+                words(others.join(", ")),
+            ];
+            if let Some(compared) = compared {
+                row.push(effect(compared, &reading.id));
+            }
+            rows.push((reading.id.clone(), row));
+        }
+    }
+    if rows.is_empty() {
+        return Vec::new();
+    }
+    let mut heads = vec!["reading", "what is ambiguous", "read as", "other options"];
+    let mut out = vec![paragraph(match compared {
+        Some(_) => "Each other option was explored as well; the last column tells what it changes.",
+        None => {
+            "Where the manual can be read in more than one way, one option was chosen. Which verdicts depend on that is \
+             told by the same command with --readings all."
+        }
+    })];
+    if compared.is_some() {
+        heads.push("what the others change");
+    }
+    let rows = rows.into_iter().map(|(_, row)| row).collect();
+    out.push(table(&heads, rows));
+    out
+}
+
+/// What the other options of a reading change.
+fn effect(compared: &[Compared], id: &str) -> Vec<Inline> {
+    let mut lines = Vec::new();
+    for c in compared.iter().filter(|c| c.reading == id) {
+        let mut said: Vec<String> = c
+            .changes
+            .iter()
+            .map(|(id, a, b)| format!("{id}: {a} → {b}"))
+            .collect();
+        if c.tasks == 0 {
+            said.push("not used".to_owned());
+        } else if said.is_empty() {
+            said.push("no verdict".to_owned());
+        }
+        if !c.complete {
+            said.push("not explored to the end".to_owned());
+        }
+        lines.push(format!("{}: {}", c.option, said.join("; ")));
+    }
+    words(lines.join("\n"))
+}
+
+fn input(about: &About) -> Vec<Block> {
+    let rows = about.sources.iter();
+    let rows = rows.map(|s| vec![code(&s.name), code(&s.sha256)]);
+    vec![
+        paragraph(format!("Made by stillpoint {}.", env!("CARGO_PKG_VERSION"))),
+        table(&["file", "SHA-256"], rows.collect()),
+        paragraph(
+            "This report is no certificate of conformity. It tells what was explored; the chapter on limits in the \
+             manual of Stillpoint tells what that means and what it does not.",
+        ),
+    ]
+}

@@ -1,0 +1,214 @@
+//! What was explored: sizes, abstractions, control states, rules.
+
+use stillpoint_show::document::{Block, Inline, Tone};
+
+use super::document::{Control, code, paragraph, table, words};
+use super::{grouped, params, reduced, storage_name};
+use crate::check::{Checked, Unfired};
+use crate::engine::Evaluator;
+use crate::reduce;
+use crate::subject::{Subject, Task};
+
+/// One row of figures for each exploration, then its parameters and abstractions.
+pub(super) fn blocks(subject: &Subject, checked: &[Checked]) -> Vec<Block> {
+    let mut rows = Vec::new();
+    let mut details = Vec::new();
+    for (n, (task, done)) in subject.tasks.iter().zip(checked).enumerate() {
+        let report = &done.outcome.report;
+        let evaluator = match done.outcome.evaluator {
+            Evaluator::Generated => "generated step",
+            Evaluator::Interpreter => "interpreter",
+        };
+        let told = |text: String| {
+            words(match reduced(done) {
+                true => "not told".to_owned(),
+                false => text,
+            })
+        };
+        rows.push(vec![
+            words((n + 1).to_string()),
+            words(&task.title),
+            words(grouped(u128::from(report.states))),
+            told(grouped(report.index_space)),
+            words(grouped(report.transitions)),
+            words(report.depth.to_string()),
+            told(grouped(u128::from(report.absorbing))),
+            words(format!("{evaluator}, {}", storage_name(report.storage))),
+            vec![match report.complete {
+                true => Inline::Badge(Tone::Good, "complete".to_owned()),
+                false => Inline::Badge(Tone::Open, "not complete".to_owned()),
+            }],
+        ]);
+        details.push(about(n + 1, task, done));
+    }
+    let heads = [
+        "#run",
+        "what",
+        "#states",
+        "#of",
+        "#transitions",
+        "#depth",
+        "#absorbing",
+        "how",
+        "",
+    ];
+    let mut out = vec![
+        table(&heads, rows),
+        paragraph(
+            "Transitions count every combination of inputs. Depth is the number of cycles to the farthest state; an \
+             absorbing state has only itself as its successor.",
+        ),
+    ];
+    out.extend(details);
+    out
+}
+
+fn about(n: usize, task: &Task, done: &Checked) -> Block {
+    let mut inside = vec![Block::Paragraph(vec![
+        Inline::Text("System ".to_owned()),
+        Inline::Code(task.bound.system.name.clone()),
+        Inline::Text(".".to_owned()),
+    ])];
+    let mut points: Vec<Vec<Inline>> = Vec::new();
+    let kinds = [
+        ("Abstraction: ", &task.abstractions),
+        ("Warning: ", &task.bound.system.warnings),
+    ];
+    for (kind, items) in kinds {
+        points.extend(
+            items
+                .iter()
+                .map(|item| vec![Inline::Strong(kind.to_owned()), Inline::Text(item.clone())]),
+        );
+    }
+    points.extend(task.analysis.skipped.iter().map(|skipped| {
+        words(format!(
+            "Not analysed: guards of {skipped} read too many values"
+        ))
+    }));
+    if let Some(reduction) = &done.outcome.reduction {
+        points.extend(reduce::lines(&task.bound, reduction).into_iter().map(words));
+    }
+    if !points.is_empty() {
+        inside.push(Block::List(points));
+    }
+    let params = params(&task.bound);
+    let count = params.len();
+    if count > 0 {
+        let rows = params
+            .into_iter()
+            .map(|(name, value)| vec![code(name), words(value)]);
+        inside.push(table(&["parameter", "#value"], rows.collect()));
+    }
+    let coarse = match task.abstractions.len() {
+        0 => String::new(),
+        1 => ", 1 abstraction".to_owned(),
+        n => format!(", {n} abstractions"),
+    };
+    Block::Details {
+        summary: words(format!("Run {n}: {count} parameters{coarse}")),
+        blocks: inside,
+    }
+}
+
+/// The control states of each machine, drawn.
+pub(super) fn control(subject: &Subject, drawn: &[Control]) -> Vec<Block> {
+    let mut out = Vec::new();
+    for (n, (task, drawn)) in subject.tasks.iter().zip(drawn).enumerate() {
+        let title = match subject.tasks.len() {
+            1 => task.title.clone(),
+            _ => format!("Run {}: {}", n + 1, task.title),
+        };
+        let inside: Vec<Block> = match drawn {
+            Control::Omitted(why) => vec![paragraph(format!("{title}: {why}."))],
+            Control::Drawn(graphs) => graphs
+                .iter()
+                .flat_map(|(instance, graph)| {
+                    [
+                        Block::Paragraph(vec![
+                            Inline::Text("Machine ".to_owned()),
+                            Inline::Strong(instance.clone()),
+                        ]),
+                        Block::Graph(Box::new(graph.clone())),
+                    ]
+                })
+                .collect(),
+        };
+        match drawn {
+            Control::Omitted(_) => out.extend(inside),
+            Control::Drawn(_) if inside.is_empty() => {}
+            Control::Drawn(_) if subject.tasks.len() == 1 => out.extend(inside),
+            Control::Drawn(graphs) => out.push(Block::Details {
+                summary: words(match graphs.len() {
+                    1 => format!("{title} (1 machine)"),
+                    n => format!("{title} ({n} machines)"),
+                }),
+                blocks: inside,
+            }),
+        }
+    }
+    if out.is_empty() {
+        return out;
+    }
+    let about = paragraph(
+        "A state of a machine is a combination of the values of its variables with names for values. What is reached is \
+         drawn strong, what no run reaches pale; runs begin at the thick frame. The words at an arrow are the rules that \
+         lead there.",
+    );
+    out.insert(0, about);
+    out
+}
+
+/// How often each rule fired, and why some never did.
+pub(super) fn coverage(subject: &Subject, checked: &[Checked]) -> Vec<Block> {
+    let mut out = Vec::new();
+    for (n, (task, done)) in subject.tasks.iter().zip(checked).enumerate() {
+        let title = format!("Run {}: {}", n + 1, task.title);
+        if reduced(done) {
+            out.push(paragraph(format!(
+                "{title}: not told by a reduced exploration."
+            )));
+            continue;
+        }
+        let system = &task.bound.system;
+        let mut fired = 0;
+        let mut findings = 0;
+        let mut rows = Vec::new();
+        for (rule, count) in system.rules().zip(&done.outcome.report.coverage) {
+            let why = done.unfired.iter().find(|(name, _)| *name == rule.name);
+            let told = match why.map(|(_, why)| why) {
+                None => Vec::new(),
+                Some(Unfired::Parameters) => words("excluded by these parameters"),
+                Some(Unfired::Explained(reason)) => words(reason),
+                Some(Unfired::Unknown) => words("not before the limit was reached"),
+                Some(Unfired::Unexplained) => {
+                    findings += 1;
+                    vec![Inline::Badge(
+                        Tone::Bad,
+                        "finding: nothing says why".to_owned(),
+                    )]
+                }
+            };
+            fired += usize::from(*count > 0);
+            rows.push(vec![
+                code(&rule.name),
+                words(grouped(u128::from(*count))),
+                told,
+                words(rule.ids.join(" ")),
+            ]);
+        }
+        let of = rows.len();
+        let summary = match findings {
+            0 => format!("{title}: {fired} of {of} rules fire"),
+            n => format!("{title}: {fired} of {of} rules fire, {n} findings"),
+        };
+        out.push(Block::Details {
+            summary: words(summary),
+            blocks: vec![table(
+                &["rule", "#transitions", "why not", "requirements"],
+                rows,
+            )],
+        });
+    }
+    out
+}

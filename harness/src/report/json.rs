@@ -1,0 +1,118 @@
+//! The report as JSON.
+
+use std::collections::BTreeMap;
+
+use serde_json::{Value, json};
+use stillpoint_model::{Trace, Verdict};
+use stillpoint_spec::bind::Bound;
+use stillpoint_spec::ir::Topic;
+
+use super::{params, reduced, verdict_name};
+use crate::check::{Checked, Summary, Unfired};
+use crate::engine::Evaluator;
+use crate::reduce;
+use crate::subject::Subject;
+use crate::topics;
+
+/// The whole report as JSON: the design's keys at the top, details under `runs`.
+pub fn to_json(subject: &Subject, checked: &[Checked], summaries: &[Summary]) -> Value {
+    let runs: Vec<Value> = subject
+        .tasks
+        .iter()
+        .zip(checked)
+        .map(|(task, done)| {
+            let report = &done.outcome.report;
+            let system = &task.bound.system;
+            let properties: Vec<Value> = system
+                .properties
+                .iter()
+                .zip(&report.properties)
+                .enumerate()
+                .map(|(k, (p, j))| {
+                    let counterexample = (j.verdict == Verdict::Violated)
+                        .then(|| j.trace.as_ref().map(|t| steps(t, &task.bound)));
+                    json!({
+                        "id": p.id, "index": p.index, "text": p.text, "requirements": p.req,
+                        "verdict": verdict_name(j.verdict), "length": j.length, "bound": j.bound, "fastest": j.fastest,
+                        "refuted": done.outcome.refuted.get(&k),
+                        "counterexample": counterexample.flatten(),
+                    })
+                })
+                .collect();
+            let rules: Vec<Value> = system
+                .rules()
+                .zip(&report.coverage)
+                .map(|(r, n)| json!({ "rule": r.name, "requirements": r.ids, "fired": n }))
+                .collect();
+            let unfired: Vec<Value> = done
+                .unfired
+                .iter()
+                .map(|(rule, why)| {
+                    let why = match why {
+                        Unfired::Parameters => "excluded by the parameters",
+                        Unfired::Explained(reason) => reason,
+                        Unfired::Unexplained => "unexplained",
+                        Unfired::Unknown => "not explored to the end",
+                    };
+                    json!({ "rule": rule, "reason": why })
+                })
+                .collect();
+            json!({
+                "title": task.title, "system": system.name, "axes": task.axes,
+                "abstractions": task.abstractions,
+                "parameters": params(&task.bound).into_iter().collect::<BTreeMap<_, _>>(),
+                "readings": task.bound.readings().into_iter().collect::<BTreeMap<_, _>>(),
+                "states": report.states, "transitions": number(report.transitions),
+                "depth": report.depth, "seconds": report.seconds, "complete": report.complete,
+                "resumable": report.resumable,
+                "absorbing": (!reduced(done)).then_some(report.absorbing), "memory": report.memory,
+                "bytes_per_state": report.bytes_per_state(),
+                "index_space": number(report.index_space),
+                "evaluator": match done.outcome.evaluator {
+                    Evaluator::Generated => "generated", Evaluator::Interpreter => "interpreter",
+                },
+                "properties": properties, "rules": rules, "unfired": unfired,
+                "reduction": done.outcome.reduction.as_ref().map(|r| reduce::to_json(&task.bound, r)),
+                "warnings": system.warnings,
+            })
+        })
+        .collect();
+    let reports = || checked.iter().map(|c| &c.outcome.report);
+    json!({
+        "name": subject.name,
+        "file": subject.path.display().to_string(),
+        "states": reports().map(|r| r.states).sum::<u64>(),
+        "transitions": number(reports().map(|r| r.transitions).sum()),
+        "depth": reports().map(|r| r.depth).max().unwrap_or(0),
+        "seconds": reports().map(|r| r.seconds).sum::<f64>(),
+        "complete": reports().all(|r| r.complete),
+        "properties": summaries.iter().map(|s| json!({
+            "id": s.id, "verdict": verdict_name(s.verdict), "length": s.length,
+        })).collect::<Vec<_>>(),
+        "faults": topics::to_json(subject, checked, Topic::Fault),
+        "reactions": topics::to_json(subject, checked, Topic::Reaction),
+        "runs": runs,
+    })
+}
+
+fn steps(trace: &Trace, bound: &Bound) -> Value {
+    let names = |step: &Vec<(u32, u32)>| -> Value {
+        step.iter()
+            .filter_map(|(k, v)| {
+                let input = bound.system.inputs.get(*k as usize)?;
+                let (lo, _) = bound.inputs[*k as usize];
+                Some((
+                    input.name.clone(),
+                    json!(bound.system.show(input.ty, i64::from(lo) + i64::from(*v))),
+                ))
+            })
+            .collect::<serde_json::Map<_, _>>()
+            .into()
+    };
+    json!({ "steps": trace.steps.iter().map(names).collect::<Vec<_>>(), "loop_start": trace.loop_start })
+}
+
+/// A count; beyond 64 bits a float, since JSON readers would lose digits anyway.
+fn number(n: u128) -> Value {
+    u64::try_from(n).map_or(json!(n as f64), |n| json!(n))
+}

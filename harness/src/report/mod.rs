@@ -1,0 +1,99 @@
+//! The report of `check`: as text, as JSON, and as a document for HTML and Markdown.
+
+mod configuration;
+mod document;
+mod exploration;
+mod inventory;
+mod json;
+mod properties;
+mod text;
+
+use stillpoint_model::{Storage, Trace, Verdict};
+use stillpoint_show::diagram::{Diagram, Mark};
+use stillpoint_spec::bind::Bound;
+
+use crate::check::{Checked, Summary, exit_status};
+use crate::engine::replay;
+use crate::timing;
+
+pub use document::{About, Control, document};
+pub use json::to_json;
+pub(crate) use text::wrapped;
+pub use text::{further, text};
+
+/// A verdict as it stands in JSON.
+pub fn verdict_name(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Holds => "holds",
+        Verdict::Violated => "violated",
+        Verdict::Vacuous => "vacuous",
+        Verdict::Reached => "reached",
+        Verdict::Unreachable => "unreachable",
+        Verdict::Inconclusive => "inconclusive",
+    }
+}
+
+/// A number with thin groups of three: `4 024 036`.
+pub fn grouped(n: u128) -> String {
+    let digits = n.to_string();
+    let mut out = String::new();
+    for (k, d) in digits.chars().enumerate() {
+        if k > 0 && (digits.len() - k) % 3 == 0 {
+            out.push(' ');
+        }
+        out.push(d);
+    }
+    out
+}
+
+/// The timing diagram of a run, with a mark at its last cycle.
+pub fn diagram(bound: &Bound, trace: &Trace, mark: &str) -> Diagram {
+    let cycles = replay(bound, trace);
+    let mut diagram = timing::of_run(bound, &cycles);
+    diagram.marks.push(Mark {
+        column: cycles.len(),
+        text: mark.to_owned(),
+        fault: true,
+    });
+    // A loop starts with the step of that number, which makes the column after it.
+    diagram.loop_start = trace.loop_start.map(|k| k + 1);
+    diagram
+}
+
+/// Parameters with their values as a reader wants to see them, without the readings' options.
+pub fn params(bound: &Bound) -> Vec<(String, String)> {
+    let all = bound.system.params.iter().zip(&bound.values);
+    all.filter(|(p, _)| p.reading.is_none())
+        .map(|(p, v)| {
+            (
+                p.var.name.clone(),
+                bound.system.show(p.var.ty, i64::from(*v)),
+            )
+        })
+        .collect()
+}
+
+/// Whether less than the whole system was explored.
+fn reduced(done: &Checked) -> bool {
+    let reduction = done.outcome.reduction.as_ref();
+    reduction.is_some_and(|r| r.whole.is_none())
+}
+
+/// The result in a few words.
+fn result(summaries: &[Summary], checked: &[Checked]) -> &'static str {
+    match exit_status(summaries, checked) {
+        0 if summaries.is_empty() => "EXPLORED, no property is stated",
+        0 => "ALL PROPERTIES HOLD",
+        1 => "VIOLATED",
+        _ => "INCONCLUSIVE: a limit was reached first",
+    }
+}
+
+/// How states were stored, in words.
+fn storage_name(storage: Storage) -> &'static str {
+    match storage {
+        Storage::Bitmap => "exact bitmap",
+        Storage::Hash64 | Storage::Hash128 => "exact hash set",
+        Storage::Intervals => "intervals of a timer's values",
+    }
+}

@@ -1,0 +1,280 @@
+//! The report as text.
+
+use std::fmt::Write;
+
+use stillpoint_model::{Storage, Verdict};
+use stillpoint_spec::ir::Topic;
+
+use super::properties::rows;
+use super::{diagram, grouped, params, reduced, result, storage_name, verdict_name};
+use crate::check::{Checked, Settings, Summary, Unfired, violations};
+use crate::engine::Evaluator;
+use crate::reduce;
+use crate::subject::{Subject, Task};
+use crate::topics;
+
+/// Property texts are wrapped at this width.
+const WIDTH: usize = 100;
+
+/// The whole report as text.
+pub fn text(subject: &Subject, checked: &[Checked], summaries: &[Summary]) -> String {
+    let mut out = String::new();
+    headline(&mut out, subject, checked, summaries);
+    if let Some(machine) = &subject.machine {
+        for group in &machine.groups {
+            let _ = writeln!(out, "Coupled, explored together: {}.", group.join(", "));
+        }
+        let alone: Vec<&str> = machine
+            .axes
+            .iter()
+            .map(|a| a.name.as_str())
+            .filter(|a| !machine.groups.iter().any(|g| g.iter().any(|m| m == a)))
+            .collect();
+        if !alone.is_empty() {
+            let _ = writeln!(
+                out,
+                "On its own, explored separately: {}.",
+                alone.join(", ")
+            );
+        }
+        for item in &machine.not_explored {
+            let _ = writeln!(out, "Not explored: {item}");
+        }
+        out.push('\n');
+    }
+    for violation in violations(subject, checked) {
+        let _ = writeln!(out, "VIOLATED  {}  {}", violation.id, violation.text);
+        let _ = writeln!(out, "  in: {}", violation.task.title);
+        if let Some(reason) = violation.refuted {
+            let _ = writeln!(out, "  {reason}");
+        }
+        match violation.trace {
+            Some(trace) => {
+                let _ = writeln!(out, "  shortest run, {} cycles:", trace.steps.len());
+                out.push_str(&diagram(&violation.task.bound, trace, "violated here").text());
+                if let Some(second) = violation.second {
+                    out.push_str("  against the run that differs only in the inputs named:\n");
+                    out.push_str(&diagram(&violation.task.bound, second, "violated here").text());
+                }
+            }
+            None if violation.refuted.is_some() => {}
+            None => out.push_str("  (no run could be rebuilt within the limits)\n"),
+        }
+        out.push('\n');
+    }
+    properties(&mut out, subject, checked);
+    for topic in [Topic::Fault, Topic::Reaction] {
+        topics::text(&mut out, subject, checked, topic);
+    }
+    for (n, (task, done)) in subject.tasks.iter().zip(checked).enumerate() {
+        run(&mut out, n + 1, task, done);
+    }
+    out
+}
+
+/// Every property once, with the runs in which it was judged; what differs between runs is told.
+fn properties(out: &mut String, subject: &Subject, checked: &[Checked]) {
+    let rows = rows(subject, checked);
+    let width = rows.iter().map(|r| r.id.chars().count()).max().unwrap_or(0);
+    for row in &rows {
+        let told = row.told(subject.tasks.len() > 1);
+        let told = if told.is_empty() {
+            String::new()
+        } else {
+            format!(" [{}]", told.join("; "))
+        };
+        let head = format!("  {:<12} {:<width$}", verdict_name(row.verdict), row.id);
+        wrapped(out, &head, &format!("{}{told}", row.text));
+    }
+    out.push('\n');
+}
+
+fn headline(out: &mut String, subject: &Subject, checked: &[Checked], summaries: &[Summary]) {
+    let count = |v: Verdict| summaries.iter().filter(|s| s.verdict == v).count();
+    let complete = checked.iter().all(|c| c.outcome.report.complete);
+    let verdict = result(summaries, checked);
+    let states: u128 = checked
+        .iter()
+        .map(|c| u128::from(c.outcome.report.states))
+        .sum();
+    let transitions: u128 = checked.iter().map(|c| c.outcome.report.transitions).sum();
+    let seconds: f64 = checked.iter().map(|c| c.outcome.report.seconds).sum();
+    let _ = writeln!(out, "{}: {verdict}", subject.name);
+    if !subject.title.is_empty() {
+        let _ = writeln!(out, "{}", subject.title);
+    }
+    let list: Vec<String> = [
+        Verdict::Violated,
+        Verdict::Unreachable,
+        Verdict::Inconclusive,
+        Verdict::Holds,
+        Verdict::Reached,
+        Verdict::Vacuous,
+    ]
+    .into_iter()
+    .filter(|v| count(*v) > 0)
+    .map(|v| format!("{} {}", count(v), verdict_name(v)))
+    .collect();
+    let _ = writeln!(
+        out,
+        "{} properties{}, {} states, {} transitions, {}, {seconds:.1} s",
+        summaries.len(),
+        if list.is_empty() {
+            String::new()
+        } else {
+            format!(" ({})", list.join(", "))
+        },
+        grouped(states),
+        grouped(transitions),
+        if complete { "complete" } else { "NOT complete" },
+    );
+    let findings = checked
+        .iter()
+        .flat_map(|c| &c.unfired)
+        .filter(|(_, u)| *u == Unfired::Unexplained)
+        .count();
+    if findings > 0 {
+        let _ = writeln!(
+            out,
+            "FINDING: {findings} rules never fire and nothing says why; see below."
+        );
+    }
+    out.push('\n');
+}
+
+fn run(out: &mut String, n: usize, task: &Task, done: &Checked) {
+    let report = &done.outcome.report;
+    let _ = writeln!(out, "Run {n}: {}", task.title);
+    let _ = writeln!(out, "  system {}", task.bound.system.name);
+    let params: Vec<String> = params(&task.bound)
+        .iter()
+        .map(|(n, v)| format!("{n} = {v}"))
+        .collect();
+    if !params.is_empty() {
+        wrapped(out, "  with ", &params.join(", "));
+    }
+    for item in &task.abstractions {
+        wrapped(out, "  abstraction: ", item);
+    }
+    let storage = storage_name(report.storage);
+    let evaluator = match done.outcome.evaluator {
+        Evaluator::Generated => "generated step",
+        Evaluator::Interpreter => "interpreter",
+    };
+    if let Some(reduction) = &done.outcome.reduction {
+        reduce::text(out, &task.bound, reduction);
+    }
+    if !reduced(done) {
+        let _ = writeln!(
+            out,
+            "  {} states of {} ({storage}, {evaluator}), {} transitions, depth {}, {} absorbing, {:.2} s",
+            grouped(u128::from(report.states)),
+            grouped(report.index_space),
+            grouped(report.transitions),
+            report.depth,
+            grouped(u128::from(report.absorbing)),
+            report.seconds,
+        );
+    }
+    unfired(out, done);
+    for warning in &task.bound.system.warnings {
+        wrapped(out, "  warning: ", warning);
+    }
+    for skipped in &task.analysis.skipped {
+        wrapped(
+            out,
+            "  not analysed: ",
+            &format!("guards of {skipped} read too many values"),
+        );
+    }
+    out.push('\n');
+}
+
+/// Rules that never fired, one line for each reason; the copies of one machine's rule are named once.
+fn unfired(out: &mut String, done: &Checked) {
+    let mut reasons: Vec<(String, Vec<String>)> = Vec::new();
+    for (rule, why) in &done.unfired {
+        let why = match why {
+            Unfired::Parameters => "excluded by these parameters".to_owned(),
+            Unfired::Explained(reason) => reason.clone(),
+            Unfired::Unexplained => "FINDING, nothing says why".to_owned(),
+            Unfired::Unknown => "not fired before the limit was reached".to_owned(),
+        };
+        match reasons.iter_mut().find(|(w, _)| *w == why) {
+            Some((_, rules)) => rules.push(rule.clone()),
+            None => reasons.push((why, vec![rule.clone()])),
+        }
+    }
+    for (why, rules) in reasons {
+        wrapped(
+            out,
+            "  rules not fired: ",
+            &format!("{} ({why})", rules.join(", ")),
+        );
+    }
+}
+
+/// Words after a head, in lines of readable length, indented below the first word.
+pub(crate) fn wrapped(out: &mut String, head: &str, text: &str) {
+    let indent = head.chars().count().min(48);
+    let mut line = head.to_owned();
+    let mut used = line.chars().count();
+    for word in text.split_whitespace() {
+        let n = word.chars().count();
+        if used + n + 1 > WIDTH && used > indent {
+            let _ = writeln!(out, "{}", line.trim_end());
+            line = " ".repeat(indent);
+            used = indent;
+        }
+        if !line.ends_with(' ') {
+            line.push(' ');
+            used += 1;
+        }
+        line.push_str(word);
+        used += n;
+    }
+    let _ = writeln!(out, "{}", line.trim_end());
+}
+
+/// What would help where a limit was reached; nothing if none was.
+pub fn further(checked: &[Checked], settings: &Settings) -> String {
+    let short: Vec<_> = checked
+        .iter()
+        .map(|c| &c.outcome.report)
+        .filter(|r| !r.complete)
+        .collect();
+    if short.is_empty() {
+        return String::new();
+    }
+    let covered: u64 = short.iter().map(|r| r.states).sum();
+    let mut out = format!(
+        "\nA limit ended {} of {} explorations; in them {} states were found, those up to the depth told explored.\n",
+        short.len(),
+        checked.len(),
+        grouped(u128::from(covered))
+    );
+    let hashed = short.iter().filter(|r| r.storage != Storage::Bitmap);
+    let needs = hashed.map(|r| r.index_space.div_ceil(4)).max();
+    if let Some(bytes) = needs.filter(|b| settings.memory.is_some() && *b < 1 << 34) {
+        out.push_str(&format!(
+            "  With --memory {}MiB the states of each system fit a bitmap.\n",
+            (bytes / 3 * 4 + (1 << 24)) >> 20
+        ));
+    }
+    match (&settings.keep, short.iter().all(|r| r.resumable)) {
+        (Some(keep), true) => out.push_str(&format!(
+            "  To continue with other limits: the same command with --resume {}\n",
+            keep.folder().display()
+        )),
+        (Some(_), false) => out.push_str(
+            "  The last checkpoint could not be written; an earlier one may be there to resume from.\n",
+        ),
+        (None, _) => out.push_str(
+            "  With --checkpoint DIR the next check can be continued with other limits (--resume DIR).\n",
+        ),
+    }
+    out.push_str(
+        "  Smaller domains, or one system or property at a time (--reduce slice), need less.\n",
+    );
+    out
+}
