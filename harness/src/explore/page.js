@@ -307,6 +307,10 @@ async function control() {
     try {
       const found = await answer(await post("/api/control", { system: own.name, hash: own.hash }));
       if (drawn !== own) return;
+      if (!found.graphs) {
+        at("graphs").replaceChildren(el("p", {}, "The exploration met its limit first, so nothing is drawn. Start with a larger --time or --memory."));
+        return;
+      }
       at("graphs").replaceChildren(...found.graphs.map((g) => el("div", { "data-machine": g.machine }, picture(g.svg))));
       if (!found.graphs.length) at("graphs").append(el("p", { class: "dim" }, "No machine has a variable with an enumeration as type."));
     } catch (error) {
@@ -363,12 +367,12 @@ function value(s) {
 async function run(id, button) {
   button.disabled = true;
   notice(`Exploring for ${id} …`);
-  const from = location.hash;
+  const [from, own] = [location.hash, link];
   try {
-    const found = await answer(await post("/api/run", { system: link.system, hash: link.hash, property: id }));
+    const found = await answer(await post("/api/run", { system: own.system, hash: own.hash, property: id }));
     notice(`${id}: ${found.text}`);
     if (found.other) {
-      at("notice").append(" ", el("a", { href: written({ ...link, path: found.other, at: null, held: "" }) }, "The run beside it"));
+      at("notice").append(" ", el("a", { href: written({ ...own, path: found.other, at: null, held: "" }) }, "The run beside it"));
     }
     // Whoever has walked on meanwhile is not carried away.
     if (found.path !== null && location.hash === from) go({ path: found.path, at: null, held: "" });
