@@ -11,6 +11,7 @@ let listed = []; // the outcomes on the page
 let chosen = 0; // the one chosen by the arrow keys
 let asked = 0; // requests for views are numbered, a late answer is dropped
 const opened = new Set(); // properties whose details are open
+let unfolded = false; // whether the properties with nothing to say are shown
 
 // Elements.
 function el(tag, attributes, ...children) {
@@ -340,7 +341,16 @@ function properties(own) {
   const rows = shown.properties.map((p, k) => ({ ...p, ...own.properties[k], state: p }));
   const rank = (p) => (p.state.broken && p.standing !== "broken" ? 1 : RANKS[p.standing] ?? 4);
   rows.sort((a, b) => rank(a) - rank(b));
-  at("judged").replaceChildren(...rows.map(property));
+  // Of many properties those that have nothing to say are folded away.
+  const quiet = (p) => ["idle", "none", "other", "unseen"].includes(p.standing) && !p.state.broken && !opened.has(p.id);
+  const silent = rows.length > 8 ? rows.filter(quiet) : [];
+  at("judged").replaceChildren(...rows.filter((p) => !silent.includes(p)).map(property));
+  if (silent.length) {
+    const rest = el("details", { id: "rest", ontoggle: () => { unfolded = rest.open; } },
+      el("summary", {}, `${silent.length} of which nothing is asked here`), ...silent.map(property));
+    rest.open = unfolded;
+    at("judged").append(rest);
+  }
   if (!rows.length) at("judged").append(el("p", { class: "dim" }, "This system states no property."));
 }
 function property(p) {
