@@ -107,7 +107,15 @@ impl Diagram {
         let count = i32::try_from(columns.len()).unwrap_or(i32::MAX).max(1);
         // A curve is read as a whole, so that its columns may be narrow: three rows at most, then.
         let base = if self.panels.is_empty() {
-            26
+            // Every column has its time, if all of them fit one row then.
+            let last = u64::try_from(self.columns).unwrap_or(u64::MAX);
+            let time = self.cycle.map(|us| millis(us.saturating_mul(last)));
+            let timed = time.map_or(0, |time| width_of(&time) + 10);
+            if timed.saturating_mul(count) <= ROOM {
+                timed.max(26)
+            } else {
+                26
+            }
         } else {
             (ROOM * 3 / count).clamp(3, 26)
         };
@@ -290,7 +298,7 @@ impl Diagram {
             path(out, line, &format!("M{middle} {bottom}V{}", y + 6));
             let words = lines(&format!("▲ cycle {}: {}", mark.column, mark.text), 110);
             let length = words.iter().map(|w| width_of(w)).max().unwrap_or(0);
-            let x = (middle - 4).min(*right - length).max(4);
+            let x = (middle - 4).min(row.left() + ROOM - length).max(4);
             for words in words {
                 y += LINE;
                 text(out, x, y, class, &words);
