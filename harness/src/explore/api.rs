@@ -13,6 +13,7 @@ use super::view;
 use super::walk::{Walk, size, walk};
 use crate::engine::label;
 use crate::report::verdict_name;
+use crate::states::{Budget, control_states};
 
 /// A refusal: the HTTP status and the reason.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -119,7 +120,7 @@ pub fn run(explorer: &Explorer, body: &str) -> Result<Value, Refusal> {
     }))
 }
 
-/// The control states of the machines of a system.
+/// The control states of the machines of a system; none of them where a limit is reached first.
 ///
 /// # Errors
 /// A request that makes no sense for this file; another exploration is running.
@@ -127,14 +128,20 @@ pub fn control(explorer: &Explorer, body: &str) -> Result<Value, Refusal> {
     let asked: Whole = parsed(body)?;
     let bound = system(explorer, &asked.system, &asked.hash)?;
     let _alone = alone(explorer)?;
-    let mut graphs = Vec::new();
-    for (number, instance) in bound.system.instances.iter().enumerate() {
-        match crate::control::control(bound, number, None, &options(explorer.bounds)) {
-            Ok(None) => {}
-            Ok(Some(graph)) => graphs.push(json!({ "machine": instance.name, "svg": graph.svg() })),
-            Err(e) => return refuse(400, format!("the system cannot be explored: {e}")),
-        }
-    }
+    let everything = Budget {
+        generated: u64::MAX,
+        interpreted: u64::MAX,
+    };
+    let drawn = match control_states(bound, everything, &options(explorer.bounds)) {
+        Ok(drawn) => drawn,
+        Err(e) => return refuse(400, format!("the system cannot be explored: {e}")),
+    };
+    let graphs = drawn.map(|drawn| {
+        let graphs = drawn
+            .into_iter()
+            .map(|(machine, graph)| json!({ "machine": machine, "svg": graph.svg() }));
+        graphs.collect::<Vec<_>>()
+    });
     Ok(json!({ "graphs": graphs }))
 }
 

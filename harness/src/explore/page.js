@@ -11,6 +11,7 @@ let listed = []; // the outcomes on the page
 let chosen = 0; // the one chosen by the arrow keys
 let asked = 0; // requests for views are numbered, a late answer is dropped
 const opened = new Set(); // properties whose details are open
+let unfolded = false; // whether the properties with nothing to say are shown
 
 // Elements.
 function el(tag, attributes, ...children) {
@@ -307,6 +308,10 @@ async function control() {
     try {
       const found = await answer(await post("/api/control", { system: own.name, hash: own.hash }));
       if (drawn !== own) return;
+      if (!found.graphs) {
+        at("graphs").replaceChildren(el("p", {}, "The exploration met its limit first, so nothing is drawn. Start with a larger --time or --memory."));
+        return;
+      }
       at("graphs").replaceChildren(...found.graphs.map((g) => el("div", { "data-machine": g.machine }, picture(g.svg))));
       if (!found.graphs.length) at("graphs").append(el("p", { class: "dim" }, "No machine has a variable with an enumeration as type."));
     } catch (error) {
@@ -336,7 +341,16 @@ function properties(own) {
   const rows = shown.properties.map((p, k) => ({ ...p, ...own.properties[k], state: p }));
   const rank = (p) => (p.state.broken && p.standing !== "broken" ? 1 : RANKS[p.standing] ?? 4);
   rows.sort((a, b) => rank(a) - rank(b));
-  at("judged").replaceChildren(...rows.map(property));
+  // Of many properties those that have nothing to say are folded away.
+  const quiet = (p) => ["idle", "none", "other", "unseen"].includes(p.standing) && !p.state.broken && !opened.has(p.id);
+  const silent = rows.length > 8 ? rows.filter(quiet) : [];
+  at("judged").replaceChildren(...rows.filter((p) => !silent.includes(p)).map(property));
+  if (silent.length) {
+    const rest = el("details", { id: "rest", ontoggle: () => { unfolded = rest.open; } },
+      el("summary", {}, `${silent.length} of which nothing is asked here`), ...silent.map(property));
+    rest.open = unfolded;
+    at("judged").append(rest);
+  }
   if (!rows.length) at("judged").append(el("p", { class: "dim" }, "This system states no property."));
 }
 function property(p) {
@@ -363,12 +377,12 @@ function value(s) {
 async function run(id, button) {
   button.disabled = true;
   notice(`Exploring for ${id} …`);
-  const from = location.hash;
+  const [from, own] = [location.hash, link];
   try {
-    const found = await answer(await post("/api/run", { system: link.system, hash: link.hash, property: id }));
+    const found = await answer(await post("/api/run", { system: own.system, hash: own.hash, property: id }));
     notice(`${id}: ${found.text}`);
     if (found.other) {
-      at("notice").append(" ", el("a", { href: written({ ...link, path: found.other, at: null, held: "" }) }, "The run beside it"));
+      at("notice").append(" ", el("a", { href: written({ ...own, path: found.other, at: null, held: "" }) }, "The run beside it"));
     }
     // Whoever has walked on meanwhile is not carried away.
     if (found.path !== null && location.hash === from) go({ path: found.path, at: null, held: "" });

@@ -208,6 +208,11 @@ fn of_many_outcomes_some_are_shown_and_a_filter_finds_others() {
     shows(&mut page, "0", 0);
     let shown = "document.querySelectorAll('#classes button[data-choice]').length";
     assert_eq!(page.value(shown), 60);
+    // So it is with properties: what is not asked now is folded away, but there.
+    let properties = "document.querySelectorAll('#judged .property').length";
+    let folded = "document.querySelectorAll('#rest .property').length";
+    assert_eq!(page.value(properties), page.value(folded));
+    assert!(page.value(folded).as_u64().is_some_and(|n| n > 20));
     page.click("#more");
     page.wait(&format!("{shown} > 60"));
     page.click("#filter");
