@@ -255,6 +255,31 @@ fn equal_files_give_equal_bytes() {
     assert!(!trace.contains("/tmp") && !svg.contains("/tmp"));
 }
 
+/// The picture of the book is what the command draws.
+#[test]
+fn the_picture_of_the_book_is_current() {
+    let folder = Folder::new("simulate-book");
+    let svg = folder.file("door.svg");
+    let scenario = "spec/scenarios/door-while-moving.toml";
+    let output = stillpoint(&[
+        "simulate",
+        MACHINE,
+        "--scenario",
+        scenario,
+        "--svg",
+        &svg,
+        "--brief",
+    ]);
+    assert_eq!(status(&output), 0, "{}", text(&output.stderr));
+    let drawn = std::fs::read_to_string(&svg).expect("written");
+    let book =
+        std::fs::read_to_string(root().join("docs/src/simulation-door.svg")).expect("readable");
+    assert!(
+        drawn == book,
+        "draw docs/src/simulation-door.svg anew: stillpoint simulate {MACHINE} --scenario {scenario} --svg docs/src/simulation-door.svg"
+    );
+}
+
 /// Each mistake is named with its place and a fix, and nothing is run or written.
 #[test]
 fn mistakes_are_refused() {
