@@ -355,6 +355,21 @@ fn mistakes_are_refused() {
             ":3:11",
             "an acceleration above 0 is needed",
         ),
+        (
+            "[[stop]]\nat = \"0.1 s\"\naxis = \"S\"\nstop = \"E\"\n",
+            ":4:8",
+            "axis S has no function \"STOP E\"",
+        ),
+        (
+            "[[select]]\nat = \"0.1 s\"\naxis = \"X\"\n",
+            ":3:6",
+            "nothing is selected here",
+        ),
+        (
+            "[[fault]]\nat = \"0.2 s\"\nuntil = \"0.1 s\"\naxis = \"X\"\nkind = \"encoder freeze\"\n",
+            ":4:9",
+            "is not after the beginning",
+        ),
         ("[[moton]]\nat = \"0 s\"\n", ":2:3", "unknown field `moton`"),
     ] {
         let svg = folder.file("never.svg");
