@@ -283,3 +283,56 @@ impl Machine<'_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+    use crate::subject::{Readings, load};
+
+    fn states(budget: u64, threads: usize) -> Option<Vec<(String, Graph)>> {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+        let file = root.join("tests/must-fail/lower-stop-displaces-higher.toml");
+        let subject = load(&file, &Readings::new()).expect("the file");
+        let budget = Budget {
+            generated: budget,
+            interpreted: budget,
+        };
+        let mut options = Options::default();
+        options.limits.threads = threads;
+        control_states(&subject.tasks[0].bound, budget, &options).expect("explored")
+    }
+
+    #[test]
+    fn every_way_has_its_rules() {
+        let found = states(1000, 1).expect("within the budget");
+        assert_eq!(Some(&found), states(1000, 2).as_ref());
+        let [(name, graph)] = found.as_slice() else {
+            panic!("{found:?}");
+        };
+        assert_eq!(name, "stop");
+        let initial: Vec<&str> = graph
+            .nodes
+            .iter()
+            .filter(|n| n.initial)
+            .map(|n| n.label.as_str())
+            .collect();
+        assert_eq!(initial, ["NONE"]);
+        assert!(graph.nodes.iter().all(|n| n.reached), "{graph:?}");
+        // Each state leads to the five stops, and where it can be acknowledged to none.
+        assert_eq!(graph.edges.len(), 4 * 6 + 2 * 5);
+        assert!(graph.edges.iter().all(|e| !e.labels.is_empty()));
+    }
+
+    #[test]
+    fn a_budget_ends_the_pass() {
+        // Six demands in each of six states; without one, four of them read the acknowledgement.
+        let cycles = 6 * 6 + 4;
+        assert!(states(cycles, 1).is_some());
+        for budget in [0, 1, 7, cycles - 1] {
+            assert_eq!(states(budget, 1), None, "{budget}");
+            assert_eq!(states(budget, 2), None, "{budget}");
+        }
+    }
+}

@@ -42,7 +42,7 @@ struct Arguments {
 enum Command {
     /// Explore every reachable state and judge every property
     #[command(
-        after_help = "Examples:\n  stillpoint check spec/machines/milling-840d.toml\n  stillpoint check spec/bench/two-axis.toml --json\n  stillpoint check spec/bench/two-axis.toml --processes 2\n  stillpoint check spec/machines/milling-840d.toml --readings A-25=RESET_AT_ONCE"
+        after_help = "Examples:\n  stillpoint check spec/machines/milling-840d.toml\n  stillpoint check spec/machines/milling-840d.toml --html milling.html\n  stillpoint check spec/bench/two-axis.toml --json\n  stillpoint check spec/bench/two-axis.toml --processes 2\n  stillpoint check spec/machines/milling-840d.toml --readings A-25=RESET_AT_ONCE"
     )]
     Check(check::Arguments),
     /// Check a certificate again, without the explorer

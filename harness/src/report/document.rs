@@ -199,16 +199,28 @@ pub(super) fn paragraph(text: impl Into<String>) -> Block {
     Block::Paragraph(words(text))
 }
 
-/// A table; a heading that begins with `#` stands over numbers.
+/// A table; a heading that begins with `#` stands over numbers. A column with nothing in it is left out.
 pub(super) fn table(heads: &[&str], rows: Vec<Vec<Vec<Inline>>>) -> Block {
-    let column = |head: &&str| Column {
-        title: head.trim_start_matches('#').to_owned(),
-        number: head.starts_with('#'),
+    let empty = |cell: &Vec<Inline>| {
+        cell.iter()
+            .all(|i| matches!(i, Inline::Text(t) | Inline::Code(t) if t.is_empty()))
     };
+    let used: Vec<bool> = (0..heads.len())
+        .map(|k| rows.iter().any(|row| row.get(k).is_some_and(|c| !empty(c))))
+        .collect();
+    let kept = |k: &usize| used.get(*k).copied().unwrap_or(false);
+    let column = |k: usize| Column {
+        title: heads[k].trim_start_matches('#').to_owned(),
+        number: heads[k].starts_with('#'),
+    };
+    let rows = rows.into_iter().map(|row| {
+        let cells = row.into_iter().enumerate();
+        cells.filter(|(k, _)| kept(k)).map(|(_, c)| c).collect()
+    });
     Block::Table(Table {
         caption: String::new(),
-        columns: heads.iter().map(column).collect(),
-        rows,
+        columns: (0..heads.len()).filter(|k| kept(k)).map(column).collect(),
+        rows: rows.collect(),
     })
 }
 
@@ -245,7 +257,11 @@ fn verdict(subject: &Subject, checked: &[Checked], summaries: &[Summary]) -> Blo
     .collect();
     let mut text = String::new();
     if !counts.is_empty() {
-        text = format!("Of {} properties: {}. ", summaries.len(), counts.join(", "));
+        let properties = match summaries.len() {
+            1 => "One property".to_owned(),
+            n => format!("{n} properties"),
+        };
+        text = format!("{properties}: {}. ", counts.join(", "));
     }
     text.push_str(if checked.iter().all(|c| c.outcome.report.complete) {
         "Every reachable state was explored."

@@ -80,7 +80,7 @@ pub(super) fn rows<'a>(subject: &'a Subject, checked: &'a [Checked]) -> Vec<Row<
 
 impl Row<'_> {
     /// How fast it is and in which runs, if there are several: `in 1 to 3 cycles run 1, 2`.
-    pub(super) fn told(&self, several: bool) -> Vec<String> {
+    pub(super) fn told(&self, several: bool, between: &str) -> Vec<String> {
         let told = self.runs.iter().map(|(bound, runs)| {
             let list: Vec<String> = runs.iter().map(usize::to_string).collect();
             let runs = if several {
@@ -97,7 +97,8 @@ impl Row<'_> {
                 (None, Some(b)) => format!("within {b} cycles"),
                 (None, None) => String::new(),
             };
-            format!("{cycles} {runs}").trim().to_owned()
+            let both = !cycles.is_empty() && !runs.is_empty();
+            format!("{cycles}{}{runs}", if both { between } else { "" })
         });
         told.filter(|t| !t.is_empty()).collect()
     }
@@ -115,7 +116,7 @@ pub(super) fn blocks(subject: &Subject, checked: &[Checked]) -> Vec<Block> {
             code(row.id),
             badge(row.verdict),
             words(row.text),
-            words(row.told(several).join("\n")),
+            words(row.told(several, ", ").join("\n")),
             words(row.property.req.join(" ")),
         ]
     });

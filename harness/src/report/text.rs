@@ -77,7 +77,7 @@ fn properties(out: &mut String, subject: &Subject, checked: &[Checked]) {
     let rows = rows(subject, checked);
     let width = rows.iter().map(|r| r.id.chars().count()).max().unwrap_or(0);
     for row in &rows {
-        let told = row.told(subject.tasks.len() > 1);
+        let told = row.told(subject.tasks.len() > 1, " ");
         let told = if told.is_empty() {
             String::new()
         } else {

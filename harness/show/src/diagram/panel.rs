@@ -16,6 +16,11 @@ const AREA: i32 = 96;
 /// Width of the numbers of the axis, left of it.
 pub(super) const NUMBERS: i32 = 56;
 
+/// Whether a value has a place on an axis: what is larger is no quantity of a machine.
+fn drawable(value: &f64) -> bool {
+    value.abs() <= 1e12
+}
+
 /// The range of values of a panel.
 pub(super) struct Scale {
     low: f64,
@@ -26,7 +31,7 @@ impl Scale {
     /// The range that holds all values with some room, and zero if it is near; none without values.
     pub(super) fn of(panel: &Panel) -> Option<Self> {
         let values = panel.curves.iter().flat_map(|c| c.values.iter().flatten());
-        let values = values.copied().filter(|v| v.is_finite());
+        let values = values.copied().filter(drawable);
         let (mut low, mut high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| {
             (a.min(v), b.max(v))
         });
@@ -115,7 +120,7 @@ fn pixel(y: f64) -> i32 {
 impl Curve {
     fn at(&self, k: usize) -> Option<f64> {
         let value = self.values.get(k).copied().flatten();
-        value.filter(|v| v.is_finite())
+        value.filter(drawable)
     }
 
     /// Straight lines between the middles of the columns.

@@ -119,7 +119,15 @@ impl Diagram {
         let folded: i32 = columns.iter().map(|c| folded_width(*c)).sum();
         // A curve is read as a whole, so that its columns may be narrow: one row, if the run is not too long.
         let base = if self.panels.is_empty() {
-            26
+            // Every column has its time, if all of them fit one row then.
+            let last = u64::try_from(self.columns).unwrap_or(u64::MAX);
+            let time = self.cycle.map(|us| millis(us.saturating_mul(last)));
+            let timed = time.map_or(0, |time| width_of(&time) + 10);
+            if timed.saturating_mul(count) <= ROOM {
+                timed.max(26)
+            } else {
+                26
+            }
         } else {
             ((ROOM - folded) / count).clamp(2, 26)
         };
@@ -305,7 +313,7 @@ impl Diagram {
             path(out, line, &format!("M{middle} {bottom}V{}", y + 6));
             let words = lines(&format!("▲ cycle {}: {}", mark.column, mark.text), 110);
             let length = words.iter().map(|w| width_of(w)).max().unwrap_or(0);
-            let x = (middle - 4).min(*right - length).max(4);
+            let x = (middle - 4).min(row.left() + ROOM - length).max(4);
             for words in words {
                 y += LINE;
                 text(out, x, y, class, &words);

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
-use super::layout::{At, Layout, Line, Way, lay_out};
+use super::layout::{At, Line, Way, frame, lay_out};
 use super::{Edge, Graph};
 use crate::escape::{cut, html};
 use crate::svg::{picture, text};
@@ -51,22 +51,17 @@ impl Graph {
                 }
             })
             .collect();
-        let width = |words: &[String]| words.iter().map(|w| w.chars().count()).max();
         let lines: Vec<Line> = edges
             .keys()
             .zip(&words)
             .map(|((from, to), words)| Line {
                 from: *from,
                 to: *to,
-                words: (width(words).unwrap_or(0).max(4), words.len()),
+                words: room(words),
             })
             .collect();
-        let layout = if self.nodes.is_empty() {
-            Layout::default()
-        } else {
-            lay_out(&sizes, &lines)
-        };
-        let (shift, extent) = frame(&layout);
+        let layout = lay_out(&sizes, &lines);
+        let (low, high) = frame(&layout, &sizes, &lines).unwrap_or_default();
         let mut body = String::new();
         let mut top = 0;
         if !self.title.is_empty() {
@@ -76,11 +71,10 @@ impl Graph {
         let _ = writeln!(
             body,
             "<g transform=\"translate({:.1} {:.1})\">",
-            shift.0,
-            shift.1 + f64::from(top)
+            MARGIN - low.0,
+            MARGIN - low.1 + f64::from(top)
         );
-        for way in &layout.edges {
-            let line = &lines[way.edge];
+        for ((way, line), words) in layout.ways.iter().zip(&lines).zip(&words) {
             let pale = !(self.nodes[line.from].reached && self.nodes[line.to].reached);
             let class = if pale { "edge pale" } else { "edge" };
             let both = both.contains(&(line.from, line.to));
@@ -91,10 +85,9 @@ impl Graph {
                 line.from, line.to
             );
             arrow(&mut body, way, both);
-            if let Some((x, y)) = layout.words.get(&way.edge) {
-                let lines = &words[way.edge];
-                let first = y - 6.0 * (lines.len() as f64 - 1.0) + 3.5;
-                for (k, words) in lines.iter().enumerate() {
+            if let Some((x, y)) = way.words {
+                let first = y - 6.0 * (words.len() as f64 - 1.0) + 3.5;
+                for (k, words) in words.iter().enumerate() {
                     let y = first + 12.0 * k as f64;
                     let _ = writeln!(
                         body,
@@ -105,8 +98,8 @@ impl Graph {
             }
             body.push_str("</g>\n");
         }
-        for (n, (corner, size)) in &layout.nodes {
-            self.node(&mut body, *n, *corner, *size, name, &labels[*n]);
+        for (n, (corner, size)) in layout.nodes.iter().zip(&sizes).enumerate() {
+            self.node(&mut body, n, *corner, *size, name, &labels[n]);
         }
         body.push_str("</g>\n");
         let title = match self.title.as_str() {
@@ -119,7 +112,8 @@ impl Graph {
             .min(120)
             * 8
             + 16;
-        let (width, height) = (extent.0.ceil() as i32, extent.1.ceil() as i32);
+        let width = (high.0 - low.0 + 2.0 * MARGIN).ceil() as i32;
+        let height = (high.1 - low.1 + 2.0 * MARGIN).ceil() as i32;
         picture((width.max(wide), height + top), title, standalone, &body)
     }
 
@@ -217,74 +211,48 @@ fn short(labels: &[&str]) -> Vec<String> {
     out
 }
 
-/// What brings everything into the picture, and the picture's size.
-fn frame(layout: &Layout) -> (At, At) {
-    let mut low = (f64::INFINITY, f64::INFINITY);
-    let mut high = (f64::NEG_INFINITY, f64::NEG_INFINITY);
-    let mut hold = |(x, y): At| {
-        low = (low.0.min(x), low.1.min(y));
-        high = (high.0.max(x), high.1.max(y));
-    };
-    for ((x, y), (width, height)) in layout.nodes.values() {
-        hold((*x, *y));
-        hold((x + width, y + height));
-    }
-    for (_, point) in layout.edges.iter().flat_map(|w| w.path.iter().skip(1)) {
-        hold(*point);
-    }
-    for (x, y) in layout.words.values() {
-        let half = WORDS as f64 * 3.0;
-        hold((x - half, y - 12.0));
-        hold((x + half, y + 12.0));
-    }
-    if low.0 > high.0 {
-        return ((0.0, 0.0), (2.0 * MARGIN, 2.0 * MARGIN));
-    }
-    (
-        (MARGIN - low.0, MARGIN - low.1),
-        (high.0 - low.0 + 2.0 * MARGIN, high.1 - low.1 + 2.0 * MARGIN),
-    )
+/// The width and height of words on an edge.
+fn room(words: &[String]) -> Option<At> {
+    let letters = words.iter().map(|w| w.chars().count()).max()?;
+    Some((letters as f64 * 6.1 + 8.0, words.len() as f64 * 12.0 + 4.0))
 }
 
-/// A smooth line with its head, or with one at each end.
+/// A smooth line that is vertical at each of its points, with its head, or with one at each end.
 fn arrow(out: &mut String, way: &Way, both: bool) {
-    let [(start, leave), (arrive, end), rest @ ..] = way.path.as_slice() else {
+    let [first, rest @ ..] = way.points.as_slice() else {
         return;
     };
-    let mut d = format!(
-        "M{:.1} {:.1}C{:.1} {:.1} {:.1} {:.1} {:.1} {:.1}",
-        start.0, start.1, leave.0, leave.1, arrive.0, arrive.1, end.0, end.1
-    );
-    for ((cx, cy), (x, y)) in rest {
-        let _ = write!(d, "S{cx:.1} {cy:.1} {x:.1} {y:.1}");
+    let mut d = format!("M{:.1} {:.1}", first.0, first.1);
+    let mut at = *first;
+    for to in rest {
+        let half = (at.1 + to.1) / 2.0;
+        if (at.0 - to.0).abs() < 0.5 {
+            let _ = write!(d, "L{:.1} {:.1}", to.0, to.1);
+        } else {
+            let _ = write!(
+                d,
+                "C{:.1} {half:.1} {:.1} {half:.1} {:.1} {:.1}",
+                at.0, to.0, to.0, to.1
+            );
+        }
+        at = *to;
     }
     let _ = writeln!(out, "<path d=\"{d}\"/>");
-    if way.reversed || both {
-        head(out, *start, *leave);
+    if way.upwards || both {
+        head(out, *first, 8.0);
     }
-    if !way.reversed || both {
-        let (from, tip) = rest.last().copied().unwrap_or((*arrive, *end));
-        head(out, tip, from);
+    if !way.upwards || both {
+        head(out, at, -8.0);
     }
 }
 
-/// The head of an arrow that comes from somewhere.
-fn head(out: &mut String, tip: At, from: At) {
-    let (dx, dy) = (tip.0 - from.0, tip.1 - from.1);
-    let length = dx.hypot(dy);
-    if length < 0.5 {
-        return;
-    }
-    let (dx, dy) = (dx / length, dy / length);
-    let base = (tip.0 - 8.0 * dx, tip.1 - 8.0 * dy);
+/// The head of an arrow whose line comes from below (a positive length) or from above.
+fn head(out: &mut String, (x, y): At, length: f64) {
+    let base = y + length;
     let _ = writeln!(
         out,
-        "<polygon points=\"{:.1},{:.1} {:.1},{:.1} {:.1},{:.1}\"/>",
-        tip.0,
-        tip.1,
-        base.0 - 3.5 * dy,
-        base.1 + 3.5 * dx,
-        base.0 + 3.5 * dy,
-        base.1 - 3.5 * dx
+        "<polygon points=\"{x:.1},{y:.1} {:.1},{base:.1} {:.1},{base:.1}\"/>",
+        x - 3.5,
+        x + 3.5
     );
 }
