@@ -255,6 +255,31 @@ fn equal_files_give_equal_bytes() {
     assert!(!trace.contains("/tmp") && !svg.contains("/tmp"));
 }
 
+/// The picture of the book is what the command draws.
+#[test]
+fn the_picture_of_the_book_is_current() {
+    let folder = Folder::new("simulate-book");
+    let svg = folder.file("door.svg");
+    let scenario = "spec/scenarios/door-while-moving.toml";
+    let output = stillpoint(&[
+        "simulate",
+        MACHINE,
+        "--scenario",
+        scenario,
+        "--svg",
+        &svg,
+        "--brief",
+    ]);
+    assert_eq!(status(&output), 0, "{}", text(&output.stderr));
+    let drawn = std::fs::read_to_string(&svg).expect("written");
+    let book =
+        std::fs::read_to_string(root().join("docs/src/simulation-door.svg")).expect("readable");
+    assert!(
+        drawn == book,
+        "draw docs/src/simulation-door.svg anew: stillpoint simulate {MACHINE} --scenario {scenario} --svg docs/src/simulation-door.svg"
+    );
+}
+
 /// Each mistake is named with its place and a fix, and nothing is run or written.
 #[test]
 fn mistakes_are_refused() {
@@ -329,6 +354,21 @@ fn mistakes_are_refused() {
             "[axis.X]\nbraking = \"5 mm/s\"\n",
             ":3:11",
             "an acceleration above 0 is needed",
+        ),
+        (
+            "[[stop]]\nat = \"0.1 s\"\naxis = \"S\"\nstop = \"E\"\n",
+            ":4:8",
+            "axis S has no function \"STOP E\"",
+        ),
+        (
+            "[[select]]\nat = \"0.1 s\"\naxis = \"X\"\n",
+            ":3:6",
+            "nothing is selected here",
+        ),
+        (
+            "[[fault]]\nat = \"0.2 s\"\nuntil = \"0.1 s\"\naxis = \"X\"\nkind = \"encoder freeze\"\n",
+            ":4:9",
+            "is not after the beginning",
         ),
         ("[[moton]]\nat = \"0 s\"\n", ":2:3", "unknown field `moton`"),
     ] {

@@ -54,9 +54,9 @@ enum Command {
         after_help = "Exit status: 0 every claim is confirmed, also one that a property is violated; 1 the certificate does not show what it claims; 2 there is no certificate or specification to be read.\n\nExamples:\n  stillpoint check spec/machines/milling-840d.toml --certificate milling.cert\n  stillpoint certify milling.cert\n  stillpoint certify milling.cert --spec elsewhere/machines/milling-840d.toml --json"
     )]
     Certify(certify::Arguments),
-    /// Check the production monitors against the tables
+    /// Check the production monitors against the tables, or both against a recording
     #[command(
-        after_help = "Examples:\n  stillpoint diff spec/machines/milling-840d.toml --exhaustive\n  stillpoint diff spec/machines/milling-840d.toml --random 1000000 --seed 7\n  stillpoint diff spec/machines/milling-840d.toml --mutant stop-b-no-timer-exit   (must diverge)"
+        after_help = "Examples:\n  stillpoint diff spec/machines/milling-840d.toml --exhaustive\n  stillpoint diff spec/machines/milling-840d.toml --random 1000000 --seed 7\n  stillpoint diff spec/machines/milling-840d.toml --trace recorded.ndjson --tolerance 1\n  stillpoint diff spec/machines/milling-840d.toml --trace recorded.csv --columns map.toml\n  stillpoint diff spec/machines/milling-840d.toml --mutant stop-b-no-timer-exit   (must diverge)"
     )]
     Diff(diff::Arguments),
     /// Walk through the state space in the browser, on a page that only this computer sees

@@ -75,6 +75,14 @@ fn wrong(name: &str, text: &Arc<str>, at: Range<usize>, message: &str, help: &st
         .into()
 }
 
+/// Values that a recording may hold, of all signals and cycles: some 1 GiB of memory.
+pub const MOST_VALUES: u64 = 30_000_000;
+
+/// The cycles that a recording of so many signals may have.
+pub fn most_cycles(signals: usize) -> u64 {
+    MOST_VALUES / (signals as u64).max(1)
+}
+
 /// A value of a signal in a cycle.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Value {

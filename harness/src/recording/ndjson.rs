@@ -90,9 +90,6 @@ fn to_json(value: &Value) -> serde_json::Value {
     }
 }
 
-/// Cycles that a recording may have: a few bytes of a line may stand for many.
-const MOST_CYCLES: u64 = 2_000_000;
-
 /// Reads a recording of the machine `target`; `name` names the file in messages.
 ///
 /// # Errors
@@ -125,8 +122,11 @@ pub fn read(name: &str, text: &Arc<str>, target: &Target<'_>) -> Result<Recordin
             recording.first = parsed.cycle;
         }
         let missing = parsed.cycle - next.unwrap_or(parsed.cycle);
-        if recording.rows.len() as u64 + missing >= MOST_CYCLES {
-            let help = format!("at most {MOST_CYCLES} cycles are read; cut the recording");
+        let most = super::most_cycles(recording.signals.len());
+        if (recording.rows.len() as u64).saturating_add(missing) >= most {
+            let help = format!(
+                "at most {most} cycles of these signals are read; cut the recording, or leave signals out"
+            );
             return Err(reader.fail(at, "this recording is too long", &help));
         }
         recording.rows.extend((0..missing).map(|_| row.clone()));

@@ -223,9 +223,9 @@ impl Axis {
             .reaction
     }
 
-    /// The drive obeys the monitors of both channels and the reaction to the stops of other axes; then the axis moves.
-    /// What is commanded ends with the first stop: the program has to be started again.
-    pub fn move_on(&mut self) {
+    /// The drive obeys the monitors of both channels and the reaction to the stops of other axes. What is commanded ends with
+    /// the first stop: the program has to be started again.
+    pub fn obey(&mut self) {
         let channels = [&self.outputs.nck.channel, &self.outputs.drive.channel];
         let any = |test: &dyn Fn(&stillpoint_monitors::channel::Outputs) -> bool| {
             channels.iter().any(|channel| test(channel))
@@ -255,7 +255,6 @@ impl Axis {
             self.plant.setpoint = Setpoint::default();
         }
         self.drive = drive;
-        self.plant.advance(drive);
     }
 }
 

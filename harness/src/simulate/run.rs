@@ -91,9 +91,10 @@ impl<'a> Simulator<'a> {
             axis.step();
         }
         self.react();
+        self.axes.iter_mut().for_each(Axis::obey);
         let row = self.record();
         for axis in &mut self.axes {
-            axis.move_on();
+            axis.plant.advance(axis.drive);
         }
         row
     }

@@ -17,7 +17,7 @@ const OF_CHANNEL: [&str; 7] = [
     "Safety.SLP.ActivationState",
     "axis_state",
     "user_agreement",
-    "fault_code",
+    "fault",
 ];
 
 impl Simulation {
@@ -349,9 +349,9 @@ impl Simulation {
             let stands = match stop.stands {
                 Some(at) if at == stop.cycle => "stands already".to_owned(),
                 Some(at) => format!(
-                    "stands {} later ({} cycles) after {}",
+                    "stands {} later ({}) after {}",
                     time((at - stop.cycle) * cycle),
-                    at - stop.cycle,
+                    count(at - stop.cycle),
                     stop.travel_shown
                 ),
                 None => format!("does not stand yet, {} on", stop.travel_shown),
@@ -381,6 +381,12 @@ impl Simulation {
         }
         out
     }
+}
+
+/// `1 cycle`, `17 cycles`.
+fn count(cycles: u64) -> String {
+    let plural = if cycles == 1 { "" } else { "s" };
+    format!("{cycles} cycle{plural}")
 }
 
 /// A value as it stands in a lane.

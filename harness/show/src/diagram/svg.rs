@@ -29,6 +29,16 @@ fn width_of(words: &str) -> i32 {
     letters.min(1000) * LETTER / 10 + 1
 }
 
+/// Width that a folded column needs for its number; 0 for another one.
+fn folded_width(column: Column) -> i32 {
+    match column {
+        Column::Cycle(_) => 0,
+        Column::Idle { count, .. } | Column::Cut { count, .. } => {
+            width_of(&format!("+{count}")) + 8
+        }
+    }
+}
+
 /// Columns side by side, with the left edge of each and the right edge of the last.
 pub(super) struct Row<'a> {
     pub(super) columns: &'a [Column],
@@ -104,8 +114,10 @@ impl Diagram {
 
     /// The width of each column: wide enough for the words in it if that is not much.
     fn widths(&self, columns: &[Column]) -> Vec<i32> {
-        let count = i32::try_from(columns.len()).unwrap_or(i32::MAX).max(1);
-        // A curve is read as a whole, so that its columns may be narrow: three rows at most, then.
+        let count = columns.iter().filter(|c| matches!(c, Column::Cycle(_)));
+        let count = i32::try_from(count.count()).unwrap_or(i32::MAX).max(1);
+        let folded: i32 = columns.iter().map(|c| folded_width(*c)).sum();
+        // A curve is read as a whole, so that its columns may be narrow: one row, if the run is not too long.
         let base = if self.panels.is_empty() {
             // Every column has its time, if all of them fit one row then.
             let last = u64::try_from(self.columns).unwrap_or(u64::MAX);
@@ -117,18 +129,18 @@ impl Diagram {
                 26
             }
         } else {
-            (ROOM * 3 / count).clamp(3, 26)
+            ((ROOM - folded) / count).clamp(2, 26)
         };
         let mut widths: Vec<i32> = columns
             .iter()
             .map(|c| match c {
                 Column::Cycle(_) => base,
-                Column::Idle { count, .. } | Column::Cut { count, .. } => {
-                    base.max(width_of(&format!("+{count}")) + 8)
-                }
+                folded => base.max(folded_width(*folded)),
             })
             .collect();
-        for lane in self.lanes.iter().filter(|l| !l.level) {
+        // Beside curves the time is drawn to scale: words that do not fit are cut there.
+        let even = !self.panels.is_empty();
+        for lane in self.lanes.iter().filter(|l| !l.level && !even) {
             for part in lane.segments(columns) {
                 let Some(value) = lane.at(columns[part.start].first()) else {
                     continue;
@@ -253,6 +265,9 @@ impl Diagram {
             free.0 = middle + own / 2 + 8;
             if below > 0 {
                 free.1 = middle + below / 2 + 8;
+            }
+            if right - left < 14 {
+                let _ = write!(grid, "M{middle} {first}V{bottom}");
             }
             text(out, middle, top + LINE - 3, "mid", &name);
             if let Some(time) = time {

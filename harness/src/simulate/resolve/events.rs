@@ -32,7 +32,13 @@ impl Resolver<'_> {
 
     pub(super) fn selects(&mut self, list: &[file::Select], events: &mut Vec<Event>) {
         for select in list {
-            let (cycle, axes) = (self.at(&select.at), self.axes(select.axis.as_ref()));
+            let cycle = self.at(&select.at);
+            let named = select.axis.as_ref();
+            let axes = match (&select.function, &select.limits) {
+                (Some(_), None) => self.axes_with(named, "SBH/SG"),
+                (None, Some(_)) => self.axes_with(named, "SE"),
+                _ => self.axes(named),
+            };
             let mut whats = Vec::new();
             if let Some(function) = &select.function {
                 let found = match function.get_ref().as_str() {
@@ -126,7 +132,8 @@ impl Resolver<'_> {
 
     pub(super) fn signals(&mut self, list: &[file::Signal], events: &mut Vec<Event>) {
         for signal in list {
-            let (cycle, until) = (self.at(&signal.at), self.until(signal.until.as_ref()));
+            let cycle = self.at(&signal.at);
+            let until = self.until(signal.until.as_ref(), cycle);
             let (axes, sides) = (
                 self.axes(signal.axis.as_ref()),
                 self.sides(signal.channel.as_ref()),
@@ -137,13 +144,26 @@ impl Resolver<'_> {
         }
     }
 
-    pub(super) fn until(&mut self, text: Option<&Text>) -> Option<u32> {
-        text.and_then(|t| self.span_of_time(t, "until", Round::Up))
+    /// The cycle from which something is over again; it begins in `cycle`.
+    pub(super) fn until(&mut self, text: Option<&Text>, cycle: Option<u32>) -> Option<u32> {
+        let text = text?;
+        let until = self.span_of_time(text, "until", Round::Up)?;
+        if cycle.is_some_and(|cycle| until <= cycle) {
+            let message = format!("\"{}\" is not after the beginning", text.get_ref());
+            let help = "make `until` later than `at` by a cycle at least".to_owned();
+            self.add(text.span(), message, "too early", help);
+        }
+        Some(until)
     }
 
     pub(super) fn stops(&mut self, list: &[file::Stop], events: &mut Vec<Event>) {
         for stop in list {
-            let (cycle, axes) = (self.at(&stop.at), self.axes(stop.axis.as_ref()));
+            let function = match stop.stop.get_ref().as_str() {
+                "E" => "STOP E",
+                _ => "external stops",
+            };
+            let cycle = self.at(&stop.at);
+            let axes = self.axes_with(stop.axis.as_ref(), function);
             let sides = self.sides(stop.channel.as_ref());
             let letter = match stop.stop.get_ref().as_str() {
                 "none" => None,

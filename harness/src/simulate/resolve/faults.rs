@@ -10,7 +10,8 @@ use crate::simulate::scenario::{Event, Fault, What};
 impl Resolver<'_> {
     pub(super) fn faults(&mut self, list: &[file::Fault], events: &mut Vec<Event>) {
         for fault in list {
-            let (cycle, until) = (self.at(&fault.at), self.until(fault.until.as_ref()));
+            let cycle = self.at(&fault.at);
+            let until = self.until(fault.until.as_ref(), cycle);
             let (axes, sides) = (
                 self.axes(Some(&fault.axis)),
                 self.sides(fault.channel.as_ref()),

@@ -17,9 +17,7 @@ use toml::Spanned;
 
 use super::file::{File, Names, Text};
 use super::scenario::{Event, Scenario};
-
-/// Cycles that a scenario may last: a million of 12 ms are more than three hours.
-const MOST_CYCLES: u32 = 1_000_000;
+use crate::recording;
 
 impl Scenario {
     /// Reads the scenario file at `path` for this machine.
@@ -92,8 +90,9 @@ impl Resolver<'_> {
 
     fn scenario(&mut self, file: File) -> Option<Scenario> {
         let cycles = self.span_of_time(&file.duration, "duration", Round::Up)?;
-        if cycles == 0 || cycles > MOST_CYCLES {
-            let most = u64::from(MOST_CYCLES) * self.cycle_us();
+        let most = recording::most_cycles(super::signals(self.machine).len());
+        if cycles == 0 || u64::from(cycles) > most {
+            let most = most.saturating_mul(self.cycle_us());
             self.add(
                 file.duration.span(),
                 format!(
@@ -249,9 +248,30 @@ impl Resolver<'_> {
             Names::One(name) => vec![name.clone()],
             Names::Many(list) => list.clone(),
         };
+        if list.is_empty() {
+            let help = "name an axis, or leave the key out for all of them".to_owned();
+            self.add(names.span(), "no axis is named".to_owned(), "empty", help);
+        }
         list.iter()
             .filter_map(|name| self.axis_named(name, names.span()))
             .collect()
+    }
+
+    /// The axes named, which must have a function enabled; all of the machine where none is named.
+    fn axes_with(&mut self, names: Option<&Spanned<Names>>, function: &str) -> Vec<usize> {
+        let axes = self.axes(names);
+        let machine = self.machine;
+        for axis in axes.iter().map(|k| &machine.axes[*k]) {
+            let enabled = axis.functions.iter().any(|f| f == function);
+            if let (Some(names), false) = (names, enabled) {
+                let message = format!("axis {} has no function \"{function}\"", axis.name);
+                let help = format!(
+                    "add \"{function}\" to its functions in the machine file, or name another axis"
+                );
+                self.add(names.span(), message, "not enabled", help);
+            }
+        }
+        axes
     }
 
     /// The channels named; both where none is.
@@ -276,6 +296,7 @@ impl Resolver<'_> {
 
     fn no_such(&mut self, text: &Text, what: &str, known: &[&str]) {
         let help = match nearest(text.get_ref(), known.iter().copied()) {
+            _ if known.is_empty() => "the machine has none".to_owned(),
             Some(near) if known.len() > 8 => format!("did you mean \"{near}\"?"),
             _ => format!("write one of: {}", known.join(", ")),
         };
