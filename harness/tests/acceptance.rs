@@ -30,7 +30,8 @@ fn json(arguments: &[&str]) -> Value {
     all.extend(arguments);
     all.push("--json");
     let output = stillpoint(&all);
-    assert_eq!(output.status.code(), Some(0), "{output:?}");
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(0), "{all:?}: {errors}");
     serde_json::from_str(&stdout(&output)).expect("JSON")
 }
 
@@ -217,8 +218,8 @@ fn a_new_function_and_a_removed_axis() {
         &[
             (spindle, "[\"SBH/SG\", \"SN1+\", \"external stops\"]"),
             (
-                "interpolates_with = [\"Y\", \"Z\"]",
-                "interpolates_with = [\"Y\"]",
+                "interpolates_with   = [\"Y\", \"Z\"]",
+                "interpolates_with   = [\"Y\"]",
             ),
         ],
     );

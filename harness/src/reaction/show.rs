@@ -167,8 +167,10 @@ fn chain(judged: &Judged, machine: &Machine, result: &Result) -> Block {
         if step.time != Some(0) && !step.formula.is_empty() {
             formula.push(Inline::Code(step.formula.clone()));
         }
-        for (name, value) in &step.values {
-            formula.push(Inline::Text(format!(" {name} = {value}")));
+        let values = step.values.iter();
+        let values: Vec<String> = values.map(|(name, v)| format!("{name} = {v}")).collect();
+        if !values.is_empty() {
+            formula.push(Inline::Text(format!(" {}", values.join(", "))));
         }
         rows.push(vec![
             title,
