@@ -22,7 +22,7 @@ impl Controller {
         standstill: Option<Position>,
     ) -> Result<Self, ParameterError> {
         let config = Config::new(side, data.validate()?);
-        // What was restored is consistent for every configuration; if it were not, the axis would start as delivered.
+        // A state that breaks the invariant is refused; then the axis starts as delivered.
         let state = State::restored(agreed, standstill);
         let monitor = Monitor::resume(config, state).unwrap_or(Monitor::new(config));
         let other = Exchange::default();
