@@ -75,7 +75,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         ..Settings::default()
     };
     let checked = check(&subject, &settings, &mut |task| {
-        Box::new(Line::new(&task.title, settings.memory))
+        Box::new(Line::new(&task.title).within(settings.memory))
     })
     .map_err(|(title, e)| Failure::Other(format!("{title}: {e}")))?;
     let judged = reaction::judge(&machine, reactions, &subject, &checked, &wishes)?;

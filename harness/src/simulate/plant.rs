@@ -2,7 +2,8 @@
 //!
 //! All quantities are integers, so that a run gives the same result on every machine: positions in thousandths of an
 //! increment (nm, or millionths of a degree), speeds in these per cycle, accelerations in these per cycle and cycle. In
-//! each cycle first the speed changes, then the position by the new speed.
+//! each cycle first the speed changes. A setpoint is reached in steps of whole cycles; an axis that brakes, coasts or sags moves
+//! under constant acceleration, its way rounded away from where it was: over-travel is never told too small.
 
 /// The mechanics of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -107,30 +108,43 @@ impl Plant {
             Drive::Coast => self.without_torque.saturating_add(1),
             _ => 0,
         };
+        let before = self.speed;
+        let closed = m.brake_time.is_some_and(|time| self.without_torque > time);
         let towards =
             |speed: i64, wanted: i64, rate: i64| speed + (wanted - speed).clamp(-rate, rate);
         self.speed = match drive {
             Drive::Follow => towards(self.speed, self.wanted(), m.acceleration),
             Drive::Path => towards(self.speed, 0, m.path_braking),
             Drive::CurrentLimit => towards(self.speed, 0, m.braking),
-            Drive::Coast => {
-                let closed = m.brake_time.is_some_and(|time| self.without_torque > time);
-                match closed {
-                    true => towards(self.speed, 0, m.braking),
-                    false if m.sag > 0 => {
-                        self.speed - m.sag + friction(self.speed, m.friction.min(m.sag))
-                    }
-                    false => towards(self.speed, 0, m.friction),
-                }
+            Drive::Coast if closed => towards(self.speed, 0, m.braking),
+            Drive::Coast if m.sag > 0 => {
+                self.speed - m.sag + friction(self.speed, m.friction.min(m.sag))
             }
+            Drive::Coast => towards(self.speed, 0, m.friction),
         };
-        self.position += self.speed;
+        self.position += match drive {
+            Drive::Follow => self.speed,
+            Drive::Path => way(before, self.speed, m.path_braking),
+            Drive::CurrentLimit => way(before, self.speed, m.braking),
+            Drive::Coast if closed => way(before, self.speed, m.braking),
+            Drive::Coast => way(before, self.speed, m.friction),
+        };
     }
 
     /// Whether it stands.
     pub const fn stands(&self) -> bool {
         self.speed == 0
     }
+}
+
+/// The way of a cycle from one speed to another, rounded away from zero; an axis that brakes with `rate` and stands before the
+/// cycle is over has gone no further than until then.
+fn way(before: i64, after: i64, rate: i64) -> i64 {
+    let (twice, parts) = match after {
+        0 if before.abs() < rate => (before * before.abs(), 2 * rate),
+        _ => (before + after, 2),
+    };
+    twice.signum() * twice.abs().div_ceil(parts)
 }
 
 /// What friction adds to the speed of an axis that another force moves.
@@ -213,6 +227,25 @@ mod tests {
     }
 
     #[test]
+    fn a_braking_axis_goes_as_far_as_its_speed_squared_over_twice_the_rate() {
+        for (speed, way) in [
+            (900, 1_350),
+            (1_000, 1_667),
+            (299, 150),
+            (1, 1),
+            (-900, -1_350),
+        ] {
+            let mut plant = moving(M, speed);
+            while !plant.stands() {
+                plant.advance(Drive::CurrentLimit);
+            }
+            let exact = speed * speed.abs() / 600;
+            assert!(plant.position.abs() >= exact.abs(), "{speed}");
+            assert_eq!(plant.position, way, "{speed}");
+        }
+    }
+
+    #[test]
     fn a_vertical_axis_sags_until_its_brake_has_closed() {
         let mut plant = Plant::new(
             Mechanics {
@@ -228,6 +261,7 @@ mod tests {
             speeds.push(plant.speed);
         }
         assert_eq!(speeds, [-40, -70, 0, 0, 0]);
-        assert_eq!(plant.position, -110);
+        // 40 / 2, (40 + 70) / 2, 70 * 70 / (2 * 300) rounded up.
+        assert_eq!(plant.position, -(20 + 55 + 9));
     }
 }
