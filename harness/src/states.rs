@@ -22,7 +22,8 @@ pub struct Budget {
 
 /// The control states of each machine of a system that has any: the name of the instance, and its states.
 ///
-/// A control state is a combination of values of the machine's variables that have an enum as type. An edge names the
+/// A control state is a combination of values of the machine's variables that have an enum as type; where these are too
+/// many for a picture, each variable has a graph of its own, and the machine stands there several times. An edge names the
 /// rules that lead from the one to the other in some reachable cycle, or stay there. Where one variable makes the state,
 /// values that no run reaches are there too.
 ///
@@ -93,10 +94,16 @@ fn graphs(
         machines
             .iter()
             .enumerate()
-            .map(|(m, machine)| (machine.name.to_owned(), machine.picture(bound, m, &seen)))
+            .flat_map(|(m, machine)| {
+                let graphs = machine.pictures(bound, m, &seen).into_iter();
+                graphs.map(|graph| (machine.name.to_owned(), graph))
+            })
             .collect()
     }))
 }
+
+/// States and arrows beyond which each variable is drawn by itself.
+const MOST: (usize, usize) = (12, 36);
 
 /// A machine with control states.
 struct Machine<'a> {
@@ -172,6 +179,9 @@ struct Noted<W> {
     work: W,
     did: Vec<HashSet<Did>>,
     last: Vec<Option<Did>>,
+    /// The state whose cycles are made, and whether the budget was spent before the first of them.
+    state: Vec<i32>,
+    over: bool,
 }
 
 impl<S: System> Watched<'_, S> {
@@ -210,6 +220,8 @@ impl<S: System> System for Watched<'_, S> {
             work: self.system.work(),
             did: vec![HashSet::new(); self.machines.len()],
             last: vec![None; self.machines.len()],
+            state: Vec::new(),
+            over: false,
         }
     }
 
@@ -236,8 +248,15 @@ impl<S: System> System for Watched<'_, S> {
         choices: &mut C,
         after: &mut [i32],
     ) -> Result<(), Fault> {
-        if self.cycles.fetch_add(1, Ordering::Relaxed) >= self.budget {
-            // What is found from here on is thrown away; without choices the pass ends soon.
+        let over = self.cycles.fetch_add(1, Ordering::Relaxed) >= self.budget;
+        if work.state != before {
+            work.state.clear();
+            work.state.extend_from_slice(before);
+            work.over = over;
+        }
+        if work.over {
+            // What is found from here on is thrown away, and without choices the pass ends soon. The cycles of a state that
+            // was begun are all made, since each has to ask for as much as the one before it.
             after.copy_from_slice(before);
             return Ok(());
         }
@@ -258,7 +277,7 @@ impl<S: System> System for Watched<'_, S> {
     }
 
     fn discarded(&self, work: &Self::Work) -> bool {
-        self.system.discarded(&work.work)
+        !work.over && self.system.discarded(&work.work)
     }
 }
 
@@ -271,26 +290,46 @@ impl Machine<'_> {
         self.cells.iter().zip(control).all(|(k, v)| state[*k] == *v)
     }
 
-    /// The states of machine number `m` as a graph.
-    fn picture(&self, bound: &Bound, m: usize, seen: &Seen) -> Graph {
+    /// The states of machine number `m` as one graph, or as one for each variable.
+    fn pictures(&self, bound: &Bound, m: usize, seen: &Seen) -> Vec<Graph> {
+        let all: Vec<usize> = (0..self.cells.len()).collect();
+        let whole = self.picture(bound, &all, m, seen);
+        let arrows = whole.edges.iter().filter(|e| e.from != e.to).count();
+        if whole.nodes.len() <= MOST.0 && arrows <= MOST.1 || all.len() == 1 {
+            return vec![whole];
+        }
+        all.iter()
+            .map(|k| self.picture(bound, &[*k], m, seen))
+            .collect()
+    }
+
+    /// The states of machine number `m` as some of its variables, by their places in `cells`, show them.
+    fn picture(&self, bound: &Bound, shown: &[usize], m: usize, seen: &Seen) -> Graph {
         let system = &bound.system;
-        let own = || seen.did.iter().filter(|(k, _)| *k == m).map(|(_, did)| did);
-        let mut reached: BTreeSet<&Vec<i32>> = own().flat_map(|(a, b, _)| [a, b]).collect();
-        let initial: BTreeSet<&Vec<i32>> = seen
+        let cells: Vec<usize> = shown.iter().map(|k| self.cells[*k]).collect();
+        let part = |control: &[i32]| -> Vec<i32> { shown.iter().map(|k| control[*k]).collect() };
+        let own: BTreeSet<Did> = seen
+            .did
+            .iter()
+            .filter(|(k, _)| *k == m)
+            .map(|(_, (from, to, rule))| (part(from), part(to), *rule))
+            .collect();
+        let initial: BTreeSet<Vec<i32>> = seen
             .initial
             .iter()
             .filter(|(k, _)| *k == m)
-            .map(|(_, control)| control)
+            .map(|(_, control)| part(control))
             .collect();
+        let mut reached: BTreeSet<&Vec<i32>> = own.iter().flat_map(|(a, b, _)| [a, b]).collect();
         reached.extend(&initial);
         let mut all: BTreeSet<Vec<i32>> = reached.iter().map(|v| (*v).clone()).collect();
-        if let [cell] = self.cells.as_slice() {
+        if let [cell] = cells.as_slice() {
             let (lo, hi) = bound.states[*cell];
             all.extend((lo..=hi).map(|v| vec![v]));
         }
         let numbers: BTreeMap<&Vec<i32>, usize> = all.iter().zip(0..).collect();
         let mut ways: BTreeMap<(usize, usize), Vec<String>> = BTreeMap::new();
-        for (from, to, rule) in own() {
+        for (from, to, rule) in &own {
             let rule = rule.and_then(|k| system.rules().nth(k));
             let name = rule.map_or("no rule", |r| r.name.rsplit('.').next().unwrap_or(&r.name));
             if let (Some(from), Some(to)) = (numbers.get(from), numbers.get(to)) {
@@ -298,13 +337,13 @@ impl Machine<'_> {
             }
         }
         let label = |control: &Vec<i32>| -> String {
-            let values = self.cells.iter().zip(control).map(|(k, v)| {
+            let values = cells.iter().zip(control).map(|(k, v)| {
                 let ty = system.states[*k].var.ty;
                 system.show(ty, i64::from(*v))
             });
             values.collect::<Vec<_>>().join("\n")
         };
-        let variables = self.cells.iter();
+        let variables = cells.iter();
         let variables: Vec<&str> = variables
             .map(|k| system.states[*k].var.name.as_str())
             .collect();

@@ -88,7 +88,11 @@ fn settings(values: &Settings) -> Vec<Block> {
         values
             .iter()
             .filter(|(_, s)| s.is_given() == given)
-            .map(|(name, s)| vec![code(name), words(s.shown.join(", "))])
+            .map(|(name, s)| {
+                // Names of options are quoted in the file, where their quotes mean nothing but a text.
+                let shown: Vec<&str> = s.shown.iter().map(|v| v.trim_matches('"')).collect();
+                vec![code(name), words(shown.join(", "))]
+            })
             .collect()
     };
     let mut out = Vec::new();

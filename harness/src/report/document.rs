@@ -1,6 +1,7 @@
 //! The report as a document, for HTML and Markdown. It tells no times and no memory: equal input gives equal bytes.
 
 use std::collections::BTreeMap;
+use std::time::{Duration, Instant};
 
 use stillpoint_certify::format::{Kind, Source};
 use stillpoint_certify::subject as certified;
@@ -57,9 +58,11 @@ impl About {
             sources: sources(subject)?,
             ..Self::default()
         };
+        let start = Instant::now();
         for (task, done) in subject.tasks.iter().zip(checked) {
             begin(task);
-            out.control.push(drawn(task, done, settings)?);
+            let left = settings.time.map(|t| t.saturating_sub(start.elapsed()));
+            out.control.push(drawn(task, done, settings, left)?);
         }
         Ok(out)
     }
@@ -83,7 +86,12 @@ fn sources(subject: &Subject) -> Result<Vec<Source>, String> {
     Ok(read.header.file)
 }
 
-fn drawn(task: &Task, done: &Checked, settings: &Settings) -> Result<Control, String> {
+fn drawn(
+    task: &Task,
+    done: &Checked,
+    settings: &Settings,
+    time: Option<Duration>,
+) -> Result<Control, String> {
     let report = &done.outcome.report;
     if !report.complete {
         let why = "not drawn, since a limit ended the exploration";
@@ -92,7 +100,7 @@ fn drawn(task: &Task, done: &Checked, settings: &Settings) -> Result<Control, St
     let options = Options {
         limits: Limits {
             memory: settings.memory,
-            time: settings.time,
+            time,
             threads: settings.threads,
         },
         ..Options::default()
@@ -102,7 +110,7 @@ fn drawn(task: &Task, done: &Checked, settings: &Settings) -> Result<Control, St
     Ok(match drawn {
         Some(drawn) => Control::Drawn(drawn),
         None => Control::Omitted(
-            "not drawn, since too many cycles would have to be gone through once more; \
+            "not drawn, since more cycles would have to be gone through once more than the limits allow; \
              stillpoint export --to dot draws them"
                 .to_owned(),
         ),

@@ -1,6 +1,7 @@
 //! What was explored: sizes, abstractions, control states, rules.
 
 use stillpoint_show::document::{Block, Inline, Tone};
+use stillpoint_show::graph::Graph;
 
 use super::document::{Control, code, paragraph, table, words};
 use super::{grouped, params, reduced, storage_name};
@@ -121,25 +122,14 @@ pub(super) fn control(subject: &Subject, drawn: &[Control]) -> Vec<Block> {
         };
         let inside: Vec<Block> = match drawn {
             Control::Omitted(why) => vec![paragraph(format!("{title}: {why}."))],
-            Control::Drawn(graphs) => graphs
-                .iter()
-                .flat_map(|(instance, graph)| {
-                    [
-                        Block::Paragraph(vec![
-                            Inline::Text("Machine ".to_owned()),
-                            Inline::Strong(instance.clone()),
-                        ]),
-                        Block::Graph(Box::new(graph.clone())),
-                    ]
-                })
-                .collect(),
+            Control::Drawn(graphs) => pictures(graphs),
         };
         match drawn {
             Control::Omitted(_) => out.extend(inside),
             Control::Drawn(_) if inside.is_empty() => {}
             Control::Drawn(_) if subject.tasks.len() == 1 => out.extend(inside),
             Control::Drawn(graphs) => out.push(Block::Details {
-                summary: words(match graphs.len() {
+                summary: words(match machines(graphs) {
                     1 => format!("{title} (1 machine)"),
                     n => format!("{title} ({n} machines)"),
                 }),
@@ -151,11 +141,35 @@ pub(super) fn control(subject: &Subject, drawn: &[Control]) -> Vec<Block> {
         return out;
     }
     let about = paragraph(
-        "A state of a machine is a combination of the values of its variables with names for values. What is reached is \
-         drawn strong, what no run reaches pale; runs begin at the thick frame. The words at an arrow are the rules that \
+        "A state of a machine is a combination of the values of its variables with names for values; where these are many, \
+         each variable is drawn by itself. What is reached is drawn strong, what no run reaches pale; runs begin at the thick frame. The words at an arrow are the rules that \
          lead there.",
     );
     out.insert(0, about);
+    out
+}
+
+/// How many machines these are, of which one may have several graphs.
+fn machines(graphs: &[(String, Graph)]) -> usize {
+    let mut names: Vec<&String> = graphs.iter().map(|(name, _)| name).collect();
+    names.dedup();
+    names.len()
+}
+
+/// The graphs of each machine under its name.
+fn pictures(graphs: &[(String, Graph)]) -> Vec<Block> {
+    let mut out = Vec::new();
+    let mut before = "";
+    for (name, graph) in graphs {
+        if name != before {
+            before = name;
+            out.push(Block::Paragraph(vec![
+                Inline::Text("Machine ".to_owned()),
+                Inline::Strong(name.clone()),
+            ]));
+        }
+        out.push(Block::Graph(Box::new(graph.clone())));
+    }
     out
 }
 

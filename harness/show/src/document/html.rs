@@ -227,10 +227,10 @@ fn class(tone: Tone) -> &'static str {
 
 fn table(out: &mut String, table: &Table) {
     // A row of more than two cells becomes a card on a narrow screen.
-    let kind = if table.columns.len() > 2 {
-        "table stack"
-    } else {
-        "table"
+    let kind = match table.columns.len() {
+        0 | 1 => "table",
+        2 => "table pair",
+        _ => "table stack",
     };
     let _ = writeln!(out, "<div class=\"{kind}\"><table>");
     if !table.caption.is_empty() {
