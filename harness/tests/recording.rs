@@ -297,7 +297,9 @@ fn a_table_is_read_by_its_map() {
     let (status, out, err) = diff(&["--trace", &table, "--columns", &map]);
     assert_eq!(status, 0, "{out}{err}");
     assert!(
-        out.contains("125 cycles") && out.contains("not recorded, taken as at rest"),
+        out.contains("without an output: Y, Z, S")
+            && out.contains("125 cycles")
+            && out.contains("not recorded, taken as at rest"),
         "{out}"
     );
     let wrong = "t=t,X.nck.stop=\"nothing\"";

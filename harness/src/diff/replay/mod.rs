@@ -30,6 +30,8 @@ pub struct Replayed {
     pub tolerance: u32,
     /// The axes replayed.
     pub axes: Vec<AxisReplayed>,
+    /// The axes that were not: no position of a channel is recorded, or no output.
+    pub left_out: Vec<String>,
     /// Values compared, of all axes and cycles, on both sides.
     pub outputs_compared: u128,
     /// Every signal that differs, the earliest first.
@@ -106,10 +108,12 @@ pub fn replay(
 ) -> Result<Replayed, String> {
     let produced = production::axes(machine)?;
     let mut axes = Vec::new();
+    let mut left_out = Vec::new();
     let mut columns = Vec::new();
     for (k, produced) in produced.iter().enumerate() {
         let recorded = Recorded::new(recording, &produced.name);
         if !recorded.has_position() || recorded.outputs.is_empty() {
+            left_out.push(produced.name.clone());
             continue;
         }
         let basis = Basis::new(machine, k, produced)?;
@@ -138,6 +142,7 @@ pub fn replay(
         outputs_compared: columns.iter().map(told).sum(),
         diagram: show::diagram(recording, &columns, &divergences),
         axes,
+        left_out,
         divergences,
     })
 }

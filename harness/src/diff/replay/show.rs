@@ -140,6 +140,13 @@ impl Replayed {
                 );
             }
         }
+        if !self.left_out.is_empty() {
+            let _ = writeln!(
+                out,
+                "not replayed, without a position or without an output: {}",
+                self.left_out.join(", ")
+            );
+        }
         for d in self.divergences.iter().take(MOST_LISTED) {
             let _ = writeln!(
                 out,
@@ -197,6 +204,7 @@ impl Replayed {
             "complete": true,
             "tolerance": self.tolerance,
             "axes": axes,
+            "axes_not_replayed": self.left_out,
             "differences": divergences.collect::<Vec<_>>(),
             "diagram": self.diagram.as_ref().map(Diagram::text),
         })
