@@ -20,11 +20,11 @@ pub fn document(
     if let Some(since) = since {
         blocks.extend(changed(protocol, since));
     }
-    if let Some(ran) = ran {
-        blocks.extend(simulated(ran, tests.len()));
-    }
+    let simulated = ran.map(|ran| simulated(ran, tests.len()));
+    let (verdict, results) = simulated.unzip();
+    blocks.extend(verdict);
     blocks.push(identity(machine, protocol, checksums));
-    blocks.push(configuration(machine));
+    blocks.push(configuration(machine, protocol));
     blocks.push(list(&tests));
     blocks.push(points("Before the tests", "before", &protocol.before));
     for (k, part) in protocol.parts.iter().enumerate() {
@@ -46,6 +46,7 @@ pub fn document(
     blocks.push(points("Completion", "completion", &protocol.after));
     blocks.push(signatures(protocol));
     blocks.push(measures(protocol));
+    blocks.extend(results);
     Document {
         title: match since {
             Some(_) => format!("Partial acceptance test of {}", machine.name),
@@ -129,36 +130,32 @@ fn identity(machine: &Machine, protocol: &Protocol, checksums: &Checksums) -> Bl
     }
 }
 
-fn configuration(machine: &Machine) -> Block {
+fn configuration(machine: &Machine, protocol: &Protocol) -> Block {
     let mut rows = Vec::new();
     for axis in &machine.axes {
         let functions = axis.functions.iter();
         let functions = functions.map(|f| format!("{f} ({})", machine.function_text(f)));
         let functions: Vec<String> = functions.collect();
-        let none = "none".to_owned();
-        rows.push(vec![
+        let functions = match functions.is_empty() {
+            true => "none".to_owned(),
+            false => functions.join("; "),
+        };
+        let mut row = vec![
             vec![Inline::Strong(axis.name.clone())],
             vec![text(&axis.title)],
-            vec![Inline::Text(if functions.is_empty() {
-                none
-            } else {
-                functions.join("; ")
-            })],
-            vec![Inline::Blank(12)],
-            vec![Inline::Blank(12)],
-        ]);
+            vec![Inline::Text(functions)],
+        ];
+        row.extend(
+            protocol
+                .axis_records
+                .iter()
+                .map(|_| vec![Inline::Blank(12)]),
+        );
+        rows.push(row);
     }
-    let mut blocks = vec![table(
-        "Functions of each axis; the checksums stand on the control, of both channels",
-        columns(&[
-            "Axis",
-            "What it is",
-            "Functions",
-            "Checksum NCK",
-            "Checksum drive",
-        ]),
-        rows,
-    )];
+    let mut heads = columns(&["Axis", "What it is", "Functions"]);
+    heads.extend(protocol.axis_records.iter().map(|r| column(r, false)));
+    let mut blocks = vec![table("", heads, rows)];
     blocks.push(details("Control", &machine.control_shown()));
     for axis in &machine.axes {
         blocks.push(details(
@@ -315,8 +312,8 @@ fn one(machine: &Machine, test: &Test) -> Block {
     }
 }
 
-/// What the tests gave on the simulated axis.
-fn simulated(ran: &[Ran], tests: usize) -> Vec<Block> {
+/// What the tests gave on the simulated axis: the result, and the section with the details.
+fn simulated(ran: &[Ran], tests: usize) -> (Block, Block) {
     let bad = ran.iter().filter(|r| !r.holds).count();
     let (tone, head) = match bad {
         0 => (
@@ -333,51 +330,60 @@ fn simulated(ran: &[Ran], tests: usize) -> Vec<Block> {
         ),
     };
     let about = format!(
-        "{} of {tests} tests have a scenario and were run on the production monitors of both channels with a simple axis. This shows that configuration and monitors fit the test; it is no test of the machine.",
+        "{} of {tests} tests have a scenario and were run on the production monitors of both channels with a simple axis. This shows that configuration and monitors fit the test; it is no test of the machine. ",
         ran.len()
     );
-    let mut inner = Vec::new();
+    let mut rows = Vec::new();
+    let mut pictures = Vec::new();
     for r in ran {
         let (tone, word) = match r.holds {
             true => (Tone::Good, "as expected"),
             false => (Tone::Bad, "not as expected"),
         };
-        let mut points: Vec<Vec<Inline>> = Vec::new();
-        for (expected, holds, cycle) in &r.judged {
-            let came = match (holds, cycle) {
-                (true, Some(cycle)) => format!(" (cycle {cycle})"),
-                (true, None) => String::new(),
-                (false, _) => ": does not hold".to_owned(),
-            };
-            points.push(vec![Inline::Text(format!("{expected}{came}"))]);
-        }
-        points.extend(r.stops.iter().map(|stop| vec![text(stop)]));
-        let mut blocks = vec![Block::List(points)];
+        let seen = r
+            .judged
+            .iter()
+            .map(|(expected, holds, cycle)| match (holds, cycle) {
+                (true, Some(cycle)) => format!("{expected} (cycle {cycle})"),
+                (true, None) => expected.clone(),
+                (false, _) => format!("{expected}: does not hold"),
+            });
+        let seen: Vec<String> = seen.collect();
+        rows.push(vec![
+            vec![Inline::Link {
+                text: r.id.clone(),
+                to: format!("#{}", anchor(&r.id)),
+            }],
+            vec![Inline::Badge(tone, word.to_owned())],
+            vec![Inline::Text(seen.join("; "))],
+            vec![Inline::Text(r.stops.join("; "))],
+        ]);
         // The diagrams of all tests would bury the protocol.
         if !r.holds {
-            blocks.push(Block::Timing(Box::new(r.diagram.clone())));
+            pictures.push(Block::Paragraph(vec![Inline::Strong(r.id.clone())]));
+            pictures.push(Block::Timing(Box::new(r.diagram.clone())));
         }
-        inner.push(Block::Details {
-            summary: vec![
-                Inline::Code(r.id.clone()),
-                text(" "),
-                Inline::Badge(tone, word.to_owned()),
-            ],
-            blocks,
-        });
     }
-    vec![
-        Block::Verdict {
-            tone,
-            head,
-            text: vec![Inline::Text(about)],
-        },
-        Block::Section {
-            title: "On the simulated axis".to_owned(),
-            anchor: "simulated".to_owned(),
-            blocks: inner,
-        },
-    ]
+    let heads = columns(&["Test", "Result", "Expected", "Stops"]);
+    let mut blocks = vec![table("", heads, rows)];
+    blocks.extend(pictures);
+    let verdict = Block::Verdict {
+        tone,
+        head,
+        text: vec![
+            Inline::Text(about),
+            Inline::Link {
+                text: "Results".to_owned(),
+                to: "#simulated".to_owned(),
+            },
+        ],
+    };
+    let section = Block::Section {
+        title: "On the simulated axis".to_owned(),
+        anchor: "simulated".to_owned(),
+        blocks,
+    };
+    (verdict, section)
 }
 
 fn signatures(protocol: &Protocol) -> Block {
