@@ -144,7 +144,8 @@ fn way(before: i64, after: i64, rate: i64) -> i64 {
         0 if before.abs() < rate => (before * before.abs(), 2 * rate),
         _ => (before + after, 2),
     };
-    twice.signum() * twice.abs().div_ceil(parts)
+    let length = twice.unsigned_abs().div_ceil(parts.unsigned_abs());
+    twice.signum() * i64::try_from(length).unwrap_or(i64::MAX)
 }
 
 /// What friction adds to the speed of an axis that another force moves.
