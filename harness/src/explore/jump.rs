@@ -8,7 +8,7 @@ use super::Bounds;
 use super::path::{MOST_CYCLES, Path};
 use super::walk::path_of;
 use crate::engine::{self, Outcome};
-use crate::report::{grouped, verdict_name};
+use crate::report::{counted, grouped, verdict_name};
 
 /// What exploring for one property gave.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -101,7 +101,10 @@ fn told(bound: &Bound, outcome: &Outcome, bounds: Bounds) -> Jump {
                 (_, Some(Form::Independent { .. })) => "A run:",
                 _ => "Shortest run to its condition:",
             };
-            text.push_str(&format!(" {what} {}.", count(trace.steps.len())));
+            text.push_str(&format!(
+                " {what} {}.",
+                counted(trace.steps.len() as u64, "cycle")
+            ));
             if let Some(start) = trace.loop_start {
                 text.push_str(&format!(
                     " From cycle {} on it repeats for ever.",
@@ -123,12 +126,5 @@ fn told(bound: &Bound, outcome: &Outcome, bounds: Bounds) -> Jump {
         text,
         path,
         other: second.filter(short).map(|trace| path_of(bound, trace)),
-    }
-}
-
-fn count(cycles: usize) -> String {
-    match cycles {
-        1 => "1 cycle".to_owned(),
-        n => format!("{n} cycles"),
     }
 }

@@ -10,7 +10,9 @@ use stillpoint_show::document::{Block, Column, Document, Inline, Table, Tone};
 use stillpoint_show::graph::Graph;
 use stillpoint_spec::ir::Topic;
 
-use super::{configuration, exploration, grouped, inventory, properties, result, verdict_name};
+use super::{
+    configuration, counted, exploration, grouped, inventory, properties, result, verdict_name,
+};
 use crate::check::{Checked, Settings, Summary, Unfired, exit_status, violations};
 use crate::readings::Compared;
 use crate::states::{Budget, control_states};
@@ -324,7 +326,10 @@ fn counterexamples(subject: &Subject, checked: &[Checked]) -> Vec<Block> {
         let runs = [violation.trace, violation.second];
         for (k, trace) in runs.into_iter().flatten().enumerate() {
             inside.push(paragraph(match k {
-                0 => format!("The shortest run, {} cycles:", trace.steps.len()),
+                0 => format!(
+                    "The shortest run, {}:",
+                    counted(trace.steps.len() as u64, "cycle")
+                ),
                 _ => "Against the run that differs only in the inputs named:".to_owned(),
             }));
             inside.push(properties::timing(

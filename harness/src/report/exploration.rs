@@ -4,7 +4,7 @@ use stillpoint_show::document::{Block, Inline, Tone};
 use stillpoint_show::graph::Graph;
 
 use super::document::{Control, code, paragraph, table, words};
-use super::{grouped, params, reduced, storage_name};
+use super::{counted, grouped, params, reduced, storage_name};
 use crate::check::{Checked, Unfired};
 use crate::engine::Evaluator;
 use crate::reduce;
@@ -101,13 +101,13 @@ fn about(n: usize, task: &Task, done: &Checked) -> Block {
             .map(|(name, value)| vec![code(name), words(value)]);
         inside.push(table(&["parameter", "#value"], rows.collect()));
     }
-    let coarse = match task.abstractions.len() {
+    let coarse = match task.abstractions.len() as u64 {
         0 => String::new(),
-        1 => ", 1 abstraction".to_owned(),
-        n => format!(", {n} abstractions"),
+        n => format!(", {}", counted(n, "abstraction")),
     };
+    let count = counted(count as u64, "parameter");
     Block::Details {
-        summary: words(format!("Run {n}: {count} parameters{coarse}")),
+        summary: words(format!("Run {n}: {count}{coarse}")),
         blocks: inside,
     }
 }

@@ -33,6 +33,12 @@ pub fn verdict_name(verdict: Verdict) -> &'static str {
     }
 }
 
+/// So many of a thing whose plural takes an s: `1 cycle`, `2 cycles`.
+pub fn counted(n: u64, thing: &str) -> String {
+    let plural = if n == 1 { "" } else { "s" };
+    format!("{n} {thing}{plural}")
+}
+
 /// A number with thin groups of three: `4 024 036`.
 pub fn grouped(n: u128) -> String {
     let digits = n.to_string();

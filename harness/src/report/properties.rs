@@ -4,8 +4,8 @@ use stillpoint_model::{Trace, Verdict};
 use stillpoint_show::document::Block;
 use stillpoint_spec::ir::Property;
 
-use super::diagram;
 use super::document::{badge, code, paragraph, table, words};
+use super::{counted, diagram};
 use crate::check::Checked;
 use crate::subject::{Subject, Task};
 
@@ -90,11 +90,10 @@ impl Row<'_> {
             };
             let cycles = match bound {
                 (Some(0), Some(0)) => "in the same cycle".to_owned(),
-                (Some(1), Some(1)) => "in 1 cycle".to_owned(),
-                (Some(a), Some(b)) if a == b => format!("in {a} cycles"),
+                (Some(a), Some(b)) if a == b => format!("in {}", counted(a, "cycle")),
                 (Some(a), Some(b)) => format!("in {a} to {b} cycles"),
-                (Some(a), None) => format!("in {a} cycles or more"),
-                (None, Some(b)) => format!("within {b} cycles"),
+                (Some(a), None) => format!("in {} or more", counted(a, "cycle")),
+                (None, Some(b)) => format!("within {}", counted(b, "cycle")),
                 (None, None) => String::new(),
             };
             let both = !cycles.is_empty() && !runs.is_empty();

@@ -6,7 +6,7 @@ use stillpoint_model::{Storage, Verdict};
 use stillpoint_spec::ir::Topic;
 
 use super::properties::rows;
-use super::{diagram, grouped, params, reduced, result, storage_name, verdict_name};
+use super::{counted, diagram, grouped, params, reduced, result, storage_name, verdict_name};
 use crate::check::{Checked, Settings, Summary, Unfired, violations};
 use crate::engine::Evaluator;
 use crate::reduce;
@@ -50,7 +50,11 @@ pub fn text(subject: &Subject, checked: &[Checked], summaries: &[Summary]) -> St
         }
         match violation.trace {
             Some(trace) => {
-                let _ = writeln!(out, "  shortest run, {} cycles:", trace.steps.len());
+                let _ = writeln!(
+                    out,
+                    "  shortest run, {}:",
+                    counted(trace.steps.len() as u64, "cycle")
+                );
                 out.push_str(&diagram(&violation.task.bound, trace, "violated here").text());
                 if let Some(second) = violation.second {
                     out.push_str("  against the run that differs only in the inputs named:\n");

@@ -8,6 +8,7 @@ use stillpoint_spec::machine::AxisKind;
 use super::resolve::time;
 use super::summary::{Shown, Simulation, numbers};
 use crate::recording::{Kind, Value, vocabulary};
+use crate::report::counted;
 
 /// What is shown of each channel, where it changes: both channels in one lane while they agree.
 const OF_CHANNEL: [&str; 7] = [
@@ -351,7 +352,7 @@ impl Simulation {
                 Some(at) => format!(
                     "stands {} later ({}) after {}",
                     time((at - stop.cycle) * cycle),
-                    count(at - stop.cycle),
+                    counted(at - stop.cycle, "cycle"),
                     stop.travel_shown
                 ),
                 None => format!("does not stand yet, {} on", stop.travel_shown),
@@ -381,12 +382,6 @@ impl Simulation {
         }
         out
     }
-}
-
-/// `1 cycle`, `17 cycles`.
-fn count(cycles: u64) -> String {
-    let plural = if cycles == 1 { "" } else { "s" };
-    format!("{cycles} cycle{plural}")
 }
 
 /// A value as it stands in a lane.
