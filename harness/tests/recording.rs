@@ -231,6 +231,17 @@ fn divergences_are_found() {
         assert!(out.contains(line), "{line}: {out}");
     }
 
+    let picture = folder.0.join("divergence.svg");
+    let svg = picture.to_str().expect("a name");
+    let (status, _, _) = diff(&["--trace", &wrong, "--svg", svg]);
+    assert_eq!(status, 1);
+    let drawn = std::fs::read_to_string(&picture).expect("a picture");
+    assert!(drawn.contains("recorded D, specification C"), "{drawn}");
+    std::fs::remove_file(&picture).expect("removable");
+    let right = folder.write("right.ndjson", &text);
+    let (status, _, _) = diff(&["--trace", &right, "--svg", svg]);
+    assert!(status == 0 && !picture.exists());
+
     let mut late = recording.clone();
     let stop = late.find("X.nck.SGA_STOP_C").expect("recorded");
     let values: Vec<_> = recording.rows.iter().map(|row| row[stop].clone()).collect();

@@ -6,11 +6,10 @@ use clap::Args;
 use stillpoint::acceptance::{
     Error, checksums, document, run as simulate, selected, since, to_json,
 };
-use stillpoint::atomic::write_with;
 use stillpoint_spec::machine::acceptance::Protocol;
 use stillpoint_spec::machine::{self, Machine, families};
 
-use super::{Failure, emit};
+use super::{Failure, emit, write};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -71,11 +70,9 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         false => None,
     };
     let document = document(&machine, &protocol, &sums, since.as_ref(), ran.as_deref());
-    if let Some(path) = &arguments.html {
-        let page = document.html();
-        write_with(path, |out| out.write_all(page.as_bytes()))
-            .map_err(|e| Failure::Other(format!("{} cannot be written: {e}", path.display())))?;
-    }
+    write(arguments.html.as_deref(), |out| {
+        out.write_all(document.html().as_bytes())
+    })?;
     if arguments.json {
         let json = to_json(&machine, &protocol, &sums, since.as_ref(), ran.as_deref());
         emit(&format!("{json:#}\n"));

@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use clap::Args;
-use stillpoint::atomic::write_with;
 use stillpoint::certificate;
 use stillpoint::check::{Settings, check, exit_status, summarise};
 use stillpoint::keep::Keep;
@@ -18,7 +17,7 @@ use super::cluster::ClusterOptions;
 use super::limits::LimitOptions;
 use super::progress::Line;
 use super::values;
-use super::{Failure, emit, show};
+use super::{Failure, emit, show, write};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -167,11 +166,9 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         if arguments.markdown {
             emit(&document.markdown());
         }
-        if let Some(path) = &arguments.html {
-            write_with(path, |out| out.write_all(document.html().as_bytes())).map_err(|e| {
-                Failure::Other(format!("{} cannot be written: {e}", path.display()))
-            })?;
-        }
+        write(arguments.html.as_deref(), |out| {
+            out.write_all(document.html().as_bytes())
+        })?;
     }
     // The report is out by now: it is not lost if the disk is full.
     if let Some(path) = &arguments.certificate {

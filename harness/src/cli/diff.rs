@@ -13,11 +13,12 @@ use stillpoint::simulate;
 use stillpoint::subject::{self, Readings};
 use stillpoint_model::{Limits, Options};
 use stillpoint_monitors::mutant::Mutant;
+use stillpoint_show::diagram::Diagram;
 use stillpoint_spec::machine;
 
 use super::limits::LimitOptions;
 use super::progress::Line;
-use super::{Failure, emit, show};
+use super::{Failure, emit, show, write};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -44,6 +45,9 @@ pub struct Arguments {
     /// Print the report as JSON
     #[arg(long)]
     json: bool,
+    /// Draw the first divergence as a timing diagram; without a divergence nothing is written
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
     #[command(flatten)]
     limits: LimitOptions,
     /// Compare with a deliberately wrong monitor: a test of the comparison itself
@@ -105,6 +109,8 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     } else {
         show(&text(&compared, &what));
     }
+    let mut diagrams = compared.iter().filter_map(|c| c.divergence.as_ref());
+    draw(arguments, diagrams.next())?;
     Ok(if compared.iter().any(|c| c.divergence.is_some()) {
         1
     } else if compared.iter().all(|c| c.complete) {
@@ -178,5 +184,15 @@ fn replay(arguments: &Arguments, trace: &Path) -> Result<u8, Failure> {
     } else {
         emit(&replayed.text());
     }
+    draw(arguments, replayed.diagram.as_ref())?;
     Ok(u8::from(!replayed.divergences.is_empty()))
+}
+
+fn draw(arguments: &Arguments, divergence: Option<&Diagram>) -> Result<(), Failure> {
+    let Some(diagram) = divergence else {
+        return Ok(());
+    };
+    write(arguments.svg.as_deref(), |out| {
+        out.write_all(diagram.svg().as_bytes())
+    })
 }

@@ -24,6 +24,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 use miette::MietteHandlerOpts;
+use stillpoint::atomic::write_with;
 use stillpoint::subject;
 use stillpoint_spec::diag::Diagnostics;
 
@@ -202,6 +203,16 @@ fn show(report: &str) {
 fn emit(text: &str) {
     let mut out = std::io::stdout().lock();
     let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+}
+
+/// Writes a file that the user asked for, whole or not at all.
+fn write(
+    path: Option<&std::path::Path>,
+    content: impl FnOnce(&mut dyn std::io::Write) -> std::io::Result<()>,
+) -> Result<(), Failure> {
+    let Some(path) = path else { return Ok(()) };
+    write_with(path, content)
+        .map_err(|e| Failure::Other(format!("{} cannot be written: {e}", path.display())))
 }
 
 fn validate(file: &std::path::Path) -> Result<u8, Failure> {

@@ -3,7 +3,6 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use stillpoint::atomic::write_with;
 use stillpoint::check::{Settings, check};
 use stillpoint::reaction::{self, Error, Wishes};
 use stillpoint::subject::{self, Readings};
@@ -11,7 +10,7 @@ use stillpoint_spec::machine::{self, families};
 
 use super::limits::LimitOptions;
 use super::progress::Line;
-use super::{Failure, emit};
+use super::{Failure, emit, write};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -80,11 +79,9 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     .map_err(|(title, e)| Failure::Other(format!("{title}: {e}")))?;
     let judged = reaction::judge(&machine, reactions, &subject, &checked, &wishes)?;
     let document = || reaction::document(&judged, &machine, &subject, &checked);
-    if let Some(path) = &arguments.html {
-        let page = document().html();
-        write_with(path, |out| out.write_all(page.as_bytes()))
-            .map_err(|e| Failure::Other(format!("{} cannot be written: {e}", path.display())))?;
-    }
+    write(arguments.html.as_deref(), |out| {
+        out.write_all(document().html().as_bytes())
+    })?;
     if arguments.json {
         let json = judged.to_json(&machine, &subject, &checked);
         emit(&format!("{json:#}\n"));

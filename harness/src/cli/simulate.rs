@@ -1,15 +1,13 @@
 //! `stillpoint simulate`.
 
-use std::io;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
-use stillpoint::atomic::write_with;
 use stillpoint::recording::{csv, ndjson};
 use stillpoint::simulate::{self, Scenario};
 use stillpoint_spec::machine;
 
-use super::{Failure, emit};
+use super::{Failure, emit, write};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -57,13 +55,4 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     }
     emit(&text);
     Ok(u8::from(!simulation.holds()))
-}
-
-fn write(
-    path: Option<&Path>,
-    content: impl FnOnce(&mut dyn io::Write) -> io::Result<()>,
-) -> Result<(), Failure> {
-    let Some(path) = path else { return Ok(()) };
-    write_with(path, content)
-        .map_err(|e| Failure::Other(format!("cannot write {}: {e}", path.display())))
 }
