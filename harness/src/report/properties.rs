@@ -90,10 +90,10 @@ impl Row<'_> {
             };
             let cycles = match bound {
                 (Some(0), Some(0)) => "in the same cycle".to_owned(),
-                (Some(a), Some(b)) if a == b => format!("in {}", counted(a, "cycle")),
+                (Some(a), Some(b)) if a == b => format!("in {}", counted(*a, "cycle")),
                 (Some(a), Some(b)) => format!("in {a} to {b} cycles"),
-                (Some(a), None) => format!("in {} or more", counted(a, "cycle")),
-                (None, Some(b)) => format!("within {}", counted(b, "cycle")),
+                (Some(a), None) => format!("in {} or more", counted(*a, "cycle")),
+                (None, Some(b)) => format!("within {}", counted(*b, "cycle")),
                 (None, None) => String::new(),
             };
             let both = !cycles.is_empty() && !runs.is_empty();
