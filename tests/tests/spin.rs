@@ -3,6 +3,7 @@
 //! A user without SPIN or gcc sees that the tests were skipped; where the environment has `CI`, they fail then.
 
 use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use stillpoint::export::promela::{Promela, promela};
 use stillpoint_model::Verdict;
@@ -121,12 +122,21 @@ fn shipped_systems_have_the_same_states() {
     if !tools(&TOOLS) {
         return;
     }
-    for path in specification_files() {
-        // The yardstick has a test of its own; files that only others use have no system.
-        if has_system(&path) && !path.ends_with("bench/two-axis.toml") {
-            assert_eq!(compare(&path), 0, "{}", path.display());
+    // The yardstick has a test of its own; files that only others use have no system.
+    let mut files = specification_files();
+    files.retain(|path| has_system(path) && !path.ends_with("bench/two-axis.toml"));
+    // Compiling and running a verifier keeps one processor busy.
+    let processors = std::thread::available_parallelism().map_or(1, usize::from);
+    let next = AtomicUsize::new(0);
+    std::thread::scope(|scope| {
+        for _ in 0..processors {
+            scope.spawn(|| {
+                while let Some(path) = files.get(next.fetch_add(1, Ordering::Relaxed)) {
+                    assert_eq!(compare(path), 0, "{}", path.display());
+                }
+            });
         }
-    }
+    });
 }
 
 #[test]
