@@ -106,8 +106,9 @@ fn seeded_errors_are_found_with_the_shortest_run() {
             text.contains(&format!("VIOLATED  {id}  ")),
             "{file}: {text}"
         );
+        let cycles = if length == 1 { "cycle" } else { "cycles" };
         assert!(
-            text.contains(&format!("shortest run, {length} cycles:")),
+            text.contains(&format!("shortest run, {length} {cycles}:")),
             "{file}: {text}"
         );
         // The diagram: a line of cycle numbers, the inputs, the state, and the mark under the last cycle.
