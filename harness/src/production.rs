@@ -1,6 +1,6 @@
 //! The axes of a machine file on the production monitors: machine data in the units of the monitors, checked by them.
 
-use stillpoint_monitors::parameters::{
+use stillpoint_monitors::sinumerik::parameters::{
     Configuration, ControlModule, Encoders, Installation, Parameters,
 };
 use stillpoint_spec::machine::{Axis, AxisKind, Machine};

@@ -84,7 +84,7 @@ fn what_is_written_reads_back() {
 #[test]
 fn every_input_can_be_set_and_read() {
     use stillpoint::recording::{Kind, Value};
-    use stillpoint_monitors::axis::Local;
+    use stillpoint_monitors::sinumerik::axis::Local;
     for input in vocabulary::inputs() {
         let mut local = Local::default();
         let before = input.get(&local);

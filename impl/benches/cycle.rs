@@ -5,11 +5,11 @@
 use std::hint::black_box;
 
 use divan::Bencher;
-use stillpoint_monitors::axis::{self, Config, Inputs, Local, Side, State};
-use stillpoint_monitors::interface::Sge;
 use stillpoint_monitors::kernel::Position;
-use stillpoint_monitors::parameters::{Configuration, Parameters};
-use stillpoint_monitors::{channel, pair};
+use stillpoint_monitors::sinumerik::axis::{self, Config, Inputs, Local, Side, State};
+use stillpoint_monitors::sinumerik::interface::Sge;
+use stillpoint_monitors::sinumerik::parameters::{Configuration, Parameters};
+use stillpoint_monitors::sinumerik::{channel, pair};
 
 fn main() {
     println!("one axis, one channel, bytes:");

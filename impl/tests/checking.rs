@@ -1,9 +1,12 @@
 //! The monitors that check the monitoring, in the sequences the manual describes, with cycles of 12 ms.
 
-use stillpoint_monitors::code::Code;
-use stillpoint_monitors::compare::list::{self, ITEMS, Parameters, Snapshot, Tolerance};
-use stillpoint_monitors::kernel::{ConfigError, Cycles, Distance, InternalStop, Position};
-use stillpoint_monitors::{compare, forced_check, history, pulses, shutdown_test, slip, test_stop};
+use stillpoint_monitors::kernel::{ConfigError, Cycles, Distance, Position};
+use stillpoint_monitors::sinumerik::code::Code;
+use stillpoint_monitors::sinumerik::compare::list::{self, ITEMS, Parameters, Snapshot, Tolerance};
+use stillpoint_monitors::sinumerik::level::InternalStop;
+use stillpoint_monitors::sinumerik::{
+    compare, forced_check, history, pulses, shutdown_test, slip, test_stop,
+};
 
 /// t_chk of 100 ms.
 const T_CHK: Cycles = Cycles::new(9);

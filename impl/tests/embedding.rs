@@ -2,9 +2,11 @@
 //! stands between the marks; what stands outside runs it.
 
 // ANCHOR: controller
-use stillpoint_monitors::axis::{Config, Exchange, Inputs, Local, Monitor, Outputs, Side, State};
 use stillpoint_monitors::kernel::Position;
-use stillpoint_monitors::parameters::{ParameterError, Parameters};
+use stillpoint_monitors::sinumerik::axis::{
+    Config, Exchange, Inputs, Local, Monitor, Outputs, Side, State,
+};
+use stillpoint_monitors::sinumerik::parameters::{ParameterError, Parameters};
 
 /// One axis in one of its two channels.
 pub struct Controller {
@@ -42,8 +44,8 @@ impl Controller {
 }
 // ANCHOR_END: controller
 
-use stillpoint_monitors::interface::Sge;
-use stillpoint_monitors::kernel::Level;
+use stillpoint_monitors::sinumerik::interface::Sge;
+use stillpoint_monitors::sinumerik::level::Level;
 
 /// An axis held in its safe operating stop: both inputs that would de-select it are 0.
 fn held(position: i32) -> Local {

@@ -1,20 +1,19 @@
 //! Machine data of an axis: what is refused and why, and what the monitors get.
 
-use stillpoint_monitors::axis::{self, Side};
-use stillpoint_monitors::code::Code;
-use stillpoint_monitors::compare::{self, list};
-use stillpoint_monitors::kernel::{
-    ConfigError, Cycles, Distance, InternalStop, Level, Position, Speed,
-};
-use stillpoint_monitors::parameters::{
+use stillpoint_monitors::kernel::{ConfigError, Cycles, Distance, Position, Speed};
+use stillpoint_monitors::sinumerik::axis::{self, Side};
+use stillpoint_monitors::sinumerik::code::Code;
+use stillpoint_monitors::sinumerik::compare::{self, list};
+use stillpoint_monitors::sinumerik::level::{InternalStop, Level};
+use stillpoint_monitors::sinumerik::parameters::{
     ControlModule, Encoders, Function, Installation, ParameterError, Parameters, Rule,
 };
-use stillpoint_monitors::selection::{self, Stage};
-use stillpoint_monitors::units::ModuloRange;
-use stillpoint_monitors::{
+use stillpoint_monitors::sinumerik::selection::{self, Stage};
+use stillpoint_monitors::sinumerik::{
     agreement, cam, channel, external, fault, forced_check, gear, group, history, limit_switch,
     pulses, ramp, reference, results, shutdown_test, speed, standstill, stop, test_stop, threshold,
 };
+use stillpoint_monitors::units::ModuloRange;
 
 fn refused(parameters: Parameters) -> (u32, usize, i64, Rule) {
     match parameters.validate() {

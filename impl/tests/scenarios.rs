@@ -1,9 +1,11 @@
 //! Stories of the manual, told to the monitors cycle by cycle.
 
-use stillpoint_monitors::kernel::{
-    ConfigError, Cycles, ExternalStop, InternalStop, Level, Position, Speed,
+use stillpoint_monitors::kernel::{ConfigError, Cycles, Position, Speed};
+
+use stillpoint_monitors::sinumerik::level::{ExternalStop, InternalStop, Level};
+use stillpoint_monitors::sinumerik::{
+    agreement, external, fault, gear, reference, selection, stop,
 };
-use stillpoint_monitors::{agreement, external, fault, gear, reference, selection, stop};
 
 fn cycles(count: u32) -> Cycles {
     Cycles::new(count)

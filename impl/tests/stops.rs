@@ -2,12 +2,12 @@
 
 use core::num::NonZeroU32;
 
-use stillpoint_monitors::kernel::{
-    Cycles, Distance, DurationTooLong, ExternalStop, InternalStop, Level, Position, Speed,
-};
-use stillpoint_monitors::selection::{Monitored, Stage};
+use stillpoint_monitors::kernel::{Cycles, Distance, DurationTooLong, Position, Speed};
+
+use stillpoint_monitors::sinumerik::level::{ExternalStop, InternalStop, Level};
+use stillpoint_monitors::sinumerik::selection::{Monitored, Stage};
+use stillpoint_monitors::sinumerik::{cam, external, fault, group, selection, speed, stop};
 use stillpoint_monitors::units::ModuloRange;
-use stillpoint_monitors::{cam, external, fault, group, selection, speed, stop};
 
 fn cycles(count: u32) -> Cycles {
     Cycles::new(count)

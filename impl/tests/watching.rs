@@ -2,10 +2,14 @@
 
 use core::num::NonZeroU32;
 
-use stillpoint_monitors::kernel::{ConfigError, Cycles, Distance, InternalStop, Position, Speed};
-use stillpoint_monitors::selection::{FactorIndex, Monitored, Stage};
+use stillpoint_monitors::kernel::{ConfigError, Cycles, Distance, Position, Speed};
+
+use stillpoint_monitors::sinumerik::level::InternalStop;
+use stillpoint_monitors::sinumerik::selection::{FactorIndex, Monitored, Stage};
+use stillpoint_monitors::sinumerik::{
+    cam, limit_switch, motion, ramp, results, selection, speed, standstill,
+};
 use stillpoint_monitors::units::{Axis, ModuloRange, Scale};
-use stillpoint_monitors::{cam, limit_switch, motion, ramp, results, selection, speed, standstill};
 
 /// Millimetres per minute in a monitoring cycle of 12 ms.
 fn mm_per_min(value: u32) -> Speed {

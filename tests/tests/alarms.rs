@@ -3,12 +3,13 @@
 
 use std::collections::BTreeMap;
 
-use stillpoint_monitors::alarm::{Alarm, Class, Entry, Reaction, Response};
-use stillpoint_monitors::code::Code;
-use stillpoint_monitors::compare::list::{
+use stillpoint_monitors::kernel::{Cycles, Distance, Percent, Position, Speed};
+use stillpoint_monitors::sinumerik::alarm::{Alarm, Class, Entry, Reaction, Response};
+use stillpoint_monitors::sinumerik::code::Code;
+use stillpoint_monitors::sinumerik::compare::list::{
     ITEMS, Item, Kind, Parameters, Rule, Snapshot, Tolerance, differs,
 };
-use stillpoint_monitors::kernel::{Cycles, Distance, Level, Percent, Position, Speed};
+use stillpoint_monitors::sinumerik::level::Level;
 use stillpoint_tests::root;
 use toml::{Table, Value};
 

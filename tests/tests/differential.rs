@@ -8,7 +8,7 @@ use stillpoint::diff::slices::slices;
 use stillpoint::diff::{Compared, Pairing, bytes, exhaustive, pairings, peer, sample, to_json};
 use stillpoint::subject::{self, Readings};
 use stillpoint_model::Options;
-use stillpoint_monitors::mutant::Mutant;
+use stillpoint_monitors::sinumerik::mutant::Mutant as Sinumerik;
 use stillpoint_tests::root;
 
 /// Everything that has a monitor: with the parameters of the systems of `axis.toml`, else with those of the milling machine
@@ -46,12 +46,13 @@ fn explore(pairing: &Pairing) -> Compared {
 
 /// The machine that a mutant is one of: the first words of its name are its module.
 fn machine(mutant: Mutant) -> &'static str {
-    let names = peer::MACHINES.into_iter().chain(peer::SYSTEMS);
+    let family = mutant.family();
+    let names = family.machines.iter().chain(family.systems);
     let prefix = |module: &str| format!("{}-", module.replace('_', "-"));
     names
         .filter(|(_, module)| mutant.name().starts_with(&prefix(module)))
         .max_by_key(|(_, module)| module.len())
-        .map(|(machine, _)| machine)
+        .map(|(machine, _)| *machine)
         .unwrap_or_else(|| panic!("{mutant:?} is one of no machine that is compared"))
 }
 
@@ -59,10 +60,11 @@ fn machine(mutant: Mutant) -> &'static str {
 fn no_reachable_pair_differs() {
     let compared: Vec<Compared> = pieces().iter().map(explore).collect();
     let machines: BTreeSet<&str> = compared.iter().map(|c| c.machine.as_str()).collect();
-    let known = peer::MACHINES.into_iter().chain(peer::SYSTEMS);
+    let families = peer::FAMILIES.iter();
+    let known = families.flat_map(|family| family.machines.iter().chain(family.systems));
     assert_eq!(
         machines,
-        known.map(|(name, _)| name).collect(),
+        known.map(|(name, _)| *name).collect(),
         "everything that has a monitor"
     );
     for one in &compared {
@@ -89,10 +91,10 @@ fn no_reachable_pair_differs() {
 #[test]
 fn every_wrong_monitor_is_found_by_exploration() {
     let pairings = pieces();
-    assert!(Mutant::ALL.len() >= 17);
+    assert!(Mutant::all().count() >= 17);
     let mut survivors = Vec::new();
-    for mutant in Mutant::ALL {
-        let machine = machine(*mutant);
+    for mutant in Mutant::all() {
+        let machine = machine(mutant);
         let mut concerned = pairings.iter().filter(|p| p.machine == machine);
         let options = Options {
             witnesses: false,
@@ -100,12 +102,12 @@ fn every_wrong_monitor_is_found_by_exploration() {
             ..Options::default()
         };
         let found = concerned.find_map(|p| {
-            exhaustive(p, Some(*mutant), &options, &mut ())
+            exhaustive(p, Some(mutant), &options, &mut ())
                 .unwrap_or_else(|e| panic!("{e}"))
                 .divergence
         });
         let Some(diagram) = found else {
-            survivors.push(*mutant);
+            survivors.push(mutant);
             continue;
         };
         let text = diagram.text();
@@ -161,8 +163,8 @@ fn random_runs_find_no_difference_and_repeat() {
 #[test]
 fn random_runs_find_every_wrong_monitor() {
     let pairings = all();
-    for mutant in Mutant::ALL {
-        assert!(differs(&pairings, *mutant), "random runs miss {mutant:?}");
+    for mutant in Mutant::all() {
+        assert!(differs(&pairings, mutant), "random runs miss {mutant:?}");
     }
 }
 
@@ -189,5 +191,7 @@ fn runs_described_by_bytes_find_a_wrong_monitor() {
             .any(|data| bytes::run(&product, inputs, data).is_some())
     };
     assert!(!found(None));
-    assert!(found(Some(Mutant::StopLowerDisplaces)));
+    assert!(found(Some(Mutant::Sinumerik(
+        Sinumerik::StopLowerDisplaces
+    ))));
 }

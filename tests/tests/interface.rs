@@ -3,7 +3,9 @@
 
 use std::collections::BTreeSet;
 
-use stillpoint_monitors::interface::{BLOCK, Contribution, Input, Place, SGA, SGE, Sga, Sge, and};
+use stillpoint_monitors::sinumerik::interface::{
+    BLOCK, Contribution, Input, Place, SGA, SGE, Sga, Sge, and,
+};
 use stillpoint_tests::root;
 use toml::{Table, Value};
 

@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use stillpoint_monitors::parameters::{DATA, Datum, Parameters, Permitted, Unit};
+use stillpoint_monitors::sinumerik::parameters::{DATA, Datum, Parameters, Permitted, Unit};
 use stillpoint_monitors::units::Axis;
 use toml::Value;
 

@@ -54,7 +54,9 @@ fn known_requirements_are_traced_through_every_stage() {
         gear.rules
     );
     assert!(
-        gear.monitors.iter().any(|m| m == "impl/src/gear.rs"),
+        gear.monitors
+            .iter()
+            .any(|m| m == "impl/src/sinumerik/gear.rs"),
         "{:?}",
         gear.monitors
     );

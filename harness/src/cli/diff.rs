@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use clap::Args;
+use stillpoint::diff::peer::Mutant;
 use stillpoint::diff::replay;
 use stillpoint::diff::slices::slices;
 use stillpoint::diff::{Compared, DiffError, Pairing, exhaustive, pairings, sample, text, to_json};
@@ -12,7 +13,6 @@ use stillpoint::recording::{self, Target, ndjson};
 use stillpoint::simulate;
 use stillpoint::subject::{self, Readings};
 use stillpoint_model::{Limits, Options};
-use stillpoint_monitors::mutant::Mutant;
 use stillpoint_show::diagram::Diagram;
 use stillpoint_spec::machine;
 

@@ -13,11 +13,11 @@ use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 
 use serde_json::{Value, json};
 use stillpoint_model::{Error, Form, Options, Progress, Property, Verdict, explore};
-use stillpoint_monitors::mutant::Mutant;
 use stillpoint_show::diagram::Diagram;
 
 use crate::report::{grouped, params};
 pub use pairing::{Pairing, pairings};
+use peer::Mutant;
 use product::Product;
 use random::{Driver, Random};
 

@@ -52,8 +52,11 @@ pub fn pairings(subject: &Subject) -> Result<Vec<Pairing>, DiffError> {
             Some(machine) => machine.runs[k].file.clone(),
             None => subject.path.clone(),
         };
+        let Some(family) = peer::family(&task.bound.system.name) else {
+            continue;
+        };
         let spec = files.get(&file)?;
-        for (name, _) in peer::MACHINES {
+        for &(name, _) in family.machines {
             let mut instances = task.bound.system.instances.iter();
             if instances.any(|i| i.machine == name) {
                 let system = spec.open_machine(name)?;
@@ -61,7 +64,7 @@ pub fn pairings(subject: &Subject) -> Result<Vec<Pairing>, DiffError> {
                 add(&mut out, name, false, &task.axes, system, given)?;
             }
         }
-        for (name, _) in peer::SYSTEMS {
+        for &(name, _) in family.systems {
             if task.bound.system.name.ends_with(&format!("/{name}")) {
                 let system = task.bound.system.clone();
                 let given = parameters_of(&task.bound, &system);
@@ -88,8 +91,9 @@ pub(super) fn parameters_of(run: &Bound, system: &System) -> BTreeMap<String, Ve
 }
 
 /// Gives the parameters that the monitor has as constants their values.
-fn fix(name: &str, given: &mut BTreeMap<String, Vec<i64>>) {
-    for (_, param, value) in peer::FIXED.iter().filter(|(machine, ..)| *machine == name) {
+fn fix(name: &str, system: &System, given: &mut BTreeMap<String, Vec<i64>>) {
+    let fixed = peer::family(&system.name).map_or(&[][..], |family| family.fixed);
+    for (_, param, value) in fixed.iter().filter(|(machine, ..)| *machine == name) {
         given.insert((*param).to_owned(), vec![*value]);
     }
 }
@@ -102,7 +106,7 @@ fn add(
     system: System,
     mut given: BTreeMap<String, Vec<i64>>,
 ) -> Result<(), DiffError> {
-    fix(name, &mut given);
+    fix(name, &system, &mut given);
     let bound = Bound::new(system, &given, &BTreeMap::new())
         .map_err(|e| DiffError::Sides(format!("{name}: {e}")))?;
     let same = |p: &&mut Pairing| p.machine == name && p.bound.values == bound.values;
@@ -142,10 +146,11 @@ fn add_unused(out: &mut Vec<Pairing>, files: &mut Files, folder: &Path) -> Resul
         }
     }
     paths.sort();
-    let kinds = [
-        ("machine", &peer::MACHINES[..]),
-        ("system", &peer::SYSTEMS[..]),
-    ];
+    let name = folder.file_name().unwrap_or_default().to_string_lossy();
+    let Some(family) = peer::family(&name) else {
+        return Ok(());
+    };
+    let kinds = [("machine", family.machines), ("system", family.systems)];
     for path in paths {
         let text = std::fs::read_to_string(&path).map_err(fault)?;
         for (kind, names) in kinds {
@@ -196,7 +201,7 @@ fn draw(pairing: &Pairing, random: &mut Random) -> Option<Pairing> {
         };
         given.insert(name.clone(), vec![value]);
     }
-    fix(&pairing.machine, &mut given);
+    fix(&pairing.machine, system, &mut given);
     let bound = Bound::new(system.clone(), &given, &BTreeMap::new()).ok()?;
     peer::peer(&pairing.machine, &bound, None).ok()?;
     Some(Pairing {

@@ -41,7 +41,8 @@ pub fn find_root(start: &Path) -> Option<PathBuf> {
 /// `tests/` and of every crate's own `tests/`.
 ///
 /// A monitor names a requirement in a doc comment or at a clause of its contract. A clause is a proof as well where
-/// `proofs/` has the harness of that contract (`stop_contract` for `stop.rs`), since that harness checks every clause.
+/// `proofs/` has the harness of that contract (`[contract NAME on FAMILY::MODULE` in its inventory), since that harness
+/// checks every clause.
 ///
 /// # Errors
 /// A folder or file that is missing, unreadable or of another form.
@@ -76,8 +77,7 @@ pub fn read(root: &Path) -> Result<Sources, ReadError> {
         .collect();
     let proofs = texts(root, &root.join("proofs/src"))?;
     for (place, text) in texts(root, &root.join("impl/src"))? {
-        let contract = format!("{}_contract", module(&place));
-        let proved = proofs.iter().any(|(_, text)| text.contains(&contract));
+        let contract = contract(&place, &proofs);
         for line in text
             .lines()
             .map(str::trim_start)
@@ -89,8 +89,8 @@ pub fn read(root: &Path) -> Result<Sources, ReadError> {
             }
             for id in ids(line, &prefixes) {
                 add(&mut sources.monitors, id, &place);
-                if proved && !documents {
-                    add(&mut sources.proofs, id, &contract);
+                if let (Some(contract), false) = (contract, documents) {
+                    add(&mut sources.proofs, id, contract);
                 }
             }
         }
@@ -117,11 +117,23 @@ fn add(named: &mut Named, id: &str, place: &str) {
         .insert(place.to_owned());
 }
 
-/// The module a file of `impl/src` belongs to: `stop` for `impl/src/stop.rs`, `channel` for `impl/src/channel/laws.rs`.
-fn module(place: &str) -> &str {
-    let inside = place.strip_prefix("impl/src/").unwrap_or(place);
-    let first = inside.split('/').next().unwrap_or(inside);
-    first.strip_suffix(".rs").unwrap_or(first)
+/// The harness of the contract of the module a file of `impl/src` belongs to: `stop_contract` for
+/// `impl/src/sinumerik/stop.rs`, where the inventory says `[contract stop_contract on sinumerik::stop {`.
+fn contract<'a>(place: &str, proofs: &'a [(String, String)]) -> Option<&'a str> {
+    let on = format!(" on {} {{", module(place)?);
+    let lines = proofs.iter().flat_map(|(_, text)| text.lines());
+    lines
+        .filter_map(|line| line.trim_start().strip_prefix("[contract "))
+        .find_map(|line| line.strip_suffix(&on))
+}
+
+/// The module a file of `impl/src` belongs to: `sinumerik::stop` for `impl/src/sinumerik/stop.rs`, `sinumerik::channel` for
+/// `impl/src/sinumerik/channel/laws.rs`; none for what all families share.
+fn module(place: &str) -> Option<String> {
+    let (family, inside) = place.strip_prefix("impl/src/")?.split_once('/')?;
+    let first = inside.split('/').next()?;
+    let name = first.strip_suffix(".rs").unwrap_or(first);
+    Some(format!("{family}::{name}"))
 }
 
 /// The requirement ids in a text: `PREFIX-AREA-123`, with a prefix of the catalogues and exactly three digits.
@@ -361,8 +373,19 @@ mod tests {
 
     #[test]
     fn modules_are_files_or_folders() {
-        assert_eq!(module("impl/src/stop.rs"), "stop");
-        assert_eq!(module("impl/src/channel/laws.rs"), "channel");
+        let is = |place, expected: Option<&str>| assert_eq!(module(place).as_deref(), expected);
+        is("impl/src/sinumerik/stop.rs", Some("sinumerik::stop"));
+        is(
+            "impl/src/sinumerik/channel/laws.rs",
+            Some("sinumerik::channel"),
+        );
+        is("impl/src/kernel.rs", None);
+        let proofs = [(
+            "base.rs".to_owned(),
+            "    [contract c on sinumerik::stop {\n".to_owned(),
+        )];
+        assert_eq!(contract("impl/src/sinumerik/stop.rs", &proofs), Some("c"));
+        assert_eq!(contract("impl/src/other/stop.rs", &proofs), None);
     }
 
     #[test]

@@ -7,12 +7,13 @@
 
 use std::borrow::Cow;
 
-use stillpoint_monitors::axis::{Local, Outputs};
-use stillpoint_monitors::interface::{BLOCK, Place, SGA, SGE, Sge};
-use stillpoint_monitors::kernel::{ExternalStop, InternalStop, Level, Position, Speed};
-use stillpoint_monitors::reference::AxisState;
-use stillpoint_monitors::selection::{Mode, Monitored};
-use stillpoint_monitors::stop::Phase;
+use stillpoint_monitors::kernel::{Position, Speed};
+use stillpoint_monitors::sinumerik::axis::{Local, Outputs};
+use stillpoint_monitors::sinumerik::interface::{BLOCK, Place, SGA, SGE, Sge};
+use stillpoint_monitors::sinumerik::level::{ExternalStop, InternalStop, Level};
+use stillpoint_monitors::sinumerik::reference::AxisState;
+use stillpoint_monitors::sinumerik::selection::{Mode, Monitored};
+use stillpoint_monitors::sinumerik::stop::Phase;
 
 use super::{Kind, Value};
 
@@ -360,7 +361,7 @@ impl Output {
             Source::Number(number) => Value::Int(number(outputs)),
             Source::Name(name) => Value::Text(Cow::Borrowed(name(local, outputs))),
             Source::Alarms => {
-                let number = |alarm: stillpoint_monitors::alarm::Alarm| match side {
+                let number = |alarm: stillpoint_monitors::sinumerik::alarm::Alarm| match side {
                     0 => Some(alarm.nck().number),
                     _ => alarm.drive().map(|entry| entry.number),
                 };

@@ -1,11 +1,12 @@
 //! One axis of a simulation: its mechanics, its encoders, what its two channels see, and the monitors.
 
-use stillpoint_monitors::axis::{self, Local};
-use stillpoint_monitors::group::{self, Reaction};
-use stillpoint_monitors::interface::Sge;
-use stillpoint_monitors::kernel::{Level, Position, Speed};
-use stillpoint_monitors::pair::{Config, Inputs, Outputs, Pair, State};
-use stillpoint_monitors::parameters::Parameters;
+use stillpoint_monitors::kernel::{Position, Speed};
+use stillpoint_monitors::sinumerik::axis::{self, Local};
+use stillpoint_monitors::sinumerik::group::{self, Reaction};
+use stillpoint_monitors::sinumerik::interface::Sge;
+use stillpoint_monitors::sinumerik::level::Level;
+use stillpoint_monitors::sinumerik::pair::{Config, Inputs, Outputs, Pair, State};
+use stillpoint_monitors::sinumerik::parameters::Parameters;
 
 use super::plant::{Drive, Plant, Setpoint};
 use super::scenario::{ExternalLetter, Fault, Selection, Start};
@@ -227,7 +228,7 @@ impl Axis {
     /// the first stop: the program has to be started again.
     pub fn obey(&mut self) {
         let channels = [&self.outputs.nck.channel, &self.outputs.drive.channel];
-        let any = |test: &dyn Fn(&stillpoint_monitors::channel::Outputs) -> bool| {
+        let any = |test: &dyn Fn(&stillpoint_monitors::sinumerik::channel::Outputs) -> bool| {
             channels.iter().any(|channel| test(channel))
         };
         let own = if any(&|c| !c.pulses.enable || c.stop.cancel_pulses) {

@@ -1,6 +1,6 @@
 //! The cycles of a simulation.
 
-use stillpoint_monitors::group;
+use stillpoint_monitors::sinumerik::group;
 use stillpoint_spec::machine::Machine;
 
 use super::axes::{Axis, Pulse, increments};

@@ -1,12 +1,13 @@
 //! What the comparison of the channels finds. The item due in cycle n is item n modulo 84 of the list.
 
-use stillpoint_monitors::alarm::Alarm;
-use stillpoint_monitors::code::Code;
-use stillpoint_monitors::fault::FaultState;
-use stillpoint_monitors::kernel::{Level, Position};
-use stillpoint_monitors::pair::{Config, Inputs};
-use stillpoint_monitors::parameters::{Encoders, Parameters};
-use stillpoint_monitors::selection::Mode;
+use stillpoint_monitors::kernel::Position;
+use stillpoint_monitors::sinumerik::alarm::Alarm;
+use stillpoint_monitors::sinumerik::code::Code;
+use stillpoint_monitors::sinumerik::fault::FaultState;
+use stillpoint_monitors::sinumerik::level::Level;
+use stillpoint_monitors::sinumerik::pair::{Config, Inputs};
+use stillpoint_monitors::sinumerik::parameters::{Encoders, Parameters};
+use stillpoint_monitors::sinumerik::selection::Mode;
 
 use crate::machine::{Machine, both, idle, levels, parameters, referenced};
 

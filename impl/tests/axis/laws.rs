@@ -1,11 +1,12 @@
 //! The laws of the channel and of the axis on long random runs of both channels: every law holds in every cycle, and every
 //! premise is met. Debug builds check the contract of every monitor inside as well.
 
-use stillpoint_monitors::axis::{self, Local};
-use stillpoint_monitors::kernel::{ExternalStop, InternalStop, Position, Speed};
-use stillpoint_monitors::pair::{Config, Inputs, Pair, State};
-use stillpoint_monitors::parameters::{Encoders, Installation, Parameters};
-use stillpoint_monitors::{channel, contract::Evaluation};
+use stillpoint_monitors::kernel::{Position, Speed};
+use stillpoint_monitors::sinumerik::axis::{self, Local};
+use stillpoint_monitors::sinumerik::level::{ExternalStop, InternalStop};
+use stillpoint_monitors::sinumerik::pair::{Config, Inputs, Pair, State};
+use stillpoint_monitors::sinumerik::parameters::{Encoders, Installation, Parameters};
+use stillpoint_monitors::{contract::Evaluation, sinumerik::channel};
 
 use crate::machine::{idle, parameters};
 

@@ -1,11 +1,12 @@
 //! The machine of the stories: an axis with every function that its kind permits, a clock, the signals of both channels.
 
-use stillpoint_monitors::axis::{self, Local};
-use stillpoint_monitors::interface::Sge;
-use stillpoint_monitors::kernel::{Level, Position};
-use stillpoint_monitors::pair::{Config, Inputs, Outputs, Pair, State};
-use stillpoint_monitors::parameters::Parameters;
-use stillpoint_monitors::reference::AxisState;
+use stillpoint_monitors::kernel::Position;
+use stillpoint_monitors::sinumerik::axis::{self, Local};
+use stillpoint_monitors::sinumerik::interface::Sge;
+use stillpoint_monitors::sinumerik::level::Level;
+use stillpoint_monitors::sinumerik::pair::{Config, Inputs, Outputs, Pair, State};
+use stillpoint_monitors::sinumerik::parameters::Parameters;
+use stillpoint_monitors::sinumerik::reference::AxisState;
 
 /// Enable word: SBH/SG, SE, STOP E, override, external stops, cam synchronisation, SN1+.
 pub const ENABLED: u32 = 0b1_1111_0011;

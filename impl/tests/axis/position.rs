@@ -1,12 +1,13 @@
 //! Reference, agreement and what needs a safe position.
 
-use stillpoint_monitors::alarm::Alarm;
-use stillpoint_monitors::code::Code;
-use stillpoint_monitors::fault::FaultState;
-use stillpoint_monitors::interface::Sge;
-use stillpoint_monitors::kernel::{Level, Position};
-use stillpoint_monitors::parameters::Parameters;
-use stillpoint_monitors::reference::AxisState;
+use stillpoint_monitors::kernel::Position;
+use stillpoint_monitors::sinumerik::alarm::Alarm;
+use stillpoint_monitors::sinumerik::code::Code;
+use stillpoint_monitors::sinumerik::fault::FaultState;
+use stillpoint_monitors::sinumerik::interface::Sge;
+use stillpoint_monitors::sinumerik::level::Level;
+use stillpoint_monitors::sinumerik::parameters::Parameters;
+use stillpoint_monitors::sinumerik::reference::AxisState;
 
 use crate::machine::{Machine, both, levels, move_to, parameters, reference, referenced};
 

@@ -1,11 +1,12 @@
 //! Stops, their acknowledgement and the shutdown of the pulses.
 
-use stillpoint_monitors::alarm::Alarm;
-use stillpoint_monitors::axis::Local;
-use stillpoint_monitors::kernel::{InternalStop, Level, Position, Speed};
-use stillpoint_monitors::parameters::Parameters;
-use stillpoint_monitors::selection::Mode;
-use stillpoint_monitors::stop::Phase;
+use stillpoint_monitors::kernel::{Position, Speed};
+use stillpoint_monitors::sinumerik::alarm::Alarm;
+use stillpoint_monitors::sinumerik::axis::Local;
+use stillpoint_monitors::sinumerik::level::{InternalStop, Level};
+use stillpoint_monitors::sinumerik::parameters::Parameters;
+use stillpoint_monitors::sinumerik::selection::Mode;
+use stillpoint_monitors::sinumerik::stop::Phase;
 
 use crate::machine::{ENABLED, Machine, both, levels, move_to, parameters};
 

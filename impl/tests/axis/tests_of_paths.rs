@@ -1,8 +1,8 @@
 //! Tests of the shutdown paths.
 
-use stillpoint_monitors::alarm::Alarm;
-use stillpoint_monitors::code::Code;
-use stillpoint_monitors::kernel::Level;
+use stillpoint_monitors::sinumerik::alarm::Alarm;
+use stillpoint_monitors::sinumerik::code::Code;
+use stillpoint_monitors::sinumerik::level::Level;
 
 use crate::machine::{Machine, both, levels, parameters};
 

@@ -1,99 +1,80 @@
-//! The properties, one file per monitor, and the step functions they are stated about.
+//! The properties by family, and the step functions they are stated about.
 
-pub mod axis;
-pub mod checking;
-pub mod contracts;
-pub mod fault;
-pub mod selection;
-pub mod stop;
-pub mod units;
-pub mod watching;
+/// Makes, from one list of the monitors of a family, the step functions under test (`Subject`), the contract of each as a
+/// property (`contracts`), and its clauses as texts (`clauses`).
+///
+/// A contract as a property: from any consistent state, under any accepted configuration and any inputs, one step satisfies
+/// every clause. The invariant is one of the clauses, so the facts are inductive.
+macro_rules! monitors {
+    ($family:ident: $($(#[$doc:meta])+ $monitor:ident)+) => {
+        /// The step functions under test: the production ones, or some replaced by mutants.
+        #[derive(Clone, Copy, Debug)]
+        pub struct Subject {$(
+            $(#[$doc])+
+            pub $monitor: stillpoint_monitors::$family::$monitor::Next,
+        )+}
 
-use stillpoint_monitors::channel;
-use stillpoint_monitors::{agreement, external, fault as fault_monitor, gear, group, reference};
-use stillpoint_monitors::{cam, limit_switch, motion, ramp, results, speed, standstill, threshold};
-use stillpoint_monitors::{compare, forced_check, history, pulses, shutdown_test, slip, test_stop};
-use stillpoint_monitors::{selection as selection_monitor, stop as stop_monitor};
+        impl Subject {
+            /// The production monitors.
+            pub const PRODUCTION: Self = Self {$(
+                $monitor: stillpoint_monitors::$family::$monitor::next,
+            )+};
+        }
 
-/// The step functions under test: the production ones, or some replaced by mutants.
+        /// The contract of every step function as a property.
+        pub mod contracts {$(
+            $(#[$doc])+
+            pub fn $monitor<S: $crate::source::Source>(
+                source: &mut S,
+                subject: &super::Subject,
+            ) -> $crate::source::Verdict {
+                use stillpoint_monitors::$family::$monitor::{CLAUSES, Step, evaluate};
+                use $crate::source::Verdict;
+                let Some((before, config, inputs)) = $crate::arbitrary::$family::$monitor(source) else {
+                    return Verdict::Discarded;
+                };
+                let (after, outputs) = (subject.$monitor)(before, &config, &inputs);
+                let result = evaluate(Step { before, config, inputs, after, outputs });
+                for index in 0..CLAUSES.len() {
+                    source.cover(index, (result.premises >> index) & 1 == 1);
+                }
+                if let Some(index) = result.first_broken(CLAUSES.len()) {
+                    return Verdict::Broken(CLAUSES.get(index).map_or("", |clause| clause.name));
+                }
+                Verdict::Held
+            }
+        )+}
+
+        /// The clauses of each contract as texts.
+        pub mod clauses {
+            use $crate::inventory::ClauseText;
+            $(
+                $(#[$doc])+
+                pub fn $monitor() -> Vec<ClauseText> {
+                    let clauses = stillpoint_monitors::$family::$monitor::CLAUSES.iter();
+                    clauses.map(|clause| ClauseText {
+                        name: clause.name,
+                        text: clause.text.trim(),
+                        requirements: clause.requirements,
+                    }).collect()
+                }
+            )+
+        }
+    };
+}
+
+pub mod sinumerik;
+
+/// The step functions under test of every family.
 #[derive(Clone, Copy, Debug)]
 pub struct Subject {
-    /// Arbitration.
-    pub stop: stop_monitor::Next,
-    /// External stops.
-    pub external: external::Next,
-    /// STOP F.
-    pub fault: fault_monitor::Next,
-    /// Selection.
-    pub selection: selection_monitor::Next,
-    /// Referencing.
-    pub reference: reference::Next,
-    /// User agreement.
-    pub agreement: agreement::Next,
-    /// Gear stage.
-    pub gear: gear::Next,
-    /// Effect on other axes.
-    pub group: group::Next,
-    /// Test of the shutdown path.
-    pub test_stop: test_stop::Next,
-    /// Test of the external shutdown.
-    pub shutdown_test: shutdown_test::Next,
-    /// Pulse cancellation.
-    pub pulses: pulses::Next,
-    /// Cross comparison.
-    pub compare: compare::Next,
-    /// Synchronisation of actual values.
-    pub slip: slip::Next,
-    /// Standstill position.
-    pub history: history::Next,
-    /// Forced checking.
-    pub forced_check: forced_check::Next,
-    /// Actual position.
-    pub motion: motion::Next,
-    /// Window of the operating stop.
-    pub standstill: standstill::Next,
-    /// Limit of the speed.
-    pub speed: speed::Next,
-    /// Limit switches.
-    pub limit_switch: limit_switch::Next,
-    /// Braking ramp.
-    pub ramp: ramp::Next,
-    /// Threshold.
-    pub threshold: threshold::Next,
-    /// Cam.
-    pub cam: cam::Next,
-    /// Result lists.
-    pub results: results::Next,
-    /// The channel.
-    pub channel: channel::Next,
+    /// SINUMERIK 840D.
+    pub sinumerik: sinumerik::Subject,
 }
 
 impl Subject {
     /// The production monitors.
     pub const PRODUCTION: Self = Self {
-        stop: stop_monitor::next,
-        external: external::next,
-        fault: fault_monitor::next,
-        selection: selection_monitor::next,
-        reference: reference::next,
-        agreement: agreement::next,
-        gear: gear::next,
-        group: group::next,
-        test_stop: test_stop::next,
-        shutdown_test: shutdown_test::next,
-        pulses: pulses::next,
-        compare: compare::next,
-        slip: slip::next,
-        history: history::next,
-        forced_check: forced_check::next,
-        motion: motion::next,
-        standstill: standstill::next,
-        speed: speed::next,
-        limit_switch: limit_switch::next,
-        ramp: ramp::next,
-        threshold: threshold::next,
-        cam: cam::next,
-        results: results::next,
-        channel: channel::next,
+        sinumerik: sinumerik::Subject::PRODUCTION,
     };
 }

@@ -1,17 +1,10 @@
 //! The production monitors as peers of the tables: the same ports, in the numbers of the specification.
 
 mod adapter;
-mod axis;
-mod cells;
-mod channel;
-mod checking;
-mod monitoring;
-mod numbers;
-mod stops;
+mod sinumerik;
 
 use stillpoint_model::Domain;
 use stillpoint_monitors::kernel::{ConfigError, Cycles, Speed};
-use stillpoint_monitors::mutant::Mutant;
 use stillpoint_spec::bind::Bound;
 
 use super::product::Values;
@@ -38,40 +31,82 @@ pub trait Peer: Send + Sync {
     fn step(&self, cells: &mut [i32], inputs: &[i32], outputs: &mut Numbers);
 }
 
-/// The machines that have a monitor, each with the name of its module.
-pub const MACHINES: [(&str, &str); 23] = [
-    ("external", "external"),
-    ("fault", "fault"),
-    ("stop", "stop"),
-    ("group", "group"),
-    ("selection", "selection"),
-    ("reference", "reference"),
-    ("agreement", "agreement"),
-    ("gear", "gear"),
-    ("motion", "motion"),
-    ("standstill", "standstill"),
-    ("speed", "speed"),
-    ("end_stop", "limit_switch"),
-    ("ramp", "ramp"),
-    ("threshold", "threshold"),
-    ("cam", "cam"),
-    ("results", "results"),
-    ("test", "test_stop"),
-    ("shutdown_test", "shutdown_test"),
-    ("pulses", "pulses"),
-    ("compare", "compare"),
-    ("slip", "slip"),
-    ("history", "history"),
-    ("test_interval", "forced_check"),
-];
+/// The monitors of a family.
+pub struct Family {
+    /// The folder of its tables: the first part of their names.
+    pub name: &'static str,
+    /// The machines that have a monitor, each with the name of its module.
+    pub machines: &'static [(&'static str, &'static str)],
+    /// The systems that have a monitor: several machines together.
+    pub systems: &'static [(&'static str, &'static str)],
+    /// Parameters of the tables with the only value for which a comparison means something.
+    pub fixed: &'static [(&'static str, &'static str, i64)],
+    make: fn(&str, &Params, Option<Mutant>) -> Made,
+}
 
-/// The systems that have a monitor: several machines together.
-pub const SYSTEMS: [(&str, &str); 1] = [("axis_core", "channel")];
+/// The families with monitors.
+pub static FAMILIES: [&Family; 1] = [&sinumerik::FAMILY];
 
-/// Parameters of the tables with the only value for which a comparison means something: constants of the monitors (smaller
-/// values only keep a system small), and a variant that a system leaves out.
-pub const FIXED: [(&str, &str, i64); 2] =
-    [("compare", "factor", 10), ("axis_core", "one_encoder", 0)];
+/// The family with monitors that a machine, a system or a file of its tables belongs to, by its full name.
+pub fn family(name: &str) -> Option<&'static Family> {
+    let folder = name.split('/').next()?;
+    FAMILIES.into_iter().find(|family| family.name == folder)
+}
+
+/// A deliberately wrong monitor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mutant {
+    /// Of the SINUMERIK 840D.
+    Sinumerik(stillpoint_monitors::sinumerik::mutant::Mutant),
+}
+
+impl Mutant {
+    /// Every one.
+    pub fn all() -> impl Iterator<Item = Self> {
+        use stillpoint_monitors::sinumerik::mutant::Mutant as Sinumerik;
+        Sinumerik::ALL.iter().copied().map(Self::Sinumerik)
+    }
+
+    /// The name for command lines: the monitor first.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Sinumerik(mutant) => mutant.name(),
+        }
+    }
+
+    /// The family of its monitor.
+    pub fn family(self) -> &'static Family {
+        match self {
+            Self::Sinumerik(_) => &sinumerik::FAMILY,
+        }
+    }
+}
+
+/// A name that is no mutant's.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct UnknownMutant;
+
+impl std::fmt::Display for UnknownMutant {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("no mutant has this name; the names are")?;
+        for mutant in Mutant::all() {
+            write!(f, " {}", mutant.name())?;
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for UnknownMutant {}
+
+impl std::str::FromStr for Mutant {
+    type Err = UnknownMutant;
+
+    fn from_str(name: &str) -> Result<Self, UnknownMutant> {
+        let mut all = Self::all();
+        all.find(|mutant| mutant.name() == name)
+            .ok_or(UnknownMutant)
+    }
+}
 
 /// Why there is no peer under some parameters.
 enum Refusal {
@@ -118,7 +153,7 @@ impl Params<'_> {
 }
 
 /// The monitor that implements `machine`, the name of a machine or system, under the parameters of `bound`, with `mutant` in
-/// it if one is given. None if there is no such monitor.
+/// it if one of that family is given. None if there is no such monitor.
 ///
 /// # Errors
 /// The monitor's own refusal of the parameters, or a table too small for it.
@@ -127,23 +162,15 @@ pub fn peer(
     bound: &Bound,
     mutant: Option<Mutant>,
 ) -> Result<Option<Box<dyn Peer>>, String> {
-    let params = Params(bound);
-    for make in [
-        stops::make,
-        axis::make,
-        monitoring::make,
-        checking::make,
-        channel::make,
-    ] {
-        let made = make(machine, &params, mutant).map_err(|e| match e {
-            Refusal::Monitor(e) => {
-                format!("the monitor of `{machine}` refuses these parameters: {e:?}")
-            }
-            Refusal::Table(text) => format!("machine `{machine}`: {text}"),
-        })?;
-        if let Some(adapter) = made {
-            return Ok(Some(Box::new(adapter)));
+    let Some(family) = family(&bound.system.name) else {
+        return Ok(None);
+    };
+    let mutant = mutant.filter(|m| m.family().name == family.name);
+    let made = (family.make)(machine, &Params(bound), mutant).map_err(|e| match e {
+        Refusal::Monitor(e) => {
+            format!("the monitor of `{machine}` refuses these parameters: {e:?}")
         }
-    }
-    Ok(None)
+        Refusal::Table(text) => format!("machine `{machine}`: {text}"),
+    })?;
+    Ok(made.map(|adapter| Box::new(adapter) as Box<dyn Peer>))
 }

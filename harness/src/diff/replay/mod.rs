@@ -8,10 +8,10 @@
 mod show;
 mod table;
 
-use stillpoint_monitors::axis::{self, Local};
-use stillpoint_monitors::interface::Sge;
 use stillpoint_monitors::kernel::Position;
-use stillpoint_monitors::pair::{Config, Inputs, Outputs, Pair, State};
+use stillpoint_monitors::sinumerik::axis::{self, Local};
+use stillpoint_monitors::sinumerik::interface::Sge;
+use stillpoint_monitors::sinumerik::pair::{Config, Inputs, Outputs, Pair, State};
 use stillpoint_show::diagram::Diagram;
 use stillpoint_spec::machine::Machine;
 

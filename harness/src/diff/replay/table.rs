@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use stillpoint_monitors::axis::{self, Local};
-use stillpoint_monitors::channel;
-use stillpoint_monitors::pair::{Inputs, Outputs, State};
+use stillpoint_monitors::sinumerik::axis::{self, Local};
+use stillpoint_monitors::sinumerik::channel;
+use stillpoint_monitors::sinumerik::pair::{Inputs, Outputs, State};
 use stillpoint_spec::Spec;
 use stillpoint_spec::bind::Bound;
 use stillpoint_spec::machine::Machine;
@@ -230,8 +230,8 @@ fn feed(local: &Local, out: &axis::Outputs, told: &axis::Exchange) -> channel::I
         sge_e: sge.stop_e_off,
         sge_sbh_sg: sge.sbh_sg_off,
         sge_sbh: sge.sbh_off,
-        sg_select: stillpoint_monitors::selection::Stage::from_bits(sge.sg_1, sge.sg_0),
-        over: stillpoint_monitors::selection::FactorIndex::from_bits(
+        sg_select: stillpoint_monitors::sinumerik::selection::Stage::from_bits(sge.sg_1, sge.sg_0),
+        over: stillpoint_monitors::sinumerik::selection::FactorIndex::from_bits(
             sge.override_3,
             sge.override_2,
             sge.override_1,
@@ -296,7 +296,7 @@ fn bound(file: &Path, produced: &Produced) -> Result<Bound, String> {
     let spec = Spec::load(file).map_err(|e| e.to_string())?;
     let system = spec.system("axis_core", None).map_err(|e| e.to_string())?;
     let (p, words) = (&produced.parameters, produced.configuration.words());
-    use stillpoint_monitors::parameters::Function;
+    use stillpoint_monitors::sinumerik::parameters::Function;
     let is = |function| i64::from(p.enabled(function));
     let mut given: BTreeMap<String, Vec<i64>> = BTreeMap::new();
     let mut set = |name: &str, value: i64| {

@@ -1,0 +1,162 @@
+//! How the states of the monitors lie in cells.
+
+use stillpoint_monitors::kernel::Position;
+use stillpoint_monitors::sinumerik::{
+    agreement, cam, channel, compare, external, fault, forced_check, gear, history, motion,
+    path_test, pulses, ramp, reference, selection, slip, stop,
+};
+
+use super::numbers::*;
+use crate::diff::peer::adapter::Cells;
+
+/// Implements [`Cells`]: the fields of a state in their order, each with its way from a number and back.
+macro_rules! cells {
+    ($($state:ty, $count:literal { $($field:ident = $load:expr, $store:expr;)+ })+) => {$(
+        impl Cells for $state {
+            const COUNT: usize = $count;
+
+            fn load(cells: &[i32]) -> Self {
+                let mut cells = cells.iter().copied();
+                let mut next = || cells.next().unwrap_or(0);
+                Self { $($field: ($load)(next()),)+ }
+            }
+
+            fn store(self, cells: &mut [i32]) {
+                for (cell, value) in cells.iter_mut().zip([$(($store)(self.$field)),+]) {
+                    *cell = value;
+                }
+            }
+        }
+    )+};
+}
+
+const fn truthy(cell: i32) -> bool {
+    cell != 0
+}
+
+fn position(position: Position) -> i32 {
+    position.0
+}
+
+cells! {
+    external::State, 2 {
+        started = truthy, i32::from;
+        spl_latched = truthy, i32::from;
+    }
+    fault::State, 2 {
+        fault = |c| value(&FAULTS, c), |f| ordinal(&FAULTS, f);
+        timer = cycles, cell;
+    }
+    stop::State, 5 {
+        internal = internal, |s: stillpoint_monitors::sinumerik::level::InternalStop| rank(s.level()) as i32;
+        external = external_stop, |s: stillpoint_monitors::sinumerik::level::ExternalStop| rank(s.level()) as i32;
+        level = level, |l| rank(l) as i32;
+        phase = |c| value(&STOPS, c), |p| ordinal(&STOPS, p);
+        timer = cycles, cell;
+    }
+    selection::State, 7 {
+        mode = |c| value(&MODES, c), |m| ordinal(&MODES, m);
+        stage = stage, |s: selection::Stage| i32::from(s.index());
+        factor = factor, |f: selection::FactorIndex| i32::from(f.get());
+        target = stage, |s: selection::Stage| i32::from(s.index());
+        target_factor = factor, |f: selection::FactorIndex| i32::from(f.get());
+        timer = cycles, cell;
+        reference = Position, position;
+    }
+    reference::State, 2 {
+        axis = |c| value(&AXES, c), |a| ordinal(&AXES, a);
+        fresh = truthy, i32::from;
+    }
+    agreement::State, 2 {
+        agreed = truthy, i32::from;
+        timer = cycles, cell;
+    }
+    gear::State, 2 {
+        stage = |c| gear::GearIndex::new(small(c)).unwrap_or_default(), |g: gear::GearIndex| i32::from(g.get());
+        known = truthy, i32::from;
+    }
+    motion::State, 2 {
+        last = Position, position;
+        known = truthy, i32::from;
+    }
+    ramp::State, 1 {
+        lowest = speed, increments;
+    }
+    cam::State, 1 {
+        own = truthy, i32::from;
+    }
+    path_test::State, 3 {
+        phase = |c| value(&TESTS, c), |p| ordinal(&TESTS, p);
+        timer = cycles, cell;
+        selected = truthy, i32::from;
+    }
+    pulses::State, 2 {
+        phase = |c| value(&PULSES, c), |p| ordinal(&PULSES, p);
+        timer = cycles, cell;
+    }
+    compare::State, 4 {
+        item = small, i32::from;
+        change_timer = cycles, cell;
+        check_timer = cycles, cell;
+        checking = truthy, i32::from;
+    }
+    slip::State, 1 {
+        offset = i64::from, |offset: i64| i32::try_from(offset).unwrap_or(if offset < 0 { i32::MIN } else { i32::MAX });
+    }
+    history::State, 2 {
+        stored = truthy, i32::from;
+        standstill = Position, position;
+    }
+    forced_check::State, 2 {
+        drive = cycles, cell;
+        nck = cycles, cell;
+    }
+}
+
+impl Cells for channel::State {
+    const COUNT: usize = external::State::COUNT
+        + motion::State::COUNT
+        + path_test::State::COUNT
+        + selection::State::COUNT
+        + ramp::State::COUNT
+        + fault::State::COUNT
+        + stop::State::COUNT
+        + pulses::State::COUNT;
+
+    fn load(cells: &[i32]) -> Self {
+        let mut rest = cells;
+        Self {
+            external: take(&mut rest),
+            motion: take(&mut rest),
+            test: take(&mut rest),
+            selection: take(&mut rest),
+            ramp: take(&mut rest),
+            fault: take(&mut rest),
+            stop: take(&mut rest),
+            pulses: take(&mut rest),
+        }
+    }
+
+    fn store(self, cells: &mut [i32]) {
+        let rest = put(self.external, cells);
+        let rest = put(self.motion, rest);
+        let rest = put(self.test, rest);
+        let rest = put(self.selection, rest);
+        let rest = put(self.ramp, rest);
+        let rest = put(self.fault, rest);
+        let rest = put(self.stop, rest);
+        put(self.pulses, rest);
+    }
+}
+
+fn take<S: Cells>(rest: &mut &[i32]) -> S {
+    let (own, others) = rest.split_at(S::COUNT.min(rest.len()));
+    *rest = others;
+    S::load(own)
+}
+
+fn put<S: Cells>(state: S, cells: &mut [i32]) -> &mut [i32] {
+    let (own, others) = cells.split_at_mut(S::COUNT.min(cells.len()));
+    state.store(own);
+    others
+}

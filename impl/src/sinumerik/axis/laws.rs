@@ -1,0 +1,108 @@
+//! The contract of an axis in one channel: what holds between the channel, the user's side of the axis, and the other
+//! channel.
+
+use super::{Config, Inputs, Outputs, State, TestResult, transition};
+use crate::sinumerik::alarm::Alarm;
+use crate::sinumerik::fault::FaultState;
+use crate::sinumerik::level::{ExternalStop, InternalStop};
+use crate::sinumerik::reference::AxisState;
+use crate::sinumerik::stop::Phase;
+
+contract! {
+    /// Told are the stops of this channel, never one that it was told: its own latch, its own signals.
+    own_stops_are_told ["S840D-STOP-007", "S840D-STOP-090", "S840D-P-17", "S840D-ARCH-501"]:
+        when |s| s.after.channel.stop.internal != InternalStop::None
+            || s.outputs.channel.external.request != ExternalStop::None
+            || s.outputs.exchange.internal != InternalStop::None || s.outputs.exchange.external != ExternalStop::None
+            => s.outputs.exchange.internal == s.after.channel.stop.internal
+                && s.outputs.exchange.external == s.outputs.channel.external.request;
+
+    /// An internal stop of the other channel is latched here in the cycle it is read.
+    told_stop_is_latched ["S840D-P-16", "S840D-STOP-007", "S840D-STOP-090"]:
+        when |s| s.inputs.other.internal != InternalStop::None && !s.inputs.local.power_on && !s.outputs.reset_taken
+            => s.after.channel.stop.internal >= s.inputs.other.internal;
+
+    /// A stop by signal of the other channel acts here in the cycle it is read.
+    told_request_acts ["S840D-P-16", "S840D-STOP-007"]:
+        when |s| s.inputs.other.external != ExternalStop::None && !s.inputs.local.power_on
+            => s.outputs.channel.stop.level >= s.inputs.other.external.level();
+
+    /// A fault of the other channel is a fault here too, unless STOP A or B is latched; without own finding its code is 0.
+    told_fault_is_raised ["S840D-P-51", "S840D-STOP-093", "S840D-STOP-068"]:
+        when |s| s.inputs.other.fault && !s.inputs.local.power_on && s.before.channel.fault.fault == FaultState::None
+            && s.before.channel.stop.internal < InternalStop::B
+            => s.after.channel.fault.fault != FaultState::None && s.outputs.alarms.contains(Alarm::CrossComparison)
+                && (!s.outputs.code.is_none() || s.outputs.alarms.code().is_none());
+
+    /// A difference found by the comparison is a fault, named by its code, unless STOP A or B is latched.
+    difference_is_a_fault ["S840D-P-26", "S840D-STOP-060", "S840D-STOP-068"]:
+        when |s| s.outputs.compare.discrepancy && s.before.channel.fault.fault == FaultState::None
+            && (s.inputs.local.power_on || s.before.channel.stop.internal < InternalStop::B)
+            => s.after.channel.fault.fault != FaultState::None && s.outputs.alarms.code() == s.outputs.compare.code;
+
+    /// RESET is taken only while neither channel brakes, and both have latched the same stop, and both or none a fault.
+    reset_is_joint ["S840D-P-45", "S840D-ACK-001", "S840D-ACK-004"]:
+        when |s| s.outputs.reset_taken && !s.inputs.local.power_on
+            => s.inputs.local.reset && s.before.channel.stop.phase != Phase::Braking && !s.inputs.other.braking
+                && s.before.channel.stop.internal == s.inputs.other.internal
+                && (s.before.channel.fault.fault != FaultState::None) == s.inputs.other.fault;
+
+    /// Where both channels have come to rest with the same stop, RESET is taken.
+    reset_is_not_lost ["S840D-P-34", "S840D-P-44"]:
+        when |s| s.inputs.local.reset && s.before.channel.stop.phase != Phase::Braking && !s.inputs.other.braking
+            && s.before.channel.stop.internal == s.inputs.other.internal
+            && (s.before.channel.fault.fault != FaultState::None) == s.inputs.other.fault
+            => s.outputs.reset_taken;
+
+    /// "Axis safely referenced" needs the agreements of both channels.
+    safely_referenced_needs_both ["S840D-P-13", "S840D-P-14", "S840D-REF-005"]:
+        when |s| s.outputs.sga.safely_referenced
+            => s.after.agreement.agreed && s.inputs.other.agreed && s.after.reference.axis == AxisState::SafeRef;
+
+    /// A new gear stage withdraws the agreement and the safe reference in the same cycle.
+    gear_change_withdraws ["S840D-P-37", "S840D-GEAR-505"]:
+        when |s| s.outputs.gear.changed
+            => !s.outputs.agreement.agreed && !s.outputs.exchange.agreed && !s.outputs.sga.safely_referenced;
+
+    /// A parked axis is not referenced; its agreement is kept.
+    parking_takes_the_reference ["S840D-REF-016"]:
+        when |s| s.inputs.local.parking && !s.inputs.local.power_on
+            => !s.outputs.sga.safely_referenced
+                && matches!(s.after.reference.axis, AxisState::Off | AxisState::NotRef);
+
+    /// The agreement is given only by the user with the key on a referenced axis.
+    agreement_is_given_by_the_user ["S840D-P-48", "S840D-UA-005"]:
+        when |s| !s.before.agreement.agreed && s.after.agreement.agreed
+            => s.inputs.local.set_agreement && s.inputs.local.key && s.before.reference.axis == AxisState::Ref;
+
+    /// Agreement and stored position are kept through power-on.
+    non_volatile_is_kept ["S840D-UA-007", "S840D-PWR-001"]:
+        when |s| s.inputs.local.power_on
+            => s.after.history == s.before.history
+                && (s.after.agreement.agreed == s.before.agreement.agreed || s.outputs.agreement.withdrawn);
+
+    /// With cam synchronisation no channel shows a cam that the other one has not passed.
+    synchronised_cams_agree ["S840D-P-32", "S840D-SN-007"]:
+        when |s| s.config.monitors().words().function_enable & 0x80 != 0
+            => (!s.outputs.sga.sn_1_plus || s.inputs.other.cams[0]) && (!s.outputs.sga.sn_4_minus || s.inputs.other.cams[7]);
+
+    /// A test of the other channel changes nothing here but what counts for the interval.
+    test_concerns_one_channel ["S840D-P-17", "S840D-STOP-007", "S840D-TEST-014"]:
+        when |s| s.inputs.other.test != TestResult::None && !s.outputs.channel.test.active
+            => s.outputs.channel.stop.level != crate::sinumerik::level::Level::Test;
+
+    /// The external shutdown test acts in the NCK only.
+    external_test_is_of_the_nck ["S840D-TEST-016"]:
+        when |s| s.config.side() == super::Side::Drive
+            => !s.outputs.shutdown_test.active && !s.outputs.alarms.contains(Alarm::ExternalTest);
+
+    /// Every stop raised here or told has its alarm in the cycle it is latched.
+    raised_stop_has_its_alarm ["S840D-ALARM-501", "S840D-STOP-001", "S840D-STOP-032", "S840D-STOP-041", "S840D-STOP-052"]:
+        when |s| s.after.channel.stop.internal > s.before.channel.stop.internal
+            => Alarm::of_stop(s.after.channel.stop.internal).is_some_and(|alarm| s.outputs.alarms.contains(alarm));
+
+    /// The step keeps the invariants of all monitors.
+    state_stays_consistent ["S840D-ARCH-501"]:
+        when |s| s.before.invariant(&s.config)
+            => s.after.invariant(&s.config);
+}

@@ -1,0 +1,83 @@
+//! Monitors of the SINUMERIK 840D / SIMODRIVE 611 digital family, Safety Integrated.
+//!
+//! One module is one safety function of one monitoring channel:
+//!
+//! | module | safety function | steps after |
+//! | --- | --- | --- |
+//! | [`gear`] | gear stage of a selector gearbox and its change event | - |
+//! | [`agreement`] | user agreement | `gear` |
+//! | [`mod@reference`] | axis referencing up to "safely referenced" | `agreement` of both channels |
+//! | [`external`] | external stops by signal, reaction to errors of the safe logic | - |
+//! | [`fault`] | STOP F: reaction to a discrepancy between the channels | - |
+//! | [`stop`] | arbitration of all stop requests, STOP A to E with their timers | `external`, `fault`, all monitors |
+//! | [`motion`] | actual position and speed of a channel | - |
+//! | [`selection`] | selection of operating stop and speed stage with its delays | `motion`; `stop` of the cycle before |
+//! | [`standstill`] | position window of the operating stop (SBH) | `selection` |
+//! | [`speed`] | limit of the speed stage (SG), encoder limit frequency | `selection` |
+//! | [`limit_switch`] | software limit switches (SE) | `agreement` |
+//! | [`ramp`] | braking ramp (SBR) | `motion`; `stop` of the cycle before |
+//! | [`threshold`] | speed threshold n < n_x | `motion` |
+//! | [`cam`] | one software cam (SN) | `motion` |
+//! | [`results`] | result lists for the comparison of the channels | all monitors |
+//! | [`encoder`] | encoder to position: no step | - |
+//! | [`interface`] | signals of an axis in the data block and at the terminals: no step | - |
+//! | [`channel`] | the monitors of one channel, wired to each other | - |
+//! | [`axis`] | one axis in one channel: everything it does in a cycle, and what it tells the other channel | - |
+//! | [`pair`] | both channels of an axis against each other | - |
+//! | [`parameters`] | machine data, checked and converted into the configurations: no step | - |
+//! | [`group`] | effect of a stop on the other axes of the channel | `stop` of every axis |
+//! | [`test_stop`] | test of the shutdown path | before `stop`, whose test level it is |
+//! | [`shutdown_test`] | test of the external shutdown (NCK) | before `stop` and `pulses` |
+//! | [`pulses`] | pulse cancellation with its external fallback (NCK) | `stop`, `shutdown_test` |
+//! | [`compare`] | cross comparison: list, change timer, checking timer | - |
+//! | [`slip`] | synchronisation of the actual values | before `compare`, for which it decides on the positions |
+//! | [`history`] | standstill position kept through power-off and its comparison | - |
+//! | [`forced_check`] | how long ago the shutdown paths were tested | `test_stop` of both channels |
+//! | [`level`] | stops in their priority: no step | - |
+//! | [`code`], [`alarm`] | codes of STOP F and alarms: no step | - |
+//!
+//! Conventions common to the modules of this family:
+//!
+//! * One call is one monitoring cycle (T_SI), the same for all monitors (S840D-TIMING-501). Durations are [`Cycles`](crate::kernel::Cycles).
+//! * Positions are increments (um or mdeg), speeds increments per cycle; limits are converted rounding down (see [`units`](crate::units)).
+//!   A limit is violated only beyond it.
+//! * A timer started with t expires t cycles after the cycle of its start; t = 0 expires in the cycle of the start.
+//! * `power_on` first sets everything volatile to its initial value (which acknowledges every stop); requests received
+//!   from the other channel are ignored in that cycle; then the cycle is evaluated with its other inputs.
+//! * Selection signals are "de-select" signals: 0 (`false`) means selected, so that a lost signal selects (S840D-ARCH-504).
+
+pub mod agreement;
+pub mod alarm;
+pub mod axis;
+pub mod cam;
+pub mod channel;
+pub mod code;
+pub mod compare;
+pub mod encoder;
+pub mod external;
+pub mod fault;
+pub mod forced_check;
+pub mod gear;
+pub mod group;
+pub mod history;
+pub mod interface;
+pub mod level;
+pub mod limit_switch;
+pub mod motion;
+#[cfg(feature = "mutants")]
+pub mod mutant;
+pub mod pair;
+pub mod parameters;
+pub mod path_test;
+pub mod pulses;
+pub mod ramp;
+pub mod reference;
+pub mod results;
+pub mod selection;
+pub mod shutdown_test;
+pub mod slip;
+pub mod speed;
+pub mod standstill;
+pub mod stop;
+pub mod test_stop;
+pub mod threshold;

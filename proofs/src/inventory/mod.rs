@@ -1,0 +1,163 @@
+//! The list of all harnesses, and the Kani harness of each entry.
+
+use crate::enumeration::{Count, Domain};
+use crate::properties::Subject;
+use crate::sampling::Tape;
+use crate::source::Verdict;
+
+/// One harness: a property with its engines.
+pub struct Entry {
+    /// The name of the harness; also the name of its Kani harness.
+    pub id: &'static str,
+    /// The monitors it is about.
+    pub monitor: &'static str,
+    /// The family it belongs to: a module of the monitors.
+    pub family: &'static str,
+    /// The property in one line.
+    pub property: &'static str,
+    /// Requirements and properties it stands for.
+    pub requirements: fn() -> Vec<&'static str>,
+    /// The situations that must be met, in the order of their index.
+    pub covers: fn() -> Vec<&'static str>,
+    /// What the enumeration tries, in words.
+    pub domain: &'static str,
+    /// What limits the statement under every engine, Kani included.
+    pub bound: &'static str,
+    /// What a reader must know before relying on it.
+    pub caveat: &'static str,
+    /// The clauses of a contract: name, text, requirements. Empty for runs.
+    pub clauses: fn() -> Vec<ClauseText>,
+    /// Tries every choice.
+    pub enumerate: fn(&Subject) -> Count,
+    /// Makes one random run.
+    pub sample: fn(&mut Tape<'_>, &Subject) -> Verdict,
+}
+
+/// A clause of a contract as the page shows it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ClauseText {
+    /// The name of the predicate function.
+    pub name: &'static str,
+    /// The clause in words.
+    pub text: &'static str,
+    /// The requirements and properties it stands for.
+    pub requirements: &'static [&'static str],
+}
+
+/// The requirements of the clauses of a contract, each once, in order.
+fn requirements_of(clauses: Vec<ClauseText>) -> Vec<&'static str> {
+    let mut all: Vec<_> = clauses
+        .iter()
+        .flat_map(|clause| clause.requirements.iter().copied())
+        .collect();
+    all.sort_unstable();
+    all.dedup();
+    all
+}
+
+macro_rules! entry {
+    (contract $id:ident on $family:ident::$monitor:ident {
+        property: $property:literal, domain: $domain:expr, domain_text: $domain_text:literal, caveat: $caveat:literal $(,)?
+    }) => {
+        $crate::inventory::Entry {
+            id: stringify!($id),
+            monitor: stringify!($monitor),
+            family: stringify!($family),
+            property: $property,
+            requirements: || $crate::inventory::requirements_of($crate::properties::$family::clauses::$monitor()),
+            covers: || $crate::properties::$family::clauses::$monitor().iter().map(|clause| clause.name).collect(),
+            domain: $domain_text,
+            bound: "one step from any consistent state; inductive",
+            caveat: $caveat,
+            clauses: $crate::properties::$family::clauses::$monitor,
+            enumerate: |subject| {
+                let covers = stillpoint_monitors::$family::$monitor::CLAUSES.len();
+                $crate::enumeration::enumerate($domain, covers, |source| {
+                    $crate::properties::$family::contracts::$monitor(source, &subject.$family)
+                })
+            },
+            sample: |tape, subject| $crate::properties::$family::contracts::$monitor(tape, &subject.$family),
+        }
+    };
+    (run($unwind:literal) $id:ident on $family:ident::$monitor:literal by $module:ident::$function:ident {
+        property: $property:literal, requirements: [$($requirement:literal),+], covers: [$($cover:literal),+],
+        domain: $domain:expr, domain_text: $domain_text:literal, bound: $bound:literal, caveat: $caveat:literal $(,)?
+    }) => {
+        $crate::inventory::Entry {
+            id: stringify!($id),
+            monitor: $monitor,
+            family: stringify!($family),
+            property: $property,
+            requirements: || vec![$($requirement),+],
+            covers: || vec![$($cover),+],
+            domain: $domain_text,
+            bound: $bound,
+            caveat: $caveat,
+            clauses: Vec::new,
+            enumerate: |subject| {
+                $crate::enumeration::enumerate($domain, [$($cover),+].len(), |source| {
+                    $crate::properties::$family::$module::$function(source, &subject.$family)
+                })
+            },
+            sample: |tape, subject| $crate::properties::$family::$module::$function(tape, &subject.$family),
+        }
+    };
+}
+
+#[cfg(kani)]
+macro_rules! kani_harness {
+    (contract $id:ident on $family:ident::$monitor:ident { $($rest:tt)* }) => {
+        #[kani::proof_for_contract(stillpoint_monitors::$family::$monitor::next)]
+        fn $id() {
+            use stillpoint_monitors::$family::$monitor::{Step, cover_premises, next};
+            let mut source = Symbolic::default();
+            if let Some((before, config, inputs)) = crate::arbitrary::$family::$monitor(&mut source) {
+                let (after, outputs) = next(before, &config, &inputs);
+                cover_premises(Step { before, config, inputs, after, outputs });
+            }
+        }
+    };
+    (run($unwind:literal) $id:ident on $family:ident::$monitor:literal by $module:ident::$function:ident {
+        property: $property:literal, requirements: $requirements:tt, covers: [$($cover:literal),+], $($rest:tt)*
+    }) => {
+        #[kani::proof]
+        #[kani::unwind($unwind)]
+        fn $id() {
+            let mut source = Symbolic::default();
+            conclude(crate::properties::$family::$module::$function(&mut source, &Subject::PRODUCTION.$family));
+            $(kani::cover!(source.take_cover(), $cover);)+
+        }
+    };
+}
+
+/// Makes the list of a file and the Kani harnesses from the same lines.
+macro_rules! inventory {
+    ($([$($entry:tt)*])+) => {
+        /// The harnesses of this file.
+        pub(super) static ENTRIES: &[$crate::inventory::Entry] = &[$(entry!($($entry)*)),+];
+
+        #[cfg(kani)]
+        mod kani_harnesses {
+            // A file of contracts only needs no more than the symbolic source.
+            #[allow(unused_imports)]
+            use crate::kani_source::{Symbolic, conclude};
+            #[allow(unused_imports)]
+            use crate::properties::Subject;
+
+            $(kani_harness!($($entry)*);)+
+        }
+    };
+}
+
+mod sinumerik;
+
+/// Every harness.
+pub fn all() -> impl Iterator<Item = &'static Entry> {
+    sinumerik::ENTRIES.into_iter().flatten()
+}
+
+/// A domain for properties that read no wide value.
+const NARROW: Domain = Domain {
+    delays: &[0],
+    highest_speed: 0,
+};

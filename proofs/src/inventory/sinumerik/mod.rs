@@ -1,0 +1,14 @@
+//! Harnesses of the monitors of the SINUMERIK 840D.
+
+mod base;
+mod checking;
+mod composing;
+mod watching;
+
+/// The lists of this family.
+pub(super) static ENTRIES: [&[super::Entry]; 4] = [
+    base::ENTRIES,
+    checking::ENTRIES,
+    watching::ENTRIES,
+    composing::ENTRIES,
+];

@@ -1,0 +1,276 @@
+//! The conversions: none is less restrictive than the exact value.
+
+use core::num::NonZeroU32;
+
+use stillpoint_monitors::kernel::{Percent, Position, Speed};
+use stillpoint_monitors::sinumerik::encoder::{Encoder, LimitFrequency, Mounting};
+use stillpoint_monitors::sinumerik::selection::{Monitored, Stage};
+use stillpoint_monitors::sinumerik::{motion, speed};
+use stillpoint_monitors::units::{
+    Axis, LONGEST_CYCLE_US, ModuloRange, Scale, distance_down, position_down, position_up,
+};
+
+use super::Subject;
+use crate::source::{Source, Verdict};
+
+/// Any number that is not 0.
+fn positive<S: Source>(source: &mut S, reach: u32, highest: u32) -> Option<NonZeroU32> {
+    NonZeroU32::new(source.any_u32(reach, highest - 1) + 1)
+}
+
+/// Any monitoring cycle; the enumeration takes the longest ones and the shortest.
+fn cycle<S: Source>(source: &mut S, reach: u32) -> Option<NonZeroU32> {
+    NonZeroU32::new(LONGEST_CYCLE_US - source.any_u32(reach, LONGEST_CYCLE_US - 1))
+}
+
+/// Increments of a millimetre or a revolution.
+const fn increments(axis: Axis) -> u128 {
+    match axis {
+        Axis::Linear => 1_000,
+        Axis::Rotary => 360_000,
+    }
+}
+
+/// Whether `converted` is `numerator / denominator` rounded down.
+fn rounded_down(converted: u32, numerator: u128, denominator: u128) -> bool {
+    let scaled = u128::from(converted) * denominator;
+    scaled <= numerator && numerator < scaled + denominator
+}
+
+/// A speed in thousandths of mm/min or rev/min is the exact number of increments per cycle rounded down: never more.
+///
+/// Cover 0: something is rounded off, cover 1: nothing is.
+pub fn speed_rounds_down<S: Source>(source: &mut S, _subject: &Subject) -> Verdict {
+    let axis = source.any_of(&[Axis::Linear, Axis::Rotary]);
+    let Some(cycle_us) = cycle(source, 12) else {
+        return Verdict::Discarded;
+    };
+    // Thousandths, in steps of 200 in the enumeration: speeds of 0 to 40.
+    let value = u64::from(source.any_u32(200, 20_000_000)) * 200;
+    let Ok(scale) = Scale::new(axis, cycle_us) else {
+        return Verdict::Broken("permitted_cycle_is_accepted");
+    };
+    let Ok(converted) = scale.speed_from_thousandths(value) else {
+        return Verdict::Discarded;
+    };
+    let exact = u128::from(value) * increments(axis) * u128::from(cycle_us.get());
+    source.cover(0, exact % 60_000_000_000 != 0);
+    source.cover(1, exact % 60_000_000_000 == 0 && exact > 0);
+    if rounded_down(converted.0, exact, 60_000_000_000) {
+        Verdict::Held
+    } else {
+        Verdict::Broken("speed_rounds_down")
+    }
+}
+
+/// The rule of the manual: a movement of more than the limit times the cycle is a violation, whole increments compared
+/// with the limit rounded down give exactly the comparison with the exact limit.
+///
+/// Cover 0: a violation, cover 1: the largest movement that is none.
+pub fn movement_is_compared_exactly<S: Source>(source: &mut S, subject: &Subject) -> Verdict {
+    let axis = source.any_of(&[Axis::Linear, Axis::Rotary]);
+    let per_minute = source.any_u32(24, 60_000);
+    let Some(cycle_us) = cycle(source, 8) else {
+        return Verdict::Discarded;
+    };
+    let Ok(limit) = Scale::new(axis, cycle_us).and_then(|scale| scale.speed(per_minute)) else {
+        return Verdict::Discarded;
+    };
+    let Ok(config) = speed::Config::new(2, [0; 4], None, 0) else {
+        return Verdict::Discarded;
+    };
+    // Movements around the limit, and any other.
+    let from = Position(source.any_i32(1));
+    let forward = source.any_bool();
+    let moved = i64::from(limit.0) + i64::from(source.any_i32(1)) % 1_000_000;
+    let Ok(to) = i32::try_from(i64::from(from.0) + if forward { moved } else { -moved }) else {
+        return Verdict::Discarded;
+    };
+    let state = motion::State {
+        last: from,
+        known: true,
+    };
+    let inputs = motion::Inputs {
+        position: Position(to),
+        ..motion::Inputs::default()
+    };
+    let (_, actual) = (subject.motion)(state, &motion::Config, &inputs);
+    let inputs = speed::Inputs {
+        monitored: Monitored::Speed,
+        speed: actual.speed,
+        limit,
+        stage: Stage::Sg1,
+        encoder_speed: Speed(0),
+    };
+    let (_, outputs) = (subject.speed)(speed::State, &config, &inputs);
+    let permitted = u128::from(per_minute) * increments(axis) * u128::from(cycle_us.get());
+    let beyond = u128::from(from.0.abs_diff(to)) * 60_000_000 > permitted;
+    source.cover(0, beyond);
+    source.cover(1, actual.speed == limit && limit > Speed(0));
+    if outputs.violated == beyond {
+        Verdict::Held
+    } else {
+        Verdict::Broken("movement_is_compared_exactly")
+    }
+}
+
+/// A part of a limit in percent is rounded down.
+///
+/// Cover 0: something is rounded off.
+pub fn factor_rounds_down<S: Source>(source: &mut S, _subject: &Subject) -> Verdict {
+    let limit = Speed(source.any_u32(120, u32::MAX));
+    let percent = source.any_in(0, 100);
+    let Ok(factor) = Percent::new(percent as u8) else {
+        return Verdict::Broken("permitted_factor_is_accepted");
+    };
+    let exact = u128::from(limit.0) * u128::from(percent);
+    source.cover(0, exact % 100 != 0);
+    if rounded_down(limit.reduced(factor).0, exact, 100) {
+        Verdict::Held
+    } else {
+        Verdict::Broken("factor_rounds_down")
+    }
+}
+
+/// Tolerances and upper limits are rounded down, lower limits up: the permitted range never grows.
+///
+/// Cover 0: below zero and not a whole increment.
+pub fn limits_round_inwards<S: Source>(source: &mut S, _subject: &Subject) -> Verdict {
+    let thousandths = i64::from(source.any_i32(3_000));
+    let (Ok(upper), Ok(lower)) = (position_down(thousandths), position_up(thousandths)) else {
+        return Verdict::Broken("small_position_is_accepted");
+    };
+    let (above, below) = (i64::from(upper.0) * 1000, i64::from(lower.0) * 1000);
+    source.cover(0, thousandths < 0 && thousandths % 1000 != 0);
+    let magnitude = thousandths.unsigned_abs();
+    let Ok(tolerance) = distance_down(magnitude) else {
+        return Verdict::Broken("small_distance_is_accepted");
+    };
+    if above <= thousandths
+        && thousandths < above + 1000
+        && below >= thousandths
+        && thousandths > below - 1000
+        && rounded_down(tolerance.0, u128::from(magnitude), 1000)
+    {
+        Verdict::Held
+    } else {
+        Verdict::Broken("limits_round_inwards")
+    }
+}
+
+/// A folded position is in the range, a whole number of ranges away; one in the range is left alone.
+///
+/// Cover 0: folded down, cover 1: folded up, cover 2: no range.
+pub fn folding_keeps_the_position<S: Source>(source: &mut S, _subject: &Subject) -> Verdict {
+    let (lower, upper) = (source.any_i32(3), source.any_i32(3));
+    let position = source.any_i32(9);
+    let Ok(range) = ModuloRange::new(Position(lower), Position(upper)) else {
+        return Verdict::Discarded;
+    };
+    let folded = range.folded(Position(position)).0;
+    let away = i64::from(position) - i64::from(folded);
+    source.cover(0, away > 0);
+    source.cover(1, away < 0);
+    source.cover(2, !range.folds());
+    let right = if range.folds() {
+        (lower..upper).contains(&folded) && away % (i64::from(upper) - i64::from(lower)) == 0
+    } else {
+        away == 0
+    };
+    if right {
+        Verdict::Held
+    } else {
+        Verdict::Broken("folding_keeps_the_position")
+    }
+}
+
+/// The position of a rotary encoder is the exact one of S840D-ENC-006 rounded down, in both directions.
+///
+/// Cover 0: reversed, below zero and rounded.
+pub fn encoder_position_rounds_down<S: Source>(source: &mut S, _subject: &Subject) -> Verdict {
+    let (Some(pulses), Some(denom), Some(numera), Some(load), Some(subdivision)) = (
+        positive(source, 2, 100_000),
+        positive(source, 2, 8_388_607),
+        positive(source, 1, 8_388_607),
+        positive(source, 3, 10_000_000),
+        positive(source, 0, 16_384),
+    ) else {
+        return Verdict::Discarded;
+    };
+    let mounting = Mounting::Rotary {
+        pulses,
+        denom,
+        numera,
+        load,
+    };
+    let reversed = source.any_bool();
+    let count = source.any_i32(6);
+    let Ok(encoder) = Encoder::new(mounting, subdivision, reversed) else {
+        return Verdict::Discarded;
+    };
+    let Some(position) = encoder.position(count) else {
+        return Verdict::Discarded;
+    };
+    let signed = if reversed {
+        -i128::from(count)
+    } else {
+        i128::from(count)
+    };
+    let exact = signed * i128::from(denom.get()) * i128::from(load.get());
+    let counts =
+        i128::from(pulses.get()) * i128::from(numera.get()) * i128::from(subdivision.get());
+    let scaled = i128::from(position.0) * counts;
+    source.cover(0, reversed && exact < 0 && scaled < exact);
+    if scaled <= exact && exact < scaled + counts {
+        Verdict::Held
+    } else {
+        Verdict::Broken("encoder_position_rounds_down")
+    }
+}
+
+/// The highest speed under the limit frequency of the encoder is the exact one rounded down, at the load and at the
+/// encoder.
+///
+/// Cover 0: an extended limit frequency.
+pub fn encoder_speed_rounds_down<S: Source>(source: &mut S, _subject: &Subject) -> Verdict {
+    let hz = 300_000 + source.any_u32(3, 120_000);
+    let Ok(frequency) = LimitFrequency::new(hz, true) else {
+        return Verdict::Broken("permitted_frequency_is_accepted");
+    };
+    let (Some(cycle_us), Some(pulses), Some(denom), Some(numera), Some(load), Some(subdivision)) = (
+        cycle(source, 2),
+        positive(source, 2, 100_000),
+        positive(source, 1, 8_388_607),
+        positive(source, 2, 8_388_607),
+        positive(source, 2, 10_000_000),
+        positive(source, 1, 16_384),
+    ) else {
+        return Verdict::Discarded;
+    };
+    let mounting = Mounting::Rotary {
+        pulses,
+        denom,
+        numera,
+        load,
+    };
+    let (Ok(at_encoder), Ok(encoder)) = (
+        frequency.pulses_per_cycle(cycle_us),
+        Encoder::new(mounting, subdivision, false),
+    ) else {
+        return Verdict::Discarded;
+    };
+    let Ok(at_load) = encoder.highest_speed(frequency, cycle_us) else {
+        return Verdict::Discarded;
+    };
+    let micro_pulses = u128::from(hz) * u128::from(cycle_us.get());
+    let exact = micro_pulses * u128::from(denom.get()) * u128::from(load.get());
+    let divisor = 1_000_000 * u128::from(pulses.get()) * u128::from(numera.get());
+    source.cover(0, hz > LimitFrequency::STANDARD.hz());
+    if rounded_down(at_load.0, exact, divisor)
+        && rounded_down(at_encoder.0, micro_pulses, 1_000_000)
+    {
+        Verdict::Held
+    } else {
+        Verdict::Broken("encoder_speed_rounds_down")
+    }
+}
