@@ -1,6 +1,7 @@
 //! The production monitors as peers of the tables: the same ports, in the numbers of the specification.
 
 mod adapter;
+mod numbers;
 mod sinumerik;
 
 use stillpoint_model::Domain;

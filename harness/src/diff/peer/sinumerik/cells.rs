@@ -7,36 +7,7 @@ use stillpoint_monitors::sinumerik::{
 };
 
 use super::numbers::*;
-use crate::diff::peer::adapter::Cells;
-
-/// Implements [`Cells`]: the fields of a state in their order, each with its way from a number and back.
-macro_rules! cells {
-    ($($state:ty, $count:literal { $($field:ident = $load:expr, $store:expr;)+ })+) => {$(
-        impl Cells for $state {
-            const COUNT: usize = $count;
-
-            fn load(cells: &[i32]) -> Self {
-                let mut cells = cells.iter().copied();
-                let mut next = || cells.next().unwrap_or(0);
-                Self { $($field: ($load)(next()),)+ }
-            }
-
-            fn store(self, cells: &mut [i32]) {
-                for (cell, value) in cells.iter_mut().zip([$(($store)(self.$field)),+]) {
-                    *cell = value;
-                }
-            }
-        }
-    )+};
-}
-
-const fn truthy(cell: i32) -> bool {
-    cell != 0
-}
-
-fn position(position: Position) -> i32 {
-    position.0
-}
+use crate::diff::peer::adapter::{Cells, cells, put, take};
 
 cells! {
     external::State, 2 {
@@ -147,16 +118,4 @@ impl Cells for channel::State {
         let rest = put(self.stop, rest);
         put(self.pulses, rest);
     }
-}
-
-fn take<S: Cells>(rest: &mut &[i32]) -> S {
-    let (own, others) = rest.split_at(S::COUNT.min(rest.len()));
-    *rest = others;
-    S::load(own)
-}
-
-fn put<S: Cells>(state: S, cells: &mut [i32]) -> &mut [i32] {
-    let (own, others) = cells.split_at_mut(S::COUNT.min(cells.len()));
-    state.store(own);
-    others
 }
