@@ -1,56 +1,13 @@
 //! Simulations as their user meets them: the example scenarios, what is refused, and what is written.
 
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+mod common;
+
+use std::path::Path;
+use std::process::Output;
+
+use common::{Folder, root, status, stderr, stdout, stillpoint};
 
 const MACHINE: &str = "spec/machines/milling-840d.toml";
-
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
-}
-
-fn stillpoint(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_stillpoint"))
-        .args(arguments)
-        .current_dir(root())
-        .env("NO_COLOR", "1")
-        .output()
-        .expect("the binary runs")
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8(bytes.to_vec()).expect("UTF-8")
-}
-
-fn status(output: &Output) -> i32 {
-    output.status.code().expect("no signal ended it")
-}
-
-/// A folder of one test, gone afterwards.
-struct Folder(PathBuf);
-
-impl Folder {
-    fn new(name: &str) -> Self {
-        let path = std::env::temp_dir().join(format!("stillpoint-{name}-{}", std::process::id()));
-        std::fs::create_dir_all(&path).expect("a folder");
-        Self(path)
-    }
-
-    fn file(&self, name: &str) -> String {
-        self.0.join(name).display().to_string()
-    }
-
-    fn write(&self, name: &str, content: &str) -> String {
-        std::fs::write(self.0.join(name), content).expect("written");
-        self.file(name)
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        let _ = std::fs::remove_dir_all(&self.0);
-    }
-}
 
 fn simulate(scenario: &str) -> Output {
     stillpoint(&["simulate", MACHINE, "--scenario", scenario, "--brief"])
@@ -76,8 +33,8 @@ fn the_expectations_of_every_example_hold() {
     for entry in std::fs::read_dir(folder).expect("the folder") {
         let path = entry.expect("an entry").path().display().to_string();
         let output = simulate(&path);
-        let out = text(&output.stdout);
-        assert_eq!(status(&output), 0, "{path}: {out}{}", text(&output.stderr));
+        let out = stdout(&output);
+        assert_eq!(status(&output), 0, "{path}: {out}{}", stderr(&output));
         assert!(
             out.contains("holds") && !out.contains("FAILS"),
             "{path}: {out}"
@@ -90,7 +47,7 @@ fn the_expectations_of_every_example_hold() {
 #[test]
 fn stops_have_their_cycle_their_reason_and_their_way() {
     let output = simulate("spec/scenarios/door-while-moving.toml");
-    let out = text(&output.stdout);
+    let out = stdout(&output);
     // The door opens in cycle 34; t_vel = 200 ms are 17 cycles. From 8000 mm/min with 4000 mm/s2: 133.3^2 / 8000 = 2.222 mm.
     let expected = "X STOP C in cycle 51 (612 ms), nck and drive: speed limit exceeded (alarm 27011); \
                     stands 36 ms later (3 cycles) after 2.223 mm";
@@ -102,14 +59,14 @@ fn an_expectation_that_fails_is_exit_status_1() {
     let folder = Folder::new("simulate-expect");
     let expect = "[[expect]]\naxis = \"X\"\nstop = \"C\"\nby = \"0.9 s\"\n";
     let output = run(&folder, expect);
-    let out = text(&output.stdout);
+    let out = stdout(&output);
     assert_eq!(status(&output), 1, "{out}");
     assert!(
         out.contains("FAILS  X.nck.stop and X.drive.stop = C"),
         "{out}"
     );
     let never = run(&folder, &format!("{expect}never = true\n"));
-    assert_eq!(status(&never), 0, "{}", text(&never.stdout));
+    assert_eq!(status(&never), 0, "{}", stdout(&never));
 }
 
 /// STOP A coasts, STOP D brakes on the path, STOP C at the current limit: the way grows in the other order.
@@ -125,8 +82,8 @@ fn each_stop_brakes_with_its_ramp() {
              [[expect]]\naxis = \"X\"\nstandstill = true\nafter = \"0.4 s\"\n"
         );
         let output = run(&folder, &scenario);
-        let out = text(&output.stdout);
-        assert_eq!(status(&output), 0, "{stop}: {out}{}", text(&output.stderr));
+        let out = stdout(&output);
+        assert_eq!(status(&output), 0, "{stop}: {out}{}", stderr(&output));
         let line = out
             .lines()
             .find(|l| l.starts_with("X STOP"))
@@ -156,8 +113,8 @@ fn a_stop_reaches_the_axes_of_its_group() {
         status(&output),
         0,
         "{}{}",
-        text(&output.stdout),
-        text(&output.stderr)
+        stdout(&output),
+        stderr(&output)
     );
 }
 
@@ -171,8 +128,8 @@ fn faults_are_found() {
          [[stop]]\nat = \"0.3 s\"\naxis = \"X\"\nstop = \"C\"\n\
          [[expect]]\naxis = \"X\"\nstop = \"A\"\nafter = \"0.3 s\"\nby = \"0.4 s\"\n";
     let output = run(&folder, deaf);
-    let out = text(&output.stdout);
-    assert_eq!(status(&output), 0, "{out}{}", text(&output.stderr));
+    let out = stdout(&output);
+    assert_eq!(status(&output), 0, "{out}{}", stderr(&output));
     assert!(out.contains("braking ramp exceeded"), "{out}");
     let lost = "[[select]]\nat = \"0 s\"\naxis = \"X\"\nfunction = \"SG2\"\n\
          [[fault]]\nat = \"0.1 s\"\naxis = \"X\"\nchannel = \"drive\"\nkind = \"lost\"\nsignal = \"SGE_SS_DISABLE\"\n\
@@ -183,15 +140,15 @@ fn faults_are_found() {
         status(&output),
         0,
         "{}{}",
-        text(&output.stdout),
-        text(&output.stderr)
+        stdout(&output),
+        stderr(&output)
     );
     let offset = "[[select]]\nat = \"0 s\"\naxis = \"X\"\nfunction = \"SBH\"\n\
          [[fault]]\nat = \"0.2 s\"\naxis = \"X\"\nchannel = \"nck\"\nkind = \"encoder offset\"\noffset = \"0.6 mm\"\n\
          [[expect]]\naxis = \"X\"\nstop = \"B\"\nchannel = \"nck\"\nafter = \"0.2 s\"\nby = \"0.25 s\"\n";
     let output = run(&folder, offset);
-    let out = text(&output.stdout);
-    assert_eq!(status(&output), 0, "{out}{}", text(&output.stderr));
+    let out = stdout(&output);
+    assert_eq!(status(&output), 0, "{out}{}", stderr(&output));
     assert!(
         out.contains("standstill tolerance exceeded (alarm 27010)"),
         "{out}"
@@ -214,8 +171,8 @@ fn stops_are_acknowledged() {
         status(&output),
         0,
         "{}{}",
-        text(&output.stdout),
-        text(&output.stderr)
+        stdout(&output),
+        stderr(&output)
     );
 }
 
@@ -237,7 +194,7 @@ fn equal_files_give_equal_bytes() {
             "--trace",
             &trace,
         ]);
-        assert_eq!(status(&output), 0, "{}", text(&output.stderr));
+        assert_eq!(status(&output), 0, "{}", stderr(&output));
         let files = [svg, csv, trace].map(|f| std::fs::read(f).expect("written"));
         (output.stdout, files)
     };
@@ -269,7 +226,7 @@ fn the_picture_of_the_book_is_current() {
         &svg,
         "--brief",
     ]);
-    assert_eq!(status(&output), 0, "{}", text(&output.stderr));
+    assert_eq!(status(&output), 0, "{}", stderr(&output));
     let drawn = std::fs::read_to_string(&svg).expect("written");
     let book =
         std::fs::read_to_string(root().join("docs/src/simulation-door.svg")).expect("readable");
@@ -374,12 +331,12 @@ fn mistakes_are_refused() {
         let svg = folder.file("never.svg");
         let file = folder.write("wrong.toml", &format!("duration = \"1 s\"\n{scenario}"));
         let output = stillpoint(&["simulate", MACHINE, "--scenario", &file, "--svg", &svg]);
-        let err = text(&output.stderr).replace("\n  │ ", " ");
+        let err = stderr(&output).replace("\n  │ ", " ");
         assert_eq!(
             status(&output),
             2,
             "{scenario}: {}{err}",
-            text(&output.stdout)
+            stdout(&output)
         );
         assert!(
             err.contains(place) && err.contains(message),
