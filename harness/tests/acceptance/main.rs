@@ -57,6 +57,7 @@ fn milling(name: &str, replace: &[(&str, &str)]) -> String {
     path.display().to_string()
 }
 
+/// The list of tests and their parts (S840D-ACCEPT-751).
 #[test]
 fn one_test_for_each_enabled_function_and_limit() {
     let json = json(&[MILLING]);
@@ -254,6 +255,7 @@ fn the_clock_makes_everything_with_a_time_to_be_repeated() {
     assert!(!repeat.contains("EMERGENCY-STOP"));
 }
 
+/// Documentation, both function tests, completion, and what a later measure repeats (S840D-ACCEPT-722, S840D-ACCEPT-723).
 #[test]
 fn markdown_and_page() {
     let text = stdout(&stillpoint(&["acceptance", MILLING]));
@@ -264,6 +266,9 @@ fn markdown_and_page() {
         "Signature",
         "MD10094",
         "encoder system replaced",
+        "Function test part 1",
+        "Function test part 2",
+        "Completion",
     ] {
         assert!(text.contains(part), "no {part}");
     }
