@@ -123,13 +123,7 @@ impl Axis {
     }
 
     /// What both channels see in this cycle.
-    pub fn see(
-        &mut self,
-        cycle: u32,
-        logic: Logic,
-        pulse: Pulse,
-        inputs: &[vocabulary::Input],
-    ) {
+    pub fn see(&mut self, cycle: u32, logic: Logic, pulse: Pulse, inputs: &[vocabulary::Input]) {
         for side in 0..2 {
             let mut local = self.local(cycle, logic, pulse, side);
             for (input, channel, value) in &self.forced {

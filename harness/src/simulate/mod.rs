@@ -20,7 +20,8 @@ mod summary;
 pub use plant::{Drive, Mechanics, Plant, Setpoint};
 pub use run::run;
 pub use scenario::{
-    Condition, DoorChange, Event, Expect, ExternalLetter, Fault, Is, Scenario, Selection, Start, What,
+    Condition, DoorChange, Event, Expect, ExternalLetter, Fault, Is, Scenario, Selection, Start,
+    What,
 };
 pub use summary::{Judged, Simulation, Stop};
 
@@ -36,8 +37,8 @@ const OF_AXIS: [(&str, Kind, &str, &str); 4] = [
     ("drive", Kind::Text, "", ""),
 ];
 
-/// Signals of a door: somebody asks for it, its logic releases it, it is open.
-const OF_DOOR: [&str; 3] = ["asked", "released", "open"];
+/// Signals of a door: it is open, somebody asks for it, its logic releases it.
+const OF_DOOR: [&str; 3] = ["open", "asked", "released"];
 
 /// Every signal that a simulation of this machine records, in the order of its rows.
 pub fn signals(machine: &Machine) -> Vec<Signal> {

@@ -225,7 +225,7 @@ impl<'a> Simulator<'a> {
 
     fn record(&self) -> Vec<Option<Value>> {
         let doors = self.doors.iter();
-        let doors = doors.flat_map(|door| [door.asked, door.released(), door.open]);
+        let doors = doors.flat_map(|door| [door.open, door.asked, door.released()]);
         let mut row: Vec<Option<Value>> = doors.map(|d| Some(Value::Bool(d))).collect();
         for axis in &self.axes {
             let plant = &axis.plant;

@@ -122,8 +122,7 @@ impl Resolver<'_> {
                 ];
                 let place = place.into_iter().flatten().next().map(Spanned::span);
                 let place = place.or(expect.axis.as_ref().map(Spanned::span));
-                let help =
-                    "write one of stop, standstill and alarm, perhaps with axis, or signal and value";
+                let help = "write one of stop, standstill and alarm, perhaps with axis, or signal and value";
                 self.add(
                     place.unwrap_or_default(),
                     "it is not clear what is expected".to_owned(),
@@ -202,7 +201,9 @@ fn describe(condition: &Condition, never: bool) -> String {
         Is::Value(value) => format!("{} = {value}", names.join(joint)),
         Is::Listing(alarm) => format!("alarm {alarm} in {}", names.join(joint)),
         Is::Standing(stands) => {
-            let axes = names.iter().map(|name| name.split('.').next().unwrap_or(""));
+            let axes = names
+                .iter()
+                .map(|name| name.split('.').next().unwrap_or(""));
             let axes: Vec<&str> = axes.collect();
             let one = axes.len() == 1 || never;
             let verb = match (stands, one) {
