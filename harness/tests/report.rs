@@ -5,7 +5,7 @@ mod common;
 use std::path::{Path, PathBuf};
 use std::process::Output;
 
-use common::stillpoint;
+use common::{root, stillpoint};
 
 /// A folder of this test that is empty.
 fn folder(name: &str) -> PathBuf {

@@ -269,7 +269,11 @@ fn each_kind_fails_with_a_broken_expectation() {
             "speed = \"15 mm/min\"",
         ),
         // Without the agreement the limit does not act.
-        ("SE1+-X", "[[motion]]", "[[agreement]]\nat = \"0.05 s\"\ngive = false\n[[motion]]"),
+        (
+            "SE1+-X",
+            "[[motion]]",
+            "[[agreement]]\nat = \"0.05 s\"\ngive = false\n[[motion]]",
+        ),
         (
             "SE1--Y",
             "speed = \"-3000 mm/min\"",
@@ -326,8 +330,5 @@ fn a_test_that_fails_is_told_with_its_diagram() {
     let output = stillpoint(&["acceptance", &file]);
     assert_eq!(output.status.code(), Some(2));
     let said = stderr(&output);
-    assert!(
-        said.contains("can neither be simulated"),
-        "{said}"
-    );
+    assert!(said.contains("can neither be simulated"), "{said}");
 }

@@ -334,9 +334,8 @@ pub(super) fn partners(axis: &Axis) -> String {
 fn others<'a>(machine: &'a Machine, axis: &'a Axis) -> impl Iterator<Item = &'a str> {
     let with = |a: &Axis, b: &Axis| a.interpolates_with.iter().any(|n| *n.get_ref() == b.name);
     let others = machine.axes.iter();
-    let others = others.filter(move |other| {
-        other.name != axis.name && !with(axis, other) && !with(other, axis)
-    });
+    let others = others
+        .filter(move |other| other.name != axis.name && !with(axis, other) && !with(other, axis));
     others.map(|other| other.name.as_str())
 }
 

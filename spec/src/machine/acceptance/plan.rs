@@ -6,10 +6,10 @@ use indexmap::IndexMap;
 use serde::Deserialize;
 use toml::Spanned;
 
+use super::super::Place;
 use super::super::family::Formula;
 use super::super::family_file::Check;
 use super::super::ground::{About, DataFile, Ground, PATH, partners, read_names};
-use super::super::Place;
 use super::super::template::{Template, Words};
 use super::{Expect, Measure, Part, Simulated, Test};
 use crate::diag::Result;
