@@ -3,7 +3,8 @@
 //! A requirement is **covered** when a rule, named expression or property of a specification table names it, and a
 //! monitor does, and a proof or a test does. For a requirement that is not about the behaviour of a monitor the monitor is
 //! not asked for: those of scope `support`, and of kind architecture, commissioning, constraint, diagnostic or parameter
-//! (they are carried by the data of a family, by its plausibility rules and by the tools). It is **excepted** when a reason
+//! (they are carried by the data of a family, by its plausibility rules and by the tools), and its acceptance tests and
+//! reaction chains count as its specification. It is **excepted** when a reason
 //! says why not: its scope is hardware, its content is carried by another requirement, or the family's `exceptions.toml`
 //! gives one. All others are **open**. A covered requirement is never excepted, whatever the file says.
 //!
@@ -29,6 +30,8 @@ pub struct Sources {
     pub catalogue: Catalogue,
     /// Rules, named expressions, properties and family data.
     pub rules: Named,
+    /// Data that no monitor follows: acceptance tests and reaction chains.
+    pub data: Named,
     /// Monitors, by their doc comments and contracts.
     pub monitors: Named,
     /// Proof harnesses, and the contracts they check.
@@ -112,7 +115,7 @@ impl Matrix {
             .exceptions
             .iter()
             .map(|(family, id, _)| (id, format!("{family}/exceptions.toml")));
-        let unknown = [&sources.rules, &sources.monitors]
+        let unknown = [&sources.rules, &sources.data, &sources.monitors]
             .into_iter()
             .flatten()
             .flat_map(|(id, places)| places.iter().map(move |p| (id, p.clone())))
@@ -150,9 +153,12 @@ fn row(sources: &Sources, exceptions: &BTreeMap<&str, &str>, requirement: &Requi
             .map(|p| p.iter().cloned().collect())
             .unwrap_or_default()
     };
-    let (rules, monitors) = (places(&sources.rules), places(&sources.monitors));
-    let (proofs, tests) = (places(&sources.proofs), places(&sources.tests));
-    let covered = !rules.is_empty()
+    let (mut rules, data) = (places(&sources.rules), places(&sources.data));
+    let (monitors, proofs) = (places(&sources.monitors), places(&sources.proofs));
+    let tests = places(&sources.tests);
+    let specified = !rules.is_empty() || (!data.is_empty() && !about_monitors(requirement));
+    rules.extend(data);
+    let covered = specified
         && (!monitors.is_empty() || !about_monitors(requirement))
         && (!proofs.is_empty() || !tests.is_empty());
     let reason = match (&requirement.merged_into, requirement.scope) {
@@ -292,6 +298,25 @@ mod tests {
         assert_eq!(status(&sources), Status::Covered);
         sources.rules.clear();
         assert_eq!(status(&sources), Status::Open);
+    }
+
+    /// What a monitor does is specified by a table; an acceptance test that names it is not enough.
+    #[test]
+    fn acceptance_tests_specify_what_no_monitor_does() {
+        let mut sources = Sources {
+            rules: Named::new(),
+            data: named("F-STOP-001", "acceptance.STOP-{axis}"),
+            ..full()
+        };
+        assert_eq!(status(&sources), Status::Open);
+        sources.catalogue.requirements[0].scope = Scope::Support;
+        assert_eq!(status(&sources), Status::Covered);
+        assert_eq!(
+            Matrix::new(&sources).rows[0].rules,
+            ["acceptance.STOP-{axis}"]
+        );
+        sources.data = named("F-STOP-009", "acceptance.STOP-{axis}");
+        assert_eq!(Matrix::new(&sources).exit_status(), 1);
     }
 
     #[test]

@@ -1,20 +1,15 @@
 //! `check --certificate` and `certify` as their user meets them: exit status, streams, messages.
 
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+mod common;
+
+use std::path::Path;
 
 use serde_json::Value;
 
+use common::{Folder, root, stillpoint};
+
 /// The specification with every form of property.
 const FORMS: &str = "tests/certified/forms.toml";
-
-fn stillpoint(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_stillpoint"))
-        .args(arguments)
-        .current_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join(".."))
-        .output()
-        .expect("the binary runs")
-}
 
 /// Exit status, and what was written to both streams.
 fn told(arguments: &[&str]) -> (i32, String) {
@@ -25,31 +20,10 @@ fn told(arguments: &[&str]) -> (i32, String) {
     (output.status.code().expect("no signal ended it"), text)
 }
 
-/// A folder of this test.
-struct Folder(PathBuf);
-
-impl Folder {
-    fn new(name: &str) -> Self {
-        let folder = std::env::temp_dir().join(format!("stillpoint-{name}-{}", std::process::id()));
-        std::fs::create_dir_all(&folder).expect("a folder");
-        Self(folder)
-    }
-
-    fn path(&self, name: &str) -> String {
-        self.0.join(name).display().to_string()
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        let _ = std::fs::remove_dir_all(&self.0);
-    }
-}
-
 #[test]
 fn a_certificate_is_written_and_confirmed() {
     let folder = Folder::new("certify-written");
-    let file = folder.path("forms.cert");
+    let file = folder.file("forms.cert");
     // The example has violations: the report says so, and the certificate is right about them.
     assert_eq!(told(&["check", FORMS, "--certificate", &file]).0, 1);
     let (status, text) = told(&["certify", &file]);
@@ -81,8 +55,8 @@ fn a_certificate_is_written_and_confirmed() {
 #[test]
 fn what_is_not_confirmed_has_a_status_and_one_line() {
     let folder = Folder::new("certify-refused");
-    let (spec, file) = (folder.path("own.toml"), folder.path("own.cert"));
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let (spec, file) = (folder.file("own.toml"), folder.file("own.cert"));
+    let root = root();
     let text = std::fs::read_to_string(root.join(FORMS)).expect("the example");
     std::fs::write(&spec, &text).expect("written");
     assert_eq!(told(&["check", &spec, "--certificate", &file]).0, 1);
@@ -112,7 +86,7 @@ fn what_is_not_confirmed_has_a_status_and_one_line() {
     std::fs::write(&spec, &text).expect("written");
 
     let bytes = std::fs::read(&file).expect("the certificate");
-    let other = folder.path("other.cert");
+    let other = folder.file("other.cert");
     let mut altered = bytes.clone();
     let middle = altered.len() / 2;
     altered[middle] ^= 4;

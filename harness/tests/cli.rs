@@ -1,39 +1,17 @@
 //! The binary as its user meets it: exit status, what goes to which stream, and what the messages say.
 
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+mod common;
+
+use std::path::PathBuf;
+use std::process::Output;
 
 use serde_json::Value;
 
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
-}
-
-/// Runs the binary in the root of the workspace.
-fn stillpoint(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_stillpoint"))
-        .args(arguments)
-        .current_dir(root())
-        .env("NO_COLOR", "1")
-        .output()
-        .expect("the binary runs")
-}
-
-fn stdout(output: &Output) -> String {
-    String::from_utf8(output.stdout.clone()).expect("stdout is UTF-8")
-}
-
-fn stderr(output: &Output) -> String {
-    String::from_utf8(output.stderr.clone()).expect("stderr is UTF-8")
-}
+use common::{root, status, stderr, stdout, stillpoint};
 
 fn json(output: &Output) -> Value {
     let text = stdout(output);
     serde_json::from_str(&text).unwrap_or_else(|e| panic!("{e}: {text}{}", stderr(output)))
-}
-
-fn status(output: &Output) -> i32 {
-    output.status.code().expect("no signal ended it")
 }
 
 /// The `.toml` files of a folder of the workspace, as the user would name them.

@@ -1,23 +1,18 @@
 //! `check --processes N`: the same report as one process, and an end when a process is lost.
 
+mod common;
+
 use std::io::{BufRead, BufReader};
-use std::path::Path;
-use std::process::{Child, Command, Output, Stdio};
+use std::process::{Child, Output, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
 
 use serde_json::Value;
 
-fn stillpoint(arguments: &[&str]) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_stillpoint"));
-    command
-        .args(arguments)
-        .current_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join(".."));
-    command
-}
+use common::command;
 
 fn run(arguments: &[&str]) -> Output {
-    stillpoint(arguments).output().expect("stillpoint runs")
+    command(arguments).output().expect("stillpoint runs")
 }
 
 /// Leaves out what differs from run to run.
@@ -102,7 +97,7 @@ fn listening(
     processes: &str,
 ) -> (Killed, BufReader<std::process::ChildStderr>, String) {
     let listen = ["--listen", "127.0.0.1:0", "--threads", "1", "--json"];
-    let mut child = stillpoint(&["check", file, "--processes", processes])
+    let mut child = command(&["check", file, "--processes", processes])
         .args(listen)
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
@@ -117,7 +112,7 @@ fn listening(
 }
 
 fn joining(file: &str, address: &str) -> Killed {
-    let child = stillpoint(&["check", file, "--join", address])
+    let child = command(&["check", file, "--join", address])
         .stdout(Stdio::null())
         .stderr(Stdio::piped())
         .spawn()

@@ -1,28 +1,14 @@
 //! `stillpoint reaction`: chains, what proves them, over-travel, and bad input.
 
+mod common;
+
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
 
 use serde_json::Value;
 
+use common::{root, stdout, stillpoint};
+
 const MILLING: &str = "spec/machines/milling-840d.toml";
-
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
-}
-
-fn stillpoint(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_stillpoint"))
-        .args(arguments)
-        .current_dir(root())
-        .env("NO_COLOR", "1")
-        .output()
-        .expect("the binary runs")
-}
-
-fn stdout(output: &Output) -> String {
-    String::from_utf8(output.stdout.clone()).expect("stdout is UTF-8")
-}
 
 fn chains(arguments: &[&str]) -> Value {
     let mut all = vec!["reaction", MILLING, "--json"];

@@ -1,7 +1,7 @@
 //! Recordings: written, read, replayed, and what is refused.
 
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+mod common;
+
 use std::sync::Arc;
 
 use serde_json::Value as Json;
@@ -10,11 +10,9 @@ use stillpoint::recording::{Recording, Role, Target, ndjson, vocabulary};
 use stillpoint::simulate::{self, Scenario};
 use stillpoint_spec::machine::{self, Machine};
 
-const MACHINE: &str = "spec/machines/milling-840d.toml";
+use common::{Folder, root, status, stderr, stdout, stillpoint};
 
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
-}
+const MACHINE: &str = "spec/machines/milling-840d.toml";
 
 fn machine() -> Machine {
     let path = root().join(MACHINE);
@@ -132,42 +130,9 @@ fn the_functions_have_the_bits_of_the_family() {
     assert_eq!(functions.len(), stillpoint::production::FUNCTIONS.len());
 }
 
-struct Folder(PathBuf);
-
-impl Folder {
-    fn new(name: &str) -> Self {
-        let path = std::env::temp_dir().join(format!("stillpoint-{name}-{}", std::process::id()));
-        std::fs::create_dir_all(&path).expect("a folder");
-        Self(path)
-    }
-
-    fn write(&self, name: &str, content: &str) -> String {
-        let path = self.0.join(name);
-        std::fs::write(&path, content).expect("written");
-        path.display().to_string()
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        let _ = std::fs::remove_dir_all(&self.0);
-    }
-}
-
 fn diff(arguments: &[&str]) -> (i32, String, String) {
-    let output: Output = Command::new(env!("CARGO_BIN_EXE_stillpoint"))
-        .args(["diff", MACHINE])
-        .args(arguments)
-        .current_dir(root())
-        .env("NO_COLOR", "1")
-        .output()
-        .expect("the binary runs");
-    let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
-    (
-        output.status.code().expect("no signal ended it"),
-        text(output.stdout),
-        text(output.stderr),
-    )
+    let output = stillpoint(&[&["diff", MACHINE], arguments].concat());
+    (status(&output), stdout(&output), stderr(&output))
 }
 
 fn json(text: &str) -> Json {

@@ -1,11 +1,11 @@
 //! The report of `check` as HTML and as Markdown.
 
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+mod common;
 
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
-}
+use std::path::{Path, PathBuf};
+use std::process::Output;
+
+use common::{root, stillpoint};
 
 /// A folder of this test that is empty.
 fn folder(name: &str) -> PathBuf {
@@ -16,13 +16,7 @@ fn folder(name: &str) -> PathBuf {
 }
 
 fn check(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_stillpoint"))
-        .arg("check")
-        .args(arguments)
-        .current_dir(root())
-        .env("NO_COLOR", "1")
-        .output()
-        .expect("the binary runs")
+    stillpoint(&[&["check"], arguments].concat())
 }
 
 /// The page and the Markdown of a check that ends with this status.

@@ -1,56 +1,13 @@
 //! Simulations as their user meets them: the example scenarios, what is refused, and what is written.
 
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+mod common;
+
+use std::path::Path;
+use std::process::Output;
+
+use common::{Folder, root, status, stderr, stdout, stillpoint};
 
 const MACHINE: &str = "spec/machines/milling-840d.toml";
-
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
-}
-
-fn stillpoint(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_stillpoint"))
-        .args(arguments)
-        .current_dir(root())
-        .env("NO_COLOR", "1")
-        .output()
-        .expect("the binary runs")
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8(bytes.to_vec()).expect("UTF-8")
-}
-
-fn status(output: &Output) -> i32 {
-    output.status.code().expect("no signal ended it")
-}
-
-/// A folder of one test, gone afterwards.
-struct Folder(PathBuf);
-
-impl Folder {
-    fn new(name: &str) -> Self {
-        let path = std::env::temp_dir().join(format!("stillpoint-{name}-{}", std::process::id()));
-        std::fs::create_dir_all(&path).expect("a folder");
-        Self(path)
-    }
-
-    fn file(&self, name: &str) -> String {
-        self.0.join(name).display().to_string()
-    }
-
-    fn write(&self, name: &str, content: &str) -> String {
-        std::fs::write(self.0.join(name), content).expect("written");
-        self.file(name)
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        let _ = std::fs::remove_dir_all(&self.0);
-    }
-}
 
 fn simulate(scenario: &str) -> Output {
     stillpoint(&["simulate", MACHINE, "--scenario", scenario, "--brief"])
@@ -76,8 +33,8 @@ fn the_expectations_of_every_example_hold() {
     for entry in std::fs::read_dir(folder).expect("the folder") {
         let path = entry.expect("an entry").path().display().to_string();
         let output = simulate(&path);
-        let out = text(&output.stdout);
-        assert_eq!(status(&output), 0, "{path}: {out}{}", text(&output.stderr));
+        let out = stdout(&output);
+        assert_eq!(status(&output), 0, "{path}: {out}{}", stderr(&output));
         assert!(
             out.contains("holds") && !out.contains("FAILS"),
             "{path}: {out}"
@@ -90,7 +47,7 @@ fn the_expectations_of_every_example_hold() {
 #[test]
 fn stops_have_their_cycle_their_reason_and_their_way() {
     let output = simulate("spec/scenarios/door-while-moving.toml");
-    let out = text(&output.stdout);
+    let out = stdout(&output);
     // The door opens in cycle 34; t_vel = 200 ms are 17 cycles. From 8000 mm/min with 4000 mm/s2: 133.3^2 / 8000 = 2.222 mm.
     let expected = "X STOP C in cycle 51 (612 ms), nck and drive: speed limit exceeded (alarm 27011); \
                     stands 36 ms later (3 cycles) after 2.223 mm";
@@ -102,14 +59,14 @@ fn an_expectation_that_fails_is_exit_status_1() {
     let folder = Folder::new("simulate-expect");
     let expect = "[[expect]]\naxis = \"X\"\nstop = \"C\"\nby = \"0.9 s\"\n";
     let output = run(&folder, expect);
-    let out = text(&output.stdout);
+    let out = stdout(&output);
     assert_eq!(status(&output), 1, "{out}");
     assert!(
         out.contains("FAILS  X.nck.stop and X.drive.stop = C"),
         "{out}"
     );
     let never = run(&folder, &format!("{expect}never = true\n"));
-    assert_eq!(status(&never), 0, "{}", text(&never.stdout));
+    assert_eq!(status(&never), 0, "{}", stdout(&never));
 }
 
 /// STOP A coasts, STOP D brakes on the path, STOP C at the current limit: the way grows in the other order.
@@ -125,8 +82,8 @@ fn each_stop_brakes_with_its_ramp() {
              [[expect]]\naxis = \"X\"\nstandstill = true\nafter = \"0.4 s\"\n"
         );
         let output = run(&folder, &scenario);
-        let out = text(&output.stdout);
-        assert_eq!(status(&output), 0, "{stop}: {out}{}", text(&output.stderr));
+        let out = stdout(&output);
+        assert_eq!(status(&output), 0, "{stop}: {out}{}", stderr(&output));
         let line = out
             .lines()
             .find(|l| l.starts_with("X STOP"))
@@ -152,13 +109,7 @@ fn a_stop_reaches_the_axes_of_its_group() {
          [[expect]]\naxis = \"Y\"\nstop = \"C\"\nnever = true\n\
          [[expect]]\naxis = \"S\"\nstandstill = true\nafter = \"0.5 s\"\nnever = true\n";
     let output = run(&folder, scenario);
-    assert_eq!(
-        status(&output),
-        0,
-        "{}{}",
-        text(&output.stdout),
-        text(&output.stderr)
-    );
+    assert_eq!(status(&output), 0, "{}{}", stdout(&output), stderr(&output));
 }
 
 /// Without braking the braking ramp cancels the pulses; a signal lost in one channel is found by the comparison.
@@ -171,27 +122,21 @@ fn faults_are_found() {
          [[stop]]\nat = \"0.3 s\"\naxis = \"X\"\nstop = \"C\"\n\
          [[expect]]\naxis = \"X\"\nstop = \"A\"\nafter = \"0.3 s\"\nby = \"0.4 s\"\n";
     let output = run(&folder, deaf);
-    let out = text(&output.stdout);
-    assert_eq!(status(&output), 0, "{out}{}", text(&output.stderr));
+    let out = stdout(&output);
+    assert_eq!(status(&output), 0, "{out}{}", stderr(&output));
     assert!(out.contains("braking ramp exceeded"), "{out}");
     let lost = "[[select]]\nat = \"0 s\"\naxis = \"X\"\nfunction = \"SG2\"\n\
          [[fault]]\nat = \"0.1 s\"\naxis = \"X\"\nchannel = \"drive\"\nkind = \"lost\"\nsignal = \"SGE_SS_DISABLE\"\n\
          [[expect]]\naxis = \"X\"\nstop = \"F\"\nafter = \"0.1 s\"\n";
     // The tolerance time of the comparison is 500 ms, then its list comes round to the result.
     let output = run_for(&folder, "3 s", lost);
-    assert_eq!(
-        status(&output),
-        0,
-        "{}{}",
-        text(&output.stdout),
-        text(&output.stderr)
-    );
+    assert_eq!(status(&output), 0, "{}{}", stdout(&output), stderr(&output));
     let offset = "[[select]]\nat = \"0 s\"\naxis = \"X\"\nfunction = \"SBH\"\n\
          [[fault]]\nat = \"0.2 s\"\naxis = \"X\"\nchannel = \"nck\"\nkind = \"encoder offset\"\noffset = \"0.6 mm\"\n\
          [[expect]]\naxis = \"X\"\nstop = \"B\"\nchannel = \"nck\"\nafter = \"0.2 s\"\nby = \"0.25 s\"\n";
     let output = run(&folder, offset);
-    let out = text(&output.stdout);
-    assert_eq!(status(&output), 0, "{out}{}", text(&output.stderr));
+    let out = stdout(&output);
+    assert_eq!(status(&output), 0, "{out}{}", stderr(&output));
     assert!(
         out.contains("standstill tolerance exceeded (alarm 27010)"),
         "{out}"
@@ -210,12 +155,63 @@ fn stops_are_acknowledged() {
          [[expect]]\naxis = \"X\"\nstop = \"NONE\"\nafter = \"0.5 s\"\nby = \"0.69 s\"\nnever = true\n\
          [[expect]]\naxis = \"X\"\nstop = \"NONE\"\nafter = \"0.7 s\"\nby = \"0.75 s\"\n";
     let output = run(&folder, offset);
-    assert_eq!(
-        status(&output),
-        0,
-        "{}{}",
-        text(&output.stdout),
-        text(&output.stderr)
+    assert_eq!(status(&output), 0, "{}{}", stdout(&output), stderr(&output));
+}
+
+/// Whoever asks for a door gets it after a forced check, and only while the axes behind it are slow enough; who forces it
+/// does not get it released.
+#[test]
+fn a_door_is_released_by_its_logic() {
+    let folder = Folder::new("simulate-door");
+    let ask = "[[select]]\nat = \"0 s\"\naxis = \"X\"\nfunction = \"SG4\"\n\
+         [[motion]]\nat = \"0 s\"\naxis = \"X\"\nspeed = \"120 % of SG1\"\n\
+         [[motion]]\nat = \"0.5 s\"\naxis = \"X\"\nspeed = \"0 mm/min\"\n\
+         [[door]]\nat = \"0.5 s\"\ndoor = \"front\"\nask = true\n\
+         [[expect]]\nsignal = \"door.front.released\"\nvalue = true\nby = \"0.69 s\"\nnever = true\n\
+         [[expect]]\naxis = \"X, Y, Z, S\"\nchannel = \"drive\"\nstop = \"TEST\"\nafter = \"0.7 s\"\n\
+         [[expect]]\naxis = [\"X\", \"Y\", \"Z\", \"S\"]\nchannel = \"nck\"\nstop = \"TEST\"\nafter = \"0.8 s\"\n\
+         [[expect]]\nsignal = \"test_due\"\naxis = \"X, Y, Z, S\"\nvalue = false\nafter = \"0.9 s\"\n\
+         [[expect]]\nsignal = \"door.front.released\"\nvalue = true\nafter = \"0.9 s\"\n";
+    let output = run_for(&folder, "1.5 s", ask);
+    let said = stdout(&output);
+    assert_eq!(status(&output), 0, "{said}{}", stderr(&output));
+    // An axis that goes on is stopped by its limit, and the door stays locked.
+    let moving = ask.replace("speed = \"0 mm/min\"", "speed = \"120 % of SG1\"");
+    let said = stdout(&run_for(&folder, "1.5 s", &moving));
+    assert!(said.contains("X STOP C"), "{said}");
+    let forced = ask.replace("ask = true", "open = true");
+    let said = stdout(&run_for(&folder, "1.5 s", &forced));
+    assert!(said.contains("FAILS  door.front.released"), "{said}");
+}
+
+/// The agreement is given and withdrawn with the key only.
+#[test]
+fn an_agreement_needs_the_key() {
+    let folder = Folder::new("simulate-key");
+    let withdraw = "[[agreement]]\nat = \"0.5 s\"\naxis = \"X\"\ngive = false\n\
+         [[expect]]\naxis = \"X\"\nalarm = \"27000\"\nafter = \"0.5 s\"\nby = \"0.55 s\"\n\
+         [[expect]]\naxis = \"X\"\nsignal = \"SGA_REFP_STATUS\"\nvalue = true\nafter = \"0.55 s\"\nnever = true\n";
+    let output = run(&folder, withdraw);
+    let said = stdout(&output);
+    assert_eq!(status(&output), 0, "{said}{}", stderr(&output));
+    let without = withdraw.replace("give = false", "give = false\nkey = false");
+    let output = run(&folder, &without);
+    assert_eq!(status(&output), 1, "{}", stdout(&output));
+}
+
+/// What must never be is refuted by one of the channels.
+#[test]
+fn never_means_in_no_channel() {
+    let folder = Folder::new("simulate-never");
+    let one = "[[select]]\nat = \"0 s\"\naxis = \"X\"\nfunction = \"SBH\"\n\
+         [[fault]]\nat = \"0.2 s\"\naxis = \"X\"\nchannel = \"nck\"\nkind = \"encoder offset\"\noffset = \"0.6 mm\"\n\
+         [[expect]]\naxis = \"X\"\nsignal = \"Safety.SOS.ActivationState\"\nvalue = \"SOS_ACTIVE_FAULTED\"\nnever = true\n";
+    let output = run(&folder, one);
+    let said = stdout(&output);
+    assert_eq!(status(&output), 1, "{said}");
+    assert!(
+        said.contains("FAILS  never X.nck.Safety.SOS.ActivationState or X.drive.Safety"),
+        "{said}"
     );
 }
 
@@ -237,19 +233,21 @@ fn equal_files_give_equal_bytes() {
             "--trace",
             &trace,
         ]);
-        assert_eq!(status(&output), 0, "{}", text(&output.stderr));
+        assert_eq!(status(&output), 0, "{}", stderr(&output));
         let files = [svg, csv, trace].map(|f| std::fs::read(f).expect("written"));
         (output.stdout, files)
     };
     let (first, second) = (once("a"), once("b"));
     assert!(first == second);
-    let [svg, csv, trace] = first.1.map(|bytes| text(&bytes));
+    let [svg, csv, trace] = first
+        .1
+        .map(|bytes| String::from_utf8(bytes).expect("UTF-8"));
     assert!(
         svg.starts_with("<svg") && svg.contains("speed of Y"),
         "{svg}"
     );
     assert_eq!(csv.lines().count(), 101);
-    assert!(csv.starts_with("cycle,time_us,door.front.open,X.Monitoring.PositionActualValue"));
+    assert!(csv.starts_with("cycle,time_us,door.front.open,door.front.asked,door.front.released,X.Monitoring.PositionActualValue"));
     assert_eq!(trace.lines().count(), 101);
     assert!(!trace.contains("/tmp") && !svg.contains("/tmp"));
 }
@@ -269,7 +267,7 @@ fn the_picture_of_the_book_is_current() {
         &svg,
         "--brief",
     ]);
-    assert_eq!(status(&output), 0, "{}", text(&output.stderr));
+    assert_eq!(status(&output), 0, "{}", stderr(&output));
     let drawn = std::fs::read_to_string(&svg).expect("written");
     let book =
         std::fs::read_to_string(root().join("docs/src/simulation-door.svg")).expect("readable");
@@ -369,18 +367,38 @@ fn mistakes_are_refused() {
             ":4:9",
             "is not after the beginning",
         ),
+        (
+            "[[door]]\nat = \"0.1 s\"\ndoor = \"front\"\n",
+            ":3:6",
+            "nothing happens to the door here",
+        ),
+        (
+            "[[expect]]\naxis = \"X\"\nalarm = \"27111\"\n",
+            ":4:9",
+            "no alarm of the monitors",
+        ),
+        (
+            "[[expect]]\naxis = \"X\"\nsignal = \"SGA_VELO_Y\"\nvalue = true\n",
+            ":4:10",
+            "did you mean \"SGA_VELO_X\"?",
+        ),
+        (
+            "[[expect]]\naxis = \"X\"\nalarm = \"27011\"\nstop = \"C\"\n",
+            ":5:8",
+            "it is not clear what is expected",
+        ),
+        (
+            "[[motion]]\nat = \"0.1 s\"\naxis = \"X\"\nspeed = \"120 % of SG5\"\n",
+            ":5:9",
+            "no share of a speed limit",
+        ),
         ("[[moton]]\nat = \"0 s\"\n", ":2:3", "unknown field `moton`"),
     ] {
         let svg = folder.file("never.svg");
         let file = folder.write("wrong.toml", &format!("duration = \"1 s\"\n{scenario}"));
         let output = stillpoint(&["simulate", MACHINE, "--scenario", &file, "--svg", &svg]);
-        let err = text(&output.stderr).replace("\n  │ ", " ");
-        assert_eq!(
-            status(&output),
-            2,
-            "{scenario}: {}{err}",
-            text(&output.stdout)
-        );
+        let err = stderr(&output).replace("\n  │ ", " ");
+        assert_eq!(status(&output), 2, "{scenario}: {}{err}", stdout(&output));
         assert!(
             err.contains(place) && err.contains(message),
             "{scenario}: {err}"

@@ -1,15 +1,15 @@
 //! A check that is killed again and again and continued gives the report of an undisturbed one; nothing that happens to
 //! its checkpoints goes unnoticed.
 
+mod common;
+
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use std::time::{Duration, SystemTime};
 
 use serde_json::Value;
 
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
-}
+use common::root;
 
 const BINARY: &str = env!("CARGO_BIN_EXE_stillpoint");
 const SUBJECT: &str = "spec/sinumerik-840d/faults.toml";

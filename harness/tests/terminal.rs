@@ -1,15 +1,14 @@
 //! What a terminal is shown and a pipe is not, completions and manual pages.
 
-use std::path::{Path, PathBuf};
+mod common;
+
 use std::process::{Command, Output};
+
+use common::root;
 
 const GOOD: &str = "tests/certified/forms.toml";
 const BAD: &str = "tests/must-fail/stop-b-without-timer.toml";
 const ESCAPE: char = '\u{1b}';
-
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
-}
 
 /// A command in the root of the workspace that finds none of the variables that decide about colour.
 fn command(program: &str) -> Command {

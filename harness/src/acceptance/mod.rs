@@ -13,7 +13,7 @@ use sha2::{Digest, Sha256};
 use stillpoint_spec::machine::Machine;
 use stillpoint_spec::machine::acceptance::{Expect, Protocol, Test};
 
-pub use run::{Error, Ran, run};
+pub use run::{Error, Ran, on_the_machine, run};
 pub use show::document;
 pub use since::{Change, Repeat, Since, since};
 pub use trace::expected;
@@ -81,7 +81,9 @@ pub fn to_json(
     ran: Option<&[Ran]>,
 ) -> Value {
     let cycle = machine.monitoring_cycle;
-    let tests = selected(protocol, since).into_iter().map(|test| {
+    let selected = selected(protocol, since);
+    let not = on_the_machine(&selected);
+    let tests = selected.into_iter().map(|test| {
         let expect = test.expect.iter().map(|e| {
             let (us, cycles) = latest(e, cycle).unzip();
             json!({
@@ -108,6 +110,9 @@ pub fn to_json(
     });
     if let Some(ran) = ran {
         value["simulated"] = run::json(ran);
+        let not = not.into_iter();
+        let not = not.map(|(id, reason)| json!({"id": id, "reason": reason}));
+        value["not_simulated"] = not.collect::<Vec<_>>().into();
     }
     if let Some(since) = since {
         value["since"] = since.to_json();

@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use stillpoint_show::diagram::Diagram;
 use stillpoint_spec::diag::Diagnostics;
 use stillpoint_spec::machine::Machine;
-use stillpoint_spec::machine::acceptance::Test;
+use stillpoint_spec::machine::acceptance::{Simulated, Test};
 
 use crate::simulate::{self, Scenario};
 
@@ -34,14 +34,14 @@ pub enum Error {
     Simulation(String),
 }
 
-/// Runs the tests that have a scenario, one after the other; the others are not in the result.
+/// Runs the tests that have a scenario, one after the other; those that only the real machine can show are not in the result.
 ///
 /// # Errors
 /// A scenario of the catalogue that is wrong for this machine.
 pub fn run(machine: &Machine, tests: &[&Test]) -> Result<Vec<Ran>, Error> {
     let mut all = Vec::new();
     for test in tests {
-        let Some(text) = &test.simulate else {
+        let Simulated::Scenario(text) = &test.simulated else {
             continue;
         };
         let text: Arc<str> = Arc::from(text.as_str());
@@ -65,6 +65,15 @@ pub fn run(machine: &Machine, tests: &[&Test]) -> Result<Vec<Ran>, Error> {
         });
     }
     Ok(all)
+}
+
+/// The tests that only the real machine can show, each with the reason.
+pub fn on_the_machine<'a>(tests: &[&'a Test]) -> Vec<(&'a str, &'a str)> {
+    let not = tests.iter().filter_map(|test| match &test.simulated {
+        Simulated::Not(reason) => Some((test.id.as_str(), reason.as_str())),
+        Simulated::Scenario(_) => None,
+    });
+    not.collect()
 }
 
 /// The results as JSON.

@@ -5,7 +5,7 @@ use stillpoint_spec::machine::acceptance::{Protocol, Test};
 use stillpoint_spec::machine::units::Dimension;
 use stillpoint_spec::machine::{Machine, Shown};
 
-use super::{Checksums, Ran, Since, expected, latest, selected};
+use super::{Checksums, Ran, Since, expected, latest, on_the_machine, selected};
 
 /// The protocol of a machine; with `since` only what has to be repeated.
 pub fn document(
@@ -20,7 +20,7 @@ pub fn document(
     if let Some(since) = since {
         blocks.extend(changed(protocol, since));
     }
-    let simulated = ran.map(|ran| simulated(ran, tests.len()));
+    let simulated = ran.map(|ran| simulated(ran, &tests));
     let (verdict, results) = simulated.unzip();
     blocks.extend(verdict);
     blocks.push(identity(machine, protocol, checksums));
@@ -292,7 +292,7 @@ fn one(machine: &Machine, test: &Test) -> Block {
 }
 
 /// What the tests gave on the simulated axis: the result, and the section with the details.
-fn simulated(ran: &[Ran], tests: usize) -> (Block, Block) {
+fn simulated(ran: &[Ran], tests: &[&Test]) -> (Block, Block) {
     let bad = ran.iter().filter(|r| !r.holds).count();
     let (tone, head) = match bad {
         0 => (
@@ -308,9 +308,12 @@ fn simulated(ran: &[Ran], tests: usize) -> (Block, Block) {
             format!("{n} simulated tests do not give what is expected"),
         ),
     };
+    let not = on_the_machine(tests);
     let about = format!(
-        "{} of {tests} tests have a scenario and were run on the production monitors of both channels with a simple axis. This shows that configuration and monitors fit the test; it is no test of the machine. ",
-        ran.len()
+        "{} of {} tests were run on the production monitors of both channels with a simple axis; {} only the real machine can show. This shows that configuration and monitors fit the test; it is no test of the machine. ",
+        ran.len(),
+        tests.len(),
+        not.len()
     );
     let mut rows = Vec::new();
     let mut pictures = Vec::new();
@@ -346,6 +349,17 @@ fn simulated(ran: &[Ran], tests: usize) -> (Block, Block) {
     let heads = ["Test", "Result", "Expected", "Stops"];
     let mut blocks = vec![Block::table(&heads, rows)];
     blocks.extend(pictures);
+    if !not.is_empty() {
+        let rows = not.into_iter().map(|(id, reason)| {
+            let link = Inline::Link {
+                text: id.to_owned(),
+                to: format!("#{}", anchor(id)),
+            };
+            vec![vec![link], vec![text(reason)]]
+        });
+        let heads = columns(&["Test", "Not simulated, because"]);
+        blocks.push(table("", heads, rows.collect()));
+    }
     let verdict = Block::Verdict {
         tone,
         head,

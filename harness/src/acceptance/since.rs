@@ -88,7 +88,7 @@ fn reasons(was: &Test, is: &Test) -> Vec<String> {
     // What a text shows can depend on more than the values it names.
     let same = Test {
         depends: is.depends.clone(),
-        simulate: is.simulate.clone(),
+        simulated: is.simulated.clone(),
         ..was.clone()
     };
     if reasons.is_empty() && same != *is {

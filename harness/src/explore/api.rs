@@ -9,11 +9,13 @@ use stillpoint_spec::bind::Bound;
 use super::Explorer;
 use super::jump::{jump, options};
 use super::path::Path;
-use super::view;
 use super::walk::{Walk, size, walk};
+use super::{recorded, view};
 use crate::engine::label;
+use crate::recording::ndjson;
 use crate::report::verdict_name;
 use crate::states::{Budget, control_states};
+use crate::subject::Task;
 
 /// A refusal: the HTTP status and the reason.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -98,6 +100,23 @@ pub fn svg(explorer: &Explorer, body: &str) -> Result<String, Refusal> {
     Ok(view::svg(bound, &walked(bound, &asked.path)?))
 }
 
+/// A walk as a recording, the text of a file for `diff --trace`.
+///
+/// # Errors
+/// A request that makes no sense for this file; a system without signals of an axis.
+pub fn recording(explorer: &Explorer, body: &str) -> Result<String, Refusal> {
+    let asked: View = parsed(body)?;
+    let task = task(explorer, &asked.system, &asked.hash)?;
+    let walk = walked(&task.bound, &asked.path)?;
+    let machine = explorer.subject().machine.as_ref();
+    let recording =
+        recorded::recording(machine, task, &walk).or_else(|reason| refuse(400, reason))?;
+    let mut bytes = Vec::new();
+    ndjson::write(&recording, &mut bytes)
+        .or_else(|e| refuse(400, format!("the recording cannot be written: {e}")))?;
+    String::from_utf8(bytes).or_else(|e| refuse(400, format!("the recording is no text: {e}")))
+}
+
 /// The answer to a run request.
 ///
 /// # Errors
@@ -157,6 +176,10 @@ fn alone(explorer: &Explorer) -> Result<MutexGuard<'_, ()>, Refusal> {
 }
 
 fn system<'a>(explorer: &'a Explorer, name: &str, hash: &str) -> Result<&'a Bound, Refusal> {
+    task(explorer, name, hash).map(|task| &task.bound)
+}
+
+fn task<'a>(explorer: &'a Explorer, name: &str, hash: &str) -> Result<&'a Task, Refusal> {
     let Some((task, _, own)) = explorer.systems().find(|(_, known, _)| *known == name) else {
         let known: Vec<&str> = explorer.systems().map(|(_, name, _)| name).collect();
         return refuse(
@@ -175,7 +198,7 @@ fn system<'a>(explorer: &'a Explorer, name: &str, hash: &str) -> Result<&'a Boun
             ),
         );
     }
-    Ok(&task.bound)
+    Ok(task)
 }
 
 fn walked(bound: &Bound, path: &str) -> Result<Walk, Refusal> {

@@ -7,6 +7,7 @@
 //! * [`classes`]: what can come next, cycles with the same outcome put together.
 //! * [`live`], [`truth`]: what the properties say along the walk.
 //! * [`jump`]: a run that shows a property, found by exploring.
+//! * [`recorded`]: a walk on the production monitors, to be replayed.
 //! * [`view`]: all this as JSON. [`api`]: requests and answers. [`server`]: the same over HTTP, on loopback only.
 
 pub mod api;
@@ -14,6 +15,7 @@ pub mod classes;
 pub mod jump;
 pub mod live;
 pub mod path;
+pub mod recorded;
 pub mod server;
 pub mod truth;
 pub mod view;

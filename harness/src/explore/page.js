@@ -396,6 +396,7 @@ async function run(id, button) {
 function diagram() {
   const box = at("diagram");
   at("save-svg").hidden = shown.length === 0;
+  at("save-recording").hidden = shown.length === 0 || !system(link.system).recordable;
   if (shown.length === 0) box.replaceChildren(el("p", { class: "dim" }, "The diagram begins with the first cycle."));
   else if (shown.diagram === null) box.replaceChildren(el("p", { class: "dim" }, "The walk is too long to be drawn here; it can be saved."));
   else box.replaceChildren(picture(shown.diagram));
@@ -468,7 +469,9 @@ async function start() {
   at("ask").onclick = help;
   at("filter").oninput = () => shown && shown.next && outcomes(FEW);
   at("control").ontoggle = control;
-  at("save-svg").onclick = () => save("/api/diagram", `${link.system.replace(/[^A-Za-z0-9_-]+/g, "-")}.svg`);
+  const file = (ending) => `${link.system.replace(/[^A-Za-z0-9_-]+/g, "-")}.${ending}`;
+  at("save-svg").onclick = () => save("/api/diagram", file("svg"));
+  at("save-recording").onclick = () => save("/api/recording", file("ndjson"));
   addEventListener("hashchange", load);
   addEventListener("keydown", key);
   await load();

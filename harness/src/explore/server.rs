@@ -180,7 +180,9 @@ fn refused(asked: &Asked, port: u16) -> Option<Answer> {
     }
     let wanted = match asked.path {
         "/" | "/page.css" | "/page.js" | "/api/systems" => Method::Get,
-        "/api/view" | "/api/run" | "/api/control" | "/api/diagram" => Method::Post,
+        "/api/view" | "/api/run" | "/api/control" | "/api/diagram" | "/api/recording" => {
+            Method::Post
+        }
         _ => {
             return Some(Answer::refusal(404, "there is nothing under this address"));
         }
@@ -216,6 +218,10 @@ fn routed(explorer: &Explorer, asked: &Asked, body: &str) -> Answer {
         "/api/control" => json(api::control(explorer, body)),
         "/api/diagram" => match api::svg(explorer, body) {
             Ok(svg) => Answer::new("image/svg+xml", svg),
+            Err(refusal) => Answer::refusal(refusal.status, &refusal.reason),
+        },
+        "/api/recording" => match api::recording(explorer, body) {
+            Ok(lines) => Answer::new("application/x-ndjson", lines),
             Err(refusal) => Answer::refusal(refusal.status, &refusal.reason),
         },
         _ => Answer::refusal(404, "there is nothing under this address"),

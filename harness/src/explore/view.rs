@@ -14,6 +14,7 @@ use stillpoint_spec::ir::{LazyKind, Ty, Var};
 use super::classes::{Class, Classes, MOST_CYCLES, classes};
 use super::live::{Live, Standing, live};
 use super::path::Choice;
+use super::recorded::recordable;
 use super::walk::Walk;
 use super::{Explorer, path};
 use crate::engine::{Cycle, label, lazy};
@@ -50,7 +51,7 @@ pub fn systems(explorer: &Explorer) -> Value {
         let rules: Vec<Value> = rules.collect();
         let inputs: Vec<Value> = inputs.collect();
         json!({
-            "name": name, "title": task.title, "system": bound.system.name, "hash": hash,
+            "name": name, "recordable": recordable(explorer.subject().machine.as_ref(), task), "title": task.title, "system": bound.system.name, "hash": hash,
             "axes": task.axes, "abstractions": task.abstractions,
             "cycle_us": bound.system.cycle_us, "scaled": bound.system.scaled && explorer.subject().machine.is_some(),
             "parameters": params(bound), "readings": bound.readings(),

@@ -269,6 +269,15 @@ fn tables(folder: &Path, family: &str, sources: &mut Sources) -> Result<(), Read
             }
             "family.toml" => data("family", &Value::Table(parsed(&path)?), &mut sources.rules),
             "signals.toml" => data("signals", &Value::Table(parsed(&path)?), &mut sources.rules),
+            "reaction-chain.toml" => {
+                let chains = Value::Table(parsed(&path)?);
+                data("reaction-chain", &chains, &mut sources.data);
+            }
+            "acceptance.toml" => {
+                let tests: Table = parsed(&path)?;
+                let place = format!("{family}/acceptance.toml");
+                acceptance(&tests, &place, sources);
+            }
             name if name.starts_with("requirements") || name == "manual.toml" => {}
             _ => {
                 let table: Table = parsed(&path)?;
@@ -291,6 +300,22 @@ fn tables(folder: &Path, family: &str, sources: &mut Sources) -> Result<(), Read
         }
     }
     Ok(())
+}
+
+/// The tests of the acceptance protocol. One with a scenario is run by the tests of the harness, too.
+fn acceptance(tests: &Table, place: &str, sources: &mut Sources) {
+    let tests = tests.get("test").and_then(Value::as_array);
+    for test in tests.into_iter().flatten() {
+        let name = test.get("id").and_then(Value::as_str).unwrap_or("");
+        let ids = test.get("req").and_then(Value::as_array);
+        let ids = ids.into_iter().flatten().filter_map(Value::as_str);
+        for id in ids {
+            add(&mut sources.data, id, &format!("acceptance.{name}"));
+            if test.get("simulate").is_some() {
+                add(&mut sources.tests, id, &format!("{place}: {name}"));
+            }
+        }
+    }
 }
 
 fn children<'a>(table: &'a Table, key: &str) -> impl Iterator<Item = (&'a String, &'a Value)> {
@@ -411,6 +436,11 @@ mod tests {
         let exception = "[[exception]]\nid = [\"F-STOP-003\"]\nreason = \"r\"\n";
         std::fs::write(folder.join("exceptions.toml"), exception).expect("written");
         std::fs::write(folder.join("status.toml"), "family_complete = true\n").expect("written");
+        let tests = "[[test]]\nid = \"SIMULATED\"\nreq = [\"F-TEST-001\"]\n[[test.simulate]]\ntext = \"\"\n\
+                     [[test]]\nid = \"BY-HAND\"\nreq = [\"F-TEST-002\"]\n";
+        std::fs::write(folder.join("acceptance.toml"), tests).expect("written");
+        let chains = "[[group]]\nname = \"detect\"\n[[group.part]]\nreq = [\"F-TIME-001\"]\n";
+        std::fs::write(folder.join("reaction-chain.toml"), chains).expect("written");
         let mut sources = Sources::default();
         tables(&folder, "f", &mut sources).expect("readable");
         let rules = &sources.rules;
@@ -425,6 +455,19 @@ mod tests {
         assert!(
             !rules.contains_key("F-STOP-003"),
             "no system has the machine"
+        );
+        let one = |place: &str| BTreeSet::from([place.to_owned()]);
+        assert_eq!(sources.data["F-TEST-001"], one("acceptance.SIMULATED"));
+        assert_eq!(sources.data["F-TEST-002"], one("acceptance.BY-HAND"));
+        assert_eq!(
+            sources.tests["F-TEST-001"],
+            one("f/acceptance.toml: SIMULATED")
+        );
+        assert!(!sources.tests.contains_key("F-TEST-002"));
+        assert!(
+            sources.data["F-TIME-001"]
+                .iter()
+                .all(|p| p.starts_with("reaction-chain."))
         );
         assert_eq!(sources.exceptions.len(), 1);
         assert!(sources.complete.contains("f"));

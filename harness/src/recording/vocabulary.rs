@@ -340,6 +340,7 @@ pub fn outputs() -> Vec<Output> {
         flag("enable_pulses_external", |o| {
             o.channel.pulses.enable_external
         }),
+        flag("test_due", |o| o.forced_check.due),
         flag("reset_taken", |o| o.reset_taken),
         new("alarms", Kind::Text, Unit::None, Source::Alarms),
     ];

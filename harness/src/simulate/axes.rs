@@ -7,9 +7,11 @@ use stillpoint_monitors::sinumerik::interface::Sge;
 use stillpoint_monitors::sinumerik::level::Level;
 use stillpoint_monitors::sinumerik::pair::{Config, Inputs, Outputs, Pair, State};
 use stillpoint_monitors::sinumerik::parameters::Parameters;
+use stillpoint_monitors::sinumerik::selection::Monitored;
 
+use super::door::Seen;
 use super::plant::{Drive, Plant, Setpoint};
-use super::scenario::{ExternalLetter, Fault, Selection, Start};
+use super::scenario::{ExternalLetter, Fault, Scenario, Selection, Start};
 use crate::production::Produced;
 use crate::recording::{Value, vocabulary};
 
@@ -36,6 +38,10 @@ pub(super) struct Axis {
     pub refpos: i32,
     pub powered_at: i32,
     pub group: group::Config,
+    /// The limits of the speed stages.
+    limits: [Speed; 4],
+    /// The limit of the speed setpoint is in force.
+    setpoint_limited: bool,
     /// The last reaction to the stop of another axis.
     pub reaction: Reaction,
     pub drive: Drive,
@@ -48,10 +54,20 @@ pub(super) struct Pulse {
     pub reset: bool,
     pub give: bool,
     pub withdraw: bool,
+    pub key: bool,
+}
+
+/// What the safe logic selects.
+#[derive(Clone, Copy)]
+pub(super) struct Logic {
+    pub selection: Selection,
+    /// The test stop, by channel.
+    pub test: [bool; 2],
 }
 
 impl Axis {
-    pub fn new(produced: &Produced, start: &Start, running: bool) -> Self {
+    pub fn new(produced: &Produced, start: &Start, scenario: &Scenario) -> Self {
+        let running = scenario.running;
         let config = Config::new(produced.configuration);
         let position = increments(start.position);
         // A machine that was in order when it was switched off: agreement given, standstill position stored.
@@ -78,6 +94,8 @@ impl Axis {
             refpos: position,
             powered_at: position,
             group: *produced.configuration.group(),
+            limits: produced.configuration.words().velo_limit,
+            setpoint_limited: !scenario.acceptance_mode,
             reaction: Reaction::Unaffected,
             drive: Drive::Coast,
         }
@@ -106,15 +124,9 @@ impl Axis {
     }
 
     /// What both channels see in this cycle.
-    pub fn see(
-        &mut self,
-        cycle: u32,
-        selection: Selection,
-        pulse: Pulse,
-        inputs: &[vocabulary::Input],
-    ) {
+    pub fn see(&mut self, cycle: u32, logic: Logic, pulse: Pulse, inputs: &[vocabulary::Input]) {
         for side in 0..2 {
-            let mut local = self.local(cycle, selection, pulse, side);
+            let mut local = self.local(cycle, logic, pulse, side);
             for (input, channel, value) in &self.forced {
                 if *channel == side {
                     // Forced inputs are flags: the scenario has been checked.
@@ -125,7 +137,7 @@ impl Axis {
         }
     }
 
-    fn local(&self, cycle: u32, selection: Selection, pulse: Pulse, side: usize) -> Local {
+    fn local(&self, cycle: u32, logic: Logic, pulse: Pulse, side: usize) -> Local {
         let position = match self.faults[side] {
             (Fault::Freeze, at) => at,
             (Fault::Offset(by), _) => self.position().saturating_add(by),
@@ -137,7 +149,7 @@ impl Axis {
             run_up,
             reset: pulse.reset,
             spl_started: run_up,
-            sge: self.signals(selection, side),
+            sge: self.signals(logic, side),
             feedback: self.drive == Drive::Coast,
             position: Position(position),
             encoder_speed: self.encoder_speed(),
@@ -146,12 +158,13 @@ impl Axis {
             travelled: self.refpos.saturating_sub(self.powered_at),
             set_agreement: pulse.give,
             cancel_agreement: pulse.withdraw,
-            key: pulse.give,
+            key: pulse.key,
             ..Local::default()
         }
     }
 
-    fn signals(&self, selection: Selection, side: usize) -> Sge {
+    fn signals(&self, logic: Logic, side: usize) -> Sge {
+        let selection = logic.selection;
         let stage = match selection {
             Selection::Stage(k) => k,
             _ => 0,
@@ -163,6 +176,7 @@ impl Axis {
             sg_0: stage & 1 != 0,
             sg_1: stage & 2 != 0,
             se: self.second_limits,
+            test_stop: logic.test[side],
             stop_a_off: off(ExternalLetter::A),
             stop_c_off: off(ExternalLetter::C),
             stop_d_off: off(ExternalLetter::D),
@@ -231,7 +245,10 @@ impl Axis {
         let any = |test: &dyn Fn(&stillpoint_monitors::sinumerik::channel::Outputs) -> bool| {
             channels.iter().any(|channel| test(channel))
         };
-        let own = if any(&|c| !c.pulses.enable || c.stop.cancel_pulses) {
+        let off = |c: &stillpoint_monitors::sinumerik::channel::Outputs| {
+            !c.pulses.enable || !c.pulses.enable_external || c.stop.cancel_pulses
+        };
+        let own = if any(&off) {
             Drive::Coast
         } else if any(&|c| c.stop.n_set_zero || matches!(c.stop.level, Level::C | Level::B)) {
             Drive::CurrentLimit
@@ -255,7 +272,35 @@ impl Axis {
         } else if drive != Drive::Follow || (self.plant.stands() && any(&|c| c.start_inhibit)) {
             self.plant.setpoint = Setpoint::default();
         }
+        // A help of the control for its user, in one channel only.
+        let speed = &self.outputs.nck.channel.speed;
+        let limited = self.setpoint_limited && speed.setpoint_limited;
+        self.plant.limit = limited.then(|| i64::from(speed.setpoint_limit.0) * 1_000);
         self.drive = drive;
+    }
+
+    /// What the logic of a door sees of this axis, where the open door asks for `open`.
+    pub fn seen(&self, open: Selection) -> Seen {
+        let channels = [&self.outputs.nck, &self.outputs.drive];
+        let most = match open {
+            Selection::Stage(k) => self.limits.get(usize::from(k)),
+            _ => None,
+        };
+        let monitored = |o: &&stillpoint_monitors::sinumerik::axis::Outputs| {
+            let selection = &o.channel.selection;
+            match selection.monitored {
+                Monitored::Standstill => true,
+                Monitored::Speed => most.is_some_and(|most| selection.limit <= *most),
+                Monitored::Nothing => false,
+            }
+        };
+        Seen {
+            monitored: channels.iter().all(monitored),
+            stands: channels.iter().all(|o| o.channel.motion.speed.0 == 0),
+            due: channels.iter().any(|o| o.forced_check.due),
+            cancelled: channels.iter().any(|o| o.sga.pulses_cancelled),
+            testing: channels.map(|o| o.channel.test.active),
+        }
     }
 }
 

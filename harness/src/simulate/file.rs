@@ -15,6 +15,8 @@ pub(super) struct File {
     pub duration: Text,
     pub start: Option<Text>,
     #[serde(default)]
+    pub acceptance_mode: bool,
+    #[serde(default)]
     pub axis: BTreeMap<Text, Axis>,
     #[serde(default)]
     pub motion: Vec<Motion>,
@@ -35,6 +37,8 @@ pub(super) struct File {
     #[serde(default)]
     pub reference: Vec<Reference>,
     #[serde(default)]
+    pub moved: Vec<Moved>,
+    #[serde(default)]
     pub fault: Vec<Fault>,
     #[serde(default)]
     pub expect: Vec<Expect>,
@@ -53,7 +57,7 @@ pub(super) struct Axis {
     pub brake_time: Option<Text>,
 }
 
-/// One name or several.
+/// One name or several; a text may name several, too: `"X, Y"`.
 #[derive(Deserialize)]
 #[serde(untagged)]
 pub(super) enum Names {
@@ -65,7 +69,7 @@ pub(super) enum Names {
 #[serde(deny_unknown_fields)]
 pub(super) struct Motion {
     pub at: Text,
-    pub axis: Spanned<Names>,
+    pub axis: Option<Spanned<Names>>,
     pub speed: Text,
     pub to: Option<Text>,
 }
@@ -84,7 +88,8 @@ pub(super) struct Select {
 pub(super) struct Door {
     pub at: Text,
     pub door: Text,
-    pub open: bool,
+    pub ask: Option<bool>,
+    pub open: Option<bool>,
 }
 
 #[derive(Deserialize)]
@@ -126,6 +131,21 @@ pub(super) struct Agreement {
     pub at: Text,
     pub axis: Option<Spanned<Names>>,
     pub give: bool,
+    #[serde(default = "yes")]
+    pub key: bool,
+}
+
+fn yes() -> bool {
+    true
+}
+
+/// Somebody moves an axis by hand.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Moved {
+    pub at: Text,
+    pub axis: Spanned<Names>,
+    pub by: Text,
 }
 
 #[derive(Deserialize)]
@@ -159,10 +179,11 @@ pub(super) enum Scalar {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Expect {
-    pub axis: Option<Text>,
+    pub axis: Option<Spanned<Names>>,
     pub channel: Option<Text>,
     pub stop: Option<Text>,
     pub standstill: Option<Spanned<bool>>,
+    pub alarm: Option<Text>,
     pub signal: Option<Text>,
     pub value: Option<Spanned<Scalar>>,
     pub after: Option<Text>,

@@ -8,6 +8,7 @@
 //! encoders; what answers are the monitors of `stillpoint-monitors` as they would be embedded.
 
 mod axes;
+mod door;
 mod file;
 mod plant;
 mod resolve;
@@ -19,7 +20,8 @@ mod summary;
 pub use plant::{Drive, Mechanics, Plant, Setpoint};
 pub use run::run;
 pub use scenario::{
-    Condition, Event, Expect, ExternalLetter, Fault, Scenario, Selection, Start, What,
+    Condition, DoorChange, Event, Expect, ExternalLetter, Fault, Is, Scenario, Selection, Start,
+    What,
 };
 pub use summary::{Judged, Simulation, Stop};
 
@@ -35,16 +37,21 @@ const OF_AXIS: [(&str, Kind, &str, &str); 4] = [
     ("drive", Kind::Text, "", ""),
 ];
 
+/// Signals of a door: it is open, somebody asks for it, its logic releases it.
+const OF_DOOR: [&str; 3] = ["open", "asked", "released"];
+
 /// Every signal that a simulation of this machine records, in the order of its rows.
 pub fn signals(machine: &Machine) -> Vec<Signal> {
     let mut all: Vec<Signal> = machine
         .doors
         .iter()
-        .map(|door| Signal {
-            name: format!("door.{}.open", door.name),
-            kind: Kind::Bool,
-            unit: String::new(),
-            role: Role::Plant,
+        .flat_map(|door| {
+            OF_DOOR.map(|name| Signal {
+                name: format!("door.{}.{name}", door.name),
+                kind: Kind::Bool,
+                unit: String::new(),
+                role: Role::Plant,
+            })
         })
         .collect();
     for axis in &machine.axes {

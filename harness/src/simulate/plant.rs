@@ -66,6 +66,8 @@ pub struct Plant {
     pub speed: i64,
     /// What it was asked for.
     pub setpoint: Setpoint,
+    /// The greatest speed that the control lets its setpoint have; none: any.
+    pub limit: Option<i64>,
     without_torque: u32,
 }
 
@@ -80,14 +82,16 @@ impl Plant {
                 speed: 0,
                 target: None,
             },
+            limit: None,
             without_torque: 0,
         }
     }
 
     /// The setpoint of the speed in this cycle.
     pub fn wanted(&self) -> i64 {
+        let most = self.limit.unwrap_or(i64::MAX);
         let Some(target) = self.setpoint.target else {
-            return self.setpoint.speed;
+            return self.setpoint.speed.clamp(-most, most);
         };
         let way = target - self.position;
         let rate = self.mechanics.acceleration;
@@ -98,7 +102,7 @@ impl Plant {
         let whole = ((1 + 8 * size / rate).isqrt() - 1) / 2;
         let limit = (size + rate * whole * (whole + 1) / 2) / (whole + 1);
         let speed = i64::try_from(limit).unwrap_or(i64::MAX);
-        speed.min(self.setpoint.speed.abs()) * way.signum()
+        speed.min(self.setpoint.speed.abs()).min(most) * way.signum()
     }
 
     /// One cycle.

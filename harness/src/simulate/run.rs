@@ -3,9 +3,10 @@
 use stillpoint_monitors::sinumerik::group;
 use stillpoint_spec::machine::Machine;
 
-use super::axes::{Axis, Pulse, increments};
+use super::axes::{Axis, Logic, Pulse, increments};
+use super::door::{Door, Seen};
 use super::plant::Drive;
-use super::scenario::{Event, Scenario, Selection, What};
+use super::scenario::{DoorChange, Event, Scenario, Selection, What};
 use super::summary::{Simulation, summarise};
 use crate::production::{self, Produced};
 use crate::recording::{Recording, Value, vocabulary};
@@ -43,10 +44,20 @@ pub fn run(machine: &Machine, scenario: &Scenario) -> Result<Simulation, String>
     Ok(summarise(machine, scenario, recording, &produced))
 }
 
+/// What monitors the axes behind a door while it is open.
+fn opened(door: &stillpoint_spec::machine::Door) -> Selection {
+    let code = door.values.get("open");
+    let code = code.and_then(|v| v.cells.first().copied());
+    match code.and_then(|code| u8::try_from(code).ok()) {
+        Some(stage @ 1..=4) => Selection::Stage(stage - 1),
+        _ => Selection::Standstill,
+    }
+}
+
 struct Simulator<'a> {
     machine: &'a Machine,
     axes: Vec<Axis>,
-    doors: Vec<bool>,
+    doors: Vec<Door>,
     inputs: Vec<vocabulary::Input>,
     outputs: Vec<vocabulary::Output>,
     /// The machine was running before the scenario began, so its first cycle is power-on.
@@ -59,9 +70,9 @@ impl<'a> Simulator<'a> {
         Self {
             machine,
             axes: axes
-                .map(|(p, start)| Axis::new(p, start, scenario.running))
+                .map(|(p, start)| Axis::new(p, start, scenario))
                 .collect(),
-            doors: vec![false; machine.doors.len()],
+            doors: vec![Door::default(); machine.doors.len()],
             inputs: vocabulary::inputs(),
             outputs: vocabulary::outputs(),
             running: scenario.running,
@@ -85,9 +96,13 @@ impl<'a> Simulator<'a> {
         for event in events {
             self.happen(cycle, event, &mut pulses);
         }
-        let selections: Vec<Selection> = (0..self.axes.len()).map(|k| self.selection(k)).collect();
-        for ((axis, pulse), selection) in self.axes.iter_mut().zip(pulses).zip(selections) {
-            axis.see(cycle, selection, pulse, &self.inputs);
+        if pulses.iter().any(|pulse| pulse.power_on) {
+            self.doors.iter_mut().for_each(Door::power_on);
+        }
+        for (k, pulse) in pulses.into_iter().enumerate() {
+            let logic = self.logic(k);
+            let axis = &mut self.axes[k];
+            axis.see(cycle, logic, pulse, &self.inputs);
             axis.step();
         }
         self.react();
@@ -96,12 +111,17 @@ impl<'a> Simulator<'a> {
         for axis in &mut self.axes {
             axis.plant.advance(axis.drive);
         }
+        self.step_doors();
         row
     }
 
     fn happen(&mut self, cycle: u32, event: &Event, pulses: &mut [Pulse]) {
-        if let What::Door { door, open } = &event.what {
-            self.doors[*door] = *open;
+        if let What::Door { door, change } = &event.what {
+            let door = &mut self.doors[*door];
+            match *change {
+                DoorChange::Asked(asked) => door.asked = asked,
+                DoorChange::Open(open) => door.open = open,
+            }
             return;
         }
         for k in &event.axes {
@@ -128,10 +148,12 @@ impl<'a> Simulator<'a> {
                     axis.powered_at = axis.position();
                     axis.plant.setpoint = super::plant::Setpoint::default();
                 }
-                What::Agreement(give) => {
+                What::Agreement { give, key } => {
                     pulse.give = *give;
                     pulse.withdraw = !*give;
+                    pulse.key = *key;
                 }
+                What::Moved(by) => axis.plant.position += by,
                 What::Reference => {
                     axis.referenced = true;
                     axis.refpos = axis.position();
@@ -144,24 +166,35 @@ impl<'a> Simulator<'a> {
         }
     }
 
-    /// What is selected for an axis: the strictest of its mode and of the open doors in front of it.
-    fn selection(&self, k: usize) -> Selection {
+    /// What the safe logic selects for an axis: the strictest of its mode and of the doors in front of it, and the tests of
+    /// its shutdown paths.
+    fn logic(&self, k: usize) -> Logic {
         let (axis, name) = (&self.axes[k], &self.machine.axes[k].name);
-        let mut selection = axis.selected;
-        for (door, open) in self.machine.doors.iter().zip(&self.doors) {
-            if *open && door.axes.iter().any(|a| a.get_ref() == name) {
-                let code = door
-                    .values
-                    .get("open")
-                    .and_then(|v| v.cells.first().copied());
-                let asked = match code.and_then(|code| u8::try_from(code).ok()) {
-                    Some(stage @ 1..=4) => Selection::Stage(stage - 1),
-                    _ => Selection::Standstill,
-                };
-                selection = axis.stricter(selection, asked);
+        let mut logic = Logic {
+            selection: axis.selected,
+            test: [false; 2],
+        };
+        for (door, state) in self.machine.doors.iter().zip(&self.doors) {
+            if door.has(name) {
+                if state.selects() {
+                    logic.selection = axis.stricter(logic.selection, opened(door));
+                }
+                if let Some(side) = state.tests() {
+                    logic.test[side] = true;
+                }
             }
         }
-        selection
+        logic
+    }
+
+    /// The logic of the doors reads what the monitors have told.
+    fn step_doors(&mut self) {
+        for (door, state) in self.machine.doors.iter().zip(&mut self.doors) {
+            let axes = self.machine.axes.iter().zip(&self.axes);
+            let behind = axes.filter(|(known, _)| door.has(&known.name));
+            let seen: Vec<Seen> = behind.map(|(_, axis)| axis.seen(opened(door))).collect();
+            state.step(&seen);
+        }
     }
 
     /// The stops of each axis reach the others as its stop group says.
@@ -191,8 +224,9 @@ impl<'a> Simulator<'a> {
     }
 
     fn record(&self) -> Vec<Option<Value>> {
-        let mut row: Vec<Option<Value>> =
-            self.doors.iter().map(|d| Some(Value::Bool(*d))).collect();
+        let doors = self.doors.iter();
+        let doors = doors.flat_map(|door| [door.open, door.asked, door.released()]);
+        let mut row: Vec<Option<Value>> = doors.map(|d| Some(Value::Bool(d))).collect();
         for axis in &self.axes {
             let plant = &axis.plant;
             row.extend([

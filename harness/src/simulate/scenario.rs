@@ -12,6 +12,8 @@ pub struct Scenario {
     pub cycles: u32,
     /// Running and safely referenced from the start, or not yet run up.
     pub running: bool,
+    /// As in the acceptance test mode: the limit of the speed setpoint is off.
+    pub acceptance_mode: bool,
     /// The axes, in the order of the machine.
     pub axes: Vec<Start>,
     /// What happens, by cycle; in one cycle in the order of the file's kinds.
@@ -36,7 +38,7 @@ pub struct Start {
 pub struct Event {
     /// When.
     pub cycle: u32,
-    /// To which axes, by their place in the machine; all of a door's or of the machine where it says nothing else.
+    /// To which axes, by their place in the machine; none for what happens to a door.
     pub axes: Vec<usize>,
     /// In which channels.
     pub sides: [bool; 2],
@@ -68,8 +70,8 @@ pub enum What {
     Door {
         /// Which.
         door: usize,
-        /// Open or closed.
-        open: bool,
+        /// What of it.
+        change: DoorChange,
     },
     /// An input keeps a value whatever else happens: the signal by its place in the vocabulary.
     Force {
@@ -85,11 +87,27 @@ pub enum What {
     /// Off and on again; run up so many cycles later.
     Power(u32),
     /// The user gives or withdraws the agreement.
-    Agreement(bool),
+    Agreement {
+        /// Gives it.
+        give: bool,
+        /// With the key switch in position 3.
+        key: bool,
+    },
+    /// Somebody moves the axis by hand, by so many thousandths of an increment, at once.
+    Moved(i64),
     /// The axis is referenced where it is.
     Reference,
     /// An encoder or drive fault begins, or ends with [`Fault::None`].
     Fault(Fault),
+}
+
+/// What happens to a door.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum DoorChange {
+    /// Somebody asks for it, or no longer.
+    Asked(bool),
+    /// It is opened or closed.
+    Open(bool),
 }
 
 /// The stops that the safety logic can ask for.
@@ -134,21 +152,34 @@ pub struct Expect {
     pub never: bool,
 }
 
-/// What can be the case in a cycle.
+/// What can be the case in a cycle: of each signal, or of any where it must never be.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Condition {
-    /// Signals, by full name, all have the value.
-    Signals {
-        /// Which.
-        names: Vec<String>,
-        /// Their value.
-        value: Value,
-    },
-    /// An axis stands, or moves.
-    Standstill {
-        /// Which.
-        axis: usize,
-        /// It stands.
-        stands: bool,
-    },
+pub struct Condition {
+    /// The signals, by full name.
+    pub names: Vec<String>,
+    /// What they are.
+    pub is: Is,
+}
+
+/// What a signal can be.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Is {
+    /// It has this value.
+    Value(Value),
+    /// It is a speed, and the axis stands or moves.
+    Standing(bool),
+    /// It is a list of alarms, with this one among them.
+    Listing(String),
+}
+
+impl Is {
+    /// Whether a value is this.
+    pub fn fits(&self, value: &Value) -> bool {
+        match (self, value) {
+            (Self::Value(wanted), value) => wanted == value,
+            (Self::Standing(stands), value) => (*value == Value::Int(0)) == *stands,
+            (Self::Listing(alarm), Value::Text(all)) => all.split(' ').any(|a| a == alarm),
+            (Self::Listing(_), _) => false,
+        }
+    }
 }

@@ -3,7 +3,7 @@
 use stillpoint_spec::machine::units::Dimension;
 use stillpoint_spec::machine::{Axis, AxisKind, Machine};
 
-use super::scenario::{Condition, Expect, Scenario};
+use super::scenario::{Expect, Scenario};
 use crate::production::Produced;
 use crate::recording::{Recording, Value, vocabulary};
 
@@ -84,7 +84,7 @@ pub(super) fn summarise(
     let judged = scenario
         .expects
         .iter()
-        .map(|e| judge(e, machine, &recording))
+        .map(|e| judge(e, &recording))
         .collect();
     let axes = machine
         .axes
@@ -259,20 +259,19 @@ fn reason(recording: &Recording, axis: &str, channel: &str, row: usize) -> Strin
         .unwrap_or_else(|| "told by the other channel".to_owned())
 }
 
-fn judge(expect: &Expect, machine: &Machine, recording: &Recording) -> Judged {
+fn judge(expect: &Expect, recording: &Recording) -> Judged {
     let window = expect.after as usize..=expect.by as usize;
-    let holds_in = |row: usize| match &expect.condition {
-        Condition::Signals { names, value } => names.iter().all(|name| {
-            let signal = recording.find(name);
-            signal
-                .and_then(|s| recording.rows[row].get(s))
-                .is_some_and(|v| v.as_ref() == Some(value))
-        }),
-        Condition::Standstill { axis, stands } => {
-            let name = format!("{}.{}", machine.axes[*axis].name, vocabulary::VELOCITY);
-            let signal = recording.find(&name);
-            let speed = signal.and_then(|s| recording.rows[row].get(s));
-            speed.is_some_and(|v| (*v == Some(Value::Int(0))) == *stands)
+    let condition = &expect.condition;
+    let signals = condition.names.iter().map(|name| recording.find(name));
+    let signals: Vec<Option<usize>> = signals.collect();
+    let holds_in = |row: usize| {
+        let is = |signal: &Option<usize>| {
+            let value = signal.and_then(|s| recording.rows[row].get(s)?.as_ref());
+            value.is_some_and(|value| condition.is.fits(value))
+        };
+        match expect.never {
+            true => signals.iter().any(is),
+            false => signals.iter().all(is),
         }
     };
     let row = window

@@ -15,6 +15,8 @@ use stillpoint_model::{Options, Verdict, initials, table::Interpreted};
 use stillpoint_spec::bind::Bound;
 use stillpoint_spec::ir::Form;
 
+use crate::common::root;
+
 const BOUNDS: Bounds = Bounds {
     time: Duration::from_secs(60),
     memory: 1 << 28,
@@ -22,10 +24,6 @@ const BOUNDS: Bounds = Bounds {
 };
 /// States of the largest system that is walked through.
 const MOST_STATES: u64 = 400;
-
-fn root() -> std::path::PathBuf {
-    File::new(env!("CARGO_MANIFEST_DIR")).join("..")
-}
 
 /// The systems of every seeded error, and small ones whose properties hold.
 fn tasks() -> Vec<Task> {

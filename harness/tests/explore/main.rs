@@ -3,6 +3,9 @@
 mod agreement;
 mod api;
 mod chromium;
+#[path = "../common/mod.rs"]
+mod common;
 mod count;
 mod page;
+mod recorded;
 mod served;

@@ -59,6 +59,8 @@ impl DataFile {
 
 /// As a number how many axes an axis moves with on one path, as a text which ones.
 pub(super) const PATH: &str = "interpolates_with";
+/// As a number how many axes of the machine do not move with an axis, as a text which ones.
+const OTHERS: &str = "others";
 
 /// What an entry of the data is about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
@@ -83,7 +85,7 @@ impl About {
         known.extend(family.lets.iter().map(|(name, _)| name.clone()));
         known.push("enabled_any".to_owned());
         if matches!(self, Self::Axis | Self::DoorAxis) {
-            known.extend(["kind", "LINEAR", "ROTARY", PATH].map(str::to_owned));
+            known.extend(["kind", "LINEAR", "ROTARY", PATH, OTHERS].map(str::to_owned));
             known.extend(family.axis.keys().cloned());
         }
         if matches!(self, Self::Door | Self::DoorAxis) {
@@ -96,7 +98,7 @@ impl About {
     pub fn titles(self) -> &'static [&'static str] {
         match self {
             Self::Machine => &["machine", "axes"],
-            Self::Axis => &["machine", "axis", "partners"],
+            Self::Axis => &["machine", "axis", "partners", OTHERS],
             Self::Door => &["machine", "door", "axes"],
             Self::DoorAxis => &["machine", "door", "axis", "axes"],
         }
@@ -130,6 +132,8 @@ pub(super) fn grounds<'a>(machine: &'a Machine, about: About) -> Vec<Ground<'a>>
             ..whole.clone()
         };
         ground.set(PATH, partners);
+        let others = others(machine, axis).count();
+        ground.set(OTHERS, i64::try_from(others).unwrap_or(i64::MAX));
         ground
     };
     let mut list = Vec::new();
@@ -231,6 +235,10 @@ impl<'a> Ground<'a> {
             "axis" => self.axis.map(|a| a.name.clone()),
             "door" => self.door.map(|d| d.name.clone()),
             "partners" => self.axis.map(partners),
+            OTHERS => {
+                let names: Vec<&str> = others(self.machine, self.axis?).collect();
+                Some(names.join(", "))
+            }
             "axes" => {
                 let all = self.machine.axes.iter().map(|a| a.name.as_str());
                 let axes = all.filter(|name| self.door.is_none_or(|d| d.has(name)));
@@ -320,6 +328,15 @@ impl<'a> Ground<'a> {
 pub(super) fn partners(axis: &Axis) -> String {
     let names = axis.interpolates_with.iter().map(|n| n.get_ref().as_str());
     names.collect::<Vec<_>>().join(", ")
+}
+
+/// The axes that do not move on one path with an axis.
+fn others<'a>(machine: &'a Machine, axis: &'a Axis) -> impl Iterator<Item = &'a str> {
+    let with = |a: &Axis, b: &Axis| a.interpolates_with.iter().any(|n| *n.get_ref() == b.name);
+    let others = machine.axes.iter();
+    let others = others
+        .filter(move |other| other.name != axis.name && !with(axis, other) && !with(other, axis));
+    others.map(|other| other.name.as_str())
 }
 
 /// The names that an expression reads.

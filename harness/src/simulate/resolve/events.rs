@@ -4,15 +4,15 @@ use super::{BOTH, Resolver, Round};
 use crate::recording::{Kind, vocabulary};
 use crate::simulate::file::{self, File, Text};
 use crate::simulate::plant::Setpoint;
-use crate::simulate::scenario::{Event, ExternalLetter, Selection, What};
+use crate::simulate::scenario::{DoorChange, Event, ExternalLetter, Selection, What};
 
 impl Resolver<'_> {
     pub(super) fn motions(&mut self, list: &[file::Motion], events: &mut Vec<Event>) {
         for motion in list {
             let cycle = self.at(&motion.at);
-            for axis in self.axes(Some(&motion.axis)) {
+            for axis in self.axes(motion.axis.as_ref()) {
                 let kind = self.machine.axes[axis].kind;
-                let speed = self.speed(&motion.speed, kind);
+                let speed = self.speed(&motion.speed, axis);
                 let target = motion.to.as_ref().map(|to| self.length(to, kind));
                 if let (Some(cycle), Some(speed)) = (cycle, speed) {
                     let what = What::Motion(Setpoint {
@@ -94,20 +94,22 @@ impl Resolver<'_> {
                 self.no_such(&given.door, "door of this machine", &known);
                 continue;
             };
-            let behind = |name: &str| machine.doors[door].axes.iter().any(|a| a.get_ref() == name);
-            let axes = (0..machine.axes.len())
-                .filter(|k| behind(&machine.axes[*k].name))
-                .collect();
-            if let Some(cycle) = cycle {
-                let what = What::Door {
-                    door,
-                    open: given.open,
-                };
+            let changes = [
+                given.ask.map(DoorChange::Asked),
+                given.open.map(DoorChange::Open),
+            ];
+            if changes == [None, None] {
+                let help = "add ask = true (somebody asks for the door) or open = true".to_owned();
+                let message = "nothing happens to the door here".to_owned();
+                self.add(given.at.span(), message, "this entry", help);
+            }
+            let Some(cycle) = cycle else { continue };
+            for change in changes.into_iter().flatten() {
                 events.push(Event {
                     cycle,
-                    axes,
+                    axes: Vec::new(),
                     sides: BOTH,
-                    what,
+                    what: What::Door { door, change },
                 });
             }
         }
@@ -204,6 +206,15 @@ impl Resolver<'_> {
                 });
             }
         };
+        // Before power-on in the same cycle: nobody has seen it.
+        for moved in &file.moved {
+            let cycle = self.at(&moved.at);
+            for axis in self.axes(Some(&moved.axis)) {
+                if let Some(by) = self.length(&moved.by, self.machine.axes[axis].kind) {
+                    push(cycle, vec![axis], What::Moved(by));
+                }
+            }
+        }
         for power in &file.power {
             let delay = power.run_up.as_ref();
             let delay = delay
@@ -219,7 +230,10 @@ impl Resolver<'_> {
             push(
                 self.at(&agreement.at),
                 axes,
-                What::Agreement(agreement.give),
+                What::Agreement {
+                    give: agreement.give,
+                    key: agreement.key,
+                },
             );
         }
         for reference in &file.reference {

@@ -1,12 +1,12 @@
 //! What has to come of a scenario.
 
-use stillpoint_spec::machine::Machine;
+use stillpoint_monitors::sinumerik::alarm::Alarm;
 use toml::Spanned;
 
 use super::{Resolver, Round, time};
 use crate::recording::{Value, vocabulary};
 use crate::simulate::file::{self, Scalar, Text};
-use crate::simulate::scenario::{Condition, Expect};
+use crate::simulate::scenario::{Condition, Expect, Is};
 
 impl Resolver<'_> {
     pub(super) fn expect(&mut self, expect: &file::Expect) -> Option<Expect> {
@@ -40,7 +40,7 @@ impl Resolver<'_> {
             return None;
         }
         let condition = self.condition(expect)?;
-        let text = describe(&condition, self.machine);
+        let text = describe(&condition, expect.never);
         let window = format!(
             "from {} to {}",
             time(u64::from(after) * self.cycle_us()),
@@ -60,99 +60,159 @@ impl Resolver<'_> {
     }
 
     fn condition(&mut self, expect: &file::Expect) -> Option<Condition> {
-        let axis = expect
-            .axis
-            .as_ref()
-            .map(|a| self.axis_named(a.get_ref(), a.span()));
         let sides = self.sides(expect.channel.as_ref());
-        match (
-            axis,
+        let axes = self.axes(expect.axis.as_ref());
+        let machine = self.machine;
+        let of_channels = |sides: [bool; 2], signal: &str| -> Vec<String> {
+            let names = axes.iter().flat_map(|k| {
+                let channels = vocabulary::CHANNELS.iter().zip(sides);
+                let used = channels.filter(|(_, used)| *used);
+                used.map(|(channel, _)| format!("{}.{channel}.{signal}", machine.axes[*k].name))
+            });
+            names.collect()
+        };
+        let condition = match (
             &expect.stop,
             &expect.standstill,
+            &expect.alarm,
             &expect.signal,
             &expect.value,
         ) {
-            (Some(axis), Some(stop), None, None, None) => {
-                let axis = axis?;
+            (Some(stop), None, None, None, None) => {
                 let letters = ["A", "B", "C", "D", "E", "F", "TEST", "NONE"];
                 let Some(letter) = letters.iter().find(|l| **l == stop.get_ref().as_str()) else {
                     self.no_such(stop, "stop", &letters);
                     return None;
                 };
-                let axis = &self.machine.axes[axis].name;
-                let channels = vocabulary::CHANNELS
-                    .iter()
-                    .zip(sides)
-                    .filter(|(_, used)| *used);
-                Some(Condition::Signals {
-                    names: channels
-                        .map(|(channel, _)| format!("{axis}.{channel}.stop"))
-                        .collect(),
-                    value: Value::Text((*letter).into()),
-                })
+                Condition {
+                    names: of_channels(sides, "stop"),
+                    is: Is::Value(Value::Text((*letter).into())),
+                }
             }
-            (Some(axis), None, Some(stands), None, None) => Some(Condition::Standstill {
-                axis: axis?,
-                stands: *stands.get_ref(),
-            }),
-            (None, None, None, Some(signal), Some(value)) => self.signal_condition(signal, value),
+            (None, Some(stands), None, None, None) => {
+                let names = axes.iter().map(|k| &machine.axes[*k].name);
+                Condition {
+                    names: names
+                        .map(|name| format!("{name}.{}", vocabulary::VELOCITY))
+                        .collect(),
+                    is: Is::Standing(*stands.get_ref()),
+                }
+            }
+            (None, None, Some(alarm), None, None) => {
+                let channel = self.channel_of(alarm)?;
+                Condition {
+                    names: of_channels(channel, "alarms"),
+                    is: Is::Listing(alarm.get_ref().clone()),
+                }
+            }
+            (None, None, None, Some(signal), Some(value)) => {
+                let names = match expect.axis {
+                    Some(_) => of_channels(sides, signal.get_ref()),
+                    None => vec![signal.get_ref().clone()],
+                };
+                self.signal_condition(signal, names, value)?
+            }
             _ => {
                 let place = [
                     &expect.stop,
+                    &expect.alarm,
                     &expect.signal,
-                    &expect.axis,
                     &expect.by,
                     &expect.after,
                 ];
                 let place = place.into_iter().flatten().next().map(Spanned::span);
-                let help =
-                    "write axis and stop, axis and standstill, or signal and value".to_owned();
+                let place = place.or(expect.axis.as_ref().map(Spanned::span));
+                let help = "write one of stop, standstill and alarm, perhaps with axis, or signal and value";
                 self.add(
                     place.unwrap_or_default(),
                     "it is not clear what is expected".to_owned(),
                     "this",
-                    help,
+                    help.to_owned(),
                 );
-                None
+                return None;
             }
-        }
+        };
+        // An axis that the machine does not have is a finding already.
+        (!condition.names.is_empty()).then_some(condition)
     }
 
-    fn signal_condition(&mut self, signal: &Text, value: &Spanned<Scalar>) -> Option<Condition> {
+    /// The channel that an alarm is one of.
+    fn channel_of(&mut self, alarm: &Text) -> Option<[bool; 2]> {
+        let numbers = |side: usize| {
+            Alarm::ALL.into_iter().filter_map(move |alarm| match side {
+                0 => Some(alarm.nck().number),
+                _ => alarm.drive().map(|entry| entry.number),
+            })
+        };
+        let known: Vec<(String, usize)> = (0..2)
+            .flat_map(|side| numbers(side).map(move |number| (number.to_string(), side)))
+            .collect();
+        if let Some((_, side)) = known.iter().find(|(number, _)| number == alarm.get_ref()) {
+            return Some([*side == 0, *side == 1]);
+        }
+        let names: Vec<&str> = known.iter().map(|(number, _)| number.as_str()).collect();
+        self.no_such(alarm, "alarm of the monitors", &names);
+        None
+    }
+
+    fn signal_condition(
+        &mut self,
+        signal: &Text,
+        names: Vec<String>,
+        value: &Spanned<Scalar>,
+    ) -> Option<Condition> {
         let value_given = match value.get_ref() {
             Scalar::Bool(b) => Value::Bool(*b),
             Scalar::Int(n) => Value::Int(*n),
             Scalar::Text(text) => Value::Text(text.clone().into()),
         };
         let signals = crate::simulate::signals(self.machine);
-        let Some(found) = signals.iter().find(|s| s.name == *signal.get_ref()) else {
-            let names: Vec<&str> = signals.iter().map(|s| s.name.as_str()).collect();
-            self.no_such(signal, "signal of this machine", &names);
-            return None;
-        };
-        if !found.kind.admits(&value_given) {
-            let message = format!("{} is {}; got {value_given}", found.name, found.kind.noun());
-            self.add(
-                value.span(),
-                message,
-                "another kind of value",
-                "correct the value or the name".to_owned(),
-            );
-            return None;
+        for name in &names {
+            let Some(found) = signals.iter().find(|s| s.name == *name) else {
+                let known = signals.iter().map(|s| s.name.as_str());
+                // With an axis only the last part was written.
+                let prefix = &name[..name.len() - signal.get_ref().len()];
+                let known: Vec<&str> = known.filter_map(|n| n.strip_prefix(prefix)).collect();
+                self.no_such(signal, "signal of this machine", &known);
+                return None;
+            };
+            if !found.kind.admits(&value_given) {
+                let message = format!("{} is {}; got {value_given}", found.name, found.kind.noun());
+                self.add(
+                    value.span(),
+                    message,
+                    "another kind of value",
+                    "correct the value or the name".to_owned(),
+                );
+                return None;
+            }
         }
-        Some(Condition::Signals {
-            names: vec![found.name.clone()],
-            value: value_given,
+        Some(Condition {
+            names,
+            is: Is::Value(value_given),
         })
     }
 }
 
-fn describe(condition: &Condition, machine: &Machine) -> String {
-    match condition {
-        Condition::Signals { names, value } => format!("{} = {value}", names.join(" and ")),
-        Condition::Standstill { axis, stands } => {
-            let verb = if *stands { "stands" } else { "moves" };
-            format!("{} {verb}", machine.axes[*axis].name)
+fn describe(condition: &Condition, never: bool) -> String {
+    let joint = if never { " or " } else { " and " };
+    let names = &condition.names;
+    match &condition.is {
+        Is::Value(value) => format!("{} = {value}", names.join(joint)),
+        Is::Listing(alarm) => format!("alarm {alarm} in {}", names.join(joint)),
+        Is::Standing(stands) => {
+            let axes = names
+                .iter()
+                .map(|name| name.split('.').next().unwrap_or(""));
+            let axes: Vec<&str> = axes.collect();
+            let one = axes.len() == 1 || never;
+            let verb = match (stands, one) {
+                (true, true) => "stands",
+                (true, false) => "stand",
+                (false, true) => "moves",
+                (false, false) => "move",
+            };
+            format!("{} {verb}", axes.join(joint))
         }
     }
 }

@@ -138,6 +138,7 @@ impl Resolver<'_> {
             title: file.title.unwrap_or_default(),
             cycles,
             running,
+            acceptance_mode: file.acceptance_mode,
             axes,
             events,
             expects,
@@ -244,10 +245,11 @@ impl Resolver<'_> {
         let Some(names) = names else {
             return (0..self.machine.axes.len()).collect();
         };
-        let list: Vec<String> = match names.get_ref() {
-            Names::One(name) => vec![name.clone()],
-            Names::Many(list) => list.clone(),
+        let list: Vec<&str> = match names.get_ref() {
+            Names::One(text) => text.split(',').map(str::trim).collect(),
+            Names::Many(list) => list.iter().map(String::as_str).collect(),
         };
+        let list: Vec<&str> = list.into_iter().filter(|name| !name.is_empty()).collect();
         if list.is_empty() {
             let help = "name an axis, or leave the key out for all of them".to_owned();
             self.add(names.span(), "no axis is named".to_owned(), "empty", help);

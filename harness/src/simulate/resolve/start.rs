@@ -86,13 +86,17 @@ impl Resolver<'_> {
         Some(value * 1_000)
     }
 
-    /// A speed in thousandths of an increment per cycle, rounded towards 0.
-    pub(super) fn speed(&mut self, text: &Text, kind: AxisKind) -> Option<i64> {
-        let (dimension, example) = match kind {
+    /// A speed of an axis in thousandths of an increment per cycle, rounded towards 0; a share of the limit of a stage, too:
+    /// `120 % of SG1`.
+    pub(super) fn speed(&mut self, text: &Text, axis: usize) -> Option<i64> {
+        let (dimension, example) = match self.machine.axes[axis].kind {
             AxisKind::Linear => (Dimension::Speed, "5000 mm/min"),
             AxisKind::Rotary => (Dimension::Rotation, "100 rev/min"),
         };
-        let per_minute = self.value(text, dimension, example)?;
+        let per_minute = match text.get_ref().split_once(" of ") {
+            Some((share, stage)) => self.share(text, share, stage, axis)?,
+            None => self.value(text, dimension, example)?,
+        };
         // Increments per minute, times 1000, times us, by 60 s in us.
         let product = i128::from(per_minute) * i128::from(self.cycle_us()) / 60_000;
         let limit = i128::from(i32::MAX);
@@ -110,6 +114,27 @@ impl Resolver<'_> {
             return None;
         }
         i64::try_from(product).ok()
+    }
+
+    /// A share of the limit of a stage, per minute.
+    fn share(&mut self, text: &Text, share: &str, stage: &str, axis: usize) -> Option<i64> {
+        let percent = share.trim().strip_suffix('%');
+        let percent = percent.and_then(|number| number.trim().parse::<i64>().ok());
+        let percent = percent.filter(|n| n.abs() <= 1_000);
+        let stages = ["SG1", "SG2", "SG3", "SG4"];
+        let stage = stages.iter().position(|name| *name == stage.trim());
+        let limits = self.machine.axes[axis].values.get("VELO_LIMIT");
+        let limit = stage.and_then(|k| limits?.cells.get(k).copied());
+        if let (Some(percent), Some(limit)) = (percent, limit) {
+            return Some(limit.saturating_mul(percent) / 100);
+        }
+        self.add(
+            text.span(),
+            format!("\"{}\" is no share of a speed limit", text.get_ref()),
+            "not such a value",
+            "write for example \"120 % of SG1\": -1000 % to 1000 %, SG1 to SG4".to_owned(),
+        );
+        None
     }
 
     fn acceleration(&mut self, text: &Text, kind: AxisKind) -> Option<i64> {

@@ -1,4 +1,4 @@
-//! Deliberately wrong step functions: see [`crate::mutant`].
+//! Deliberately wrong step functions: see [`crate::sinumerik::mutant`].
 
 mod axis;
 mod checking;

@@ -77,10 +77,19 @@ pub struct Test {
     pub expect: Vec<Expect>,
     /// What is measured.
     pub measure: Vec<Measure>,
-    /// A scenario that runs the test on a simulated axis, as the text of a scenario file.
-    pub simulate: Option<String>,
+    /// Whether it can be run on a simulated axis.
+    pub simulated: Simulated,
     /// What the test depends on: parameter and value.
     pub depends: BTreeMap<String, String>,
+}
+
+/// How a test is run on a simulated axis.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Simulated {
+    /// By this scenario, the text of a scenario file.
+    Scenario(String),
+    /// Not: only the real machine shows it. One sentence says why.
+    Not(String),
 }
 
 /// Something that must be seen.

@@ -6,11 +6,12 @@ use indexmap::IndexMap;
 use serde::Deserialize;
 use toml::Spanned;
 
+use super::super::Place;
 use super::super::family::Formula;
 use super::super::family_file::Check;
 use super::super::ground::{About, DataFile, Ground, PATH, partners, read_names};
 use super::super::template::{Template, Words};
-use super::{Expect, Measure, Part, Test};
+use super::{Expect, Measure, Part, Simulated, Test};
 use crate::diag::Result;
 
 #[derive(Deserialize)]
@@ -31,9 +32,19 @@ pub(super) struct TestData {
     expect: Vec<ExpectData>,
     #[serde(default)]
     measure: Vec<MeasureData>,
-    simulate: Option<Spanned<String>>,
+    #[serde(default)]
+    simulate: Vec<SimulateData>,
+    hardware: Option<Spanned<String>>,
     #[serde(default)]
     depends: Vec<Spanned<String>>,
+}
+
+/// A piece of a scenario.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SimulateData {
+    text: Spanned<String>,
+    when: Option<Spanned<String>>,
 }
 
 #[derive(Deserialize)]
@@ -71,8 +82,13 @@ pub(super) struct Plan {
     steps: Vec<Template>,
     expect: Vec<ExpectPlan>,
     measure: Vec<MeasurePlan>,
-    simulate: Option<Template>,
+    simulate: SimulatePlan,
     depends: Vec<Formula>,
+}
+
+enum SimulatePlan {
+    Scenario(Vec<(Option<Formula>, Template)>),
+    Hardware(Template),
 }
 
 struct ExpectPlan {
@@ -148,6 +164,7 @@ pub(super) fn plan(
             when: reader.formula(entry.when)?,
         });
     }
+    let simulate = reader.simulate(data.id.span(), data.simulate, data.hardware)?;
     Some(Plan {
         part,
         of: data.of,
@@ -161,7 +178,7 @@ pub(super) fn plan(
         title: reader.text(data.title)?,
         requires: reader.texts(data.requires)?,
         steps: reader.texts(data.steps)?,
-        simulate: reader.optional(data.simulate)?,
+        simulate,
         when,
         lets,
         expect,
@@ -188,6 +205,33 @@ impl Reader<'_> {
         match text {
             Some(text) => self.text(text).map(Some),
             None => Some(None),
+        }
+    }
+
+    /// A test has a scenario, or a reason why it has none.
+    fn simulate(
+        &mut self,
+        test: Place,
+        pieces: Vec<SimulateData>,
+        hardware: Option<Spanned<String>>,
+    ) -> Option<SimulatePlan> {
+        match (pieces.is_empty(), hardware) {
+            (true, Some(reason)) => self.text(reason).map(SimulatePlan::Hardware),
+            (false, None) => {
+                let read = pieces
+                    .into_iter()
+                    .map(|piece| Some((self.formula(piece.when)?, self.text(piece.text)?)));
+                read.collect::<Option<_>>().map(SimulatePlan::Scenario)
+            }
+            (none, _) => {
+                let message = match none {
+                    true => "this test can neither be simulated nor is there a reason why not",
+                    false => "this test has a scenario and a reason why it has none",
+                };
+                let help = "give it a scenario ([[test.simulate]]), or the reason why only the real machine shows it (hardware = \"...\")";
+                self.check.findings.add(test, message, "this test", help);
+                None
+            }
         }
     }
 
@@ -292,9 +336,17 @@ impl Plan {
             steps: texts(&self.steps)?,
             expect,
             measure,
-            simulate: match &self.simulate {
-                Some(text) => Some(text.fill(file, &ground)?),
-                None => None,
+            simulated: match &self.simulate {
+                SimulatePlan::Hardware(reason) => Simulated::Not(reason.fill(file, &ground)?),
+                SimulatePlan::Scenario(pieces) => {
+                    let mut scenario = String::new();
+                    for (when, text) in pieces {
+                        if holds(when)? {
+                            scenario.push_str(&text.fill(file, &ground)?);
+                        }
+                    }
+                    Simulated::Scenario(scenario)
+                }
             },
             depends: self.dependence(&ground),
         }))

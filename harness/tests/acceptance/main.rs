@@ -1,29 +1,17 @@
 //! `stillpoint acceptance`: a test for each enabled function and limit, and what a change makes to be repeated.
 
+#[path = "../common/mod.rs"]
+mod common;
+mod run;
+
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::path::Path;
 
 use serde_json::Value;
 
+use common::{root, stdout, stillpoint};
+
 const MILLING: &str = "spec/machines/milling-840d.toml";
-
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
-}
-
-fn stillpoint(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_stillpoint"))
-        .args(arguments)
-        .current_dir(root())
-        .env("NO_COLOR", "1")
-        .output()
-        .expect("the binary runs")
-}
-
-fn stdout(output: &Output) -> String {
-    String::from_utf8(output.stdout.clone()).expect("stdout is UTF-8")
-}
 
 fn json(arguments: &[&str]) -> Value {
     let mut all = vec!["acceptance"];
@@ -69,6 +57,7 @@ fn milling(name: &str, replace: &[(&str, &str)]) -> String {
     path.display().to_string()
 }
 
+/// The list of tests and their parts (S840D-ACCEPT-751).
 #[test]
 fn one_test_for_each_enabled_function_and_limit() {
     let json = json(&[MILLING]);
@@ -266,6 +255,7 @@ fn the_clock_makes_everything_with_a_time_to_be_repeated() {
     assert!(!repeat.contains("EMERGENCY-STOP"));
 }
 
+/// Documentation, both function tests, completion, and what a later measure repeats (S840D-ACCEPT-722, S840D-ACCEPT-723).
 #[test]
 fn markdown_and_page() {
     let text = stdout(&stillpoint(&["acceptance", MILLING]));
@@ -276,6 +266,9 @@ fn markdown_and_page() {
         "Signature",
         "MD10094",
         "encoder system replaced",
+        "Function test part 1",
+        "Function test part 2",
+        "Completion",
     ] {
         assert!(text.contains(part), "no {part}");
     }
@@ -319,58 +312,5 @@ fn a_parameter_that_no_test_reads_is_a_fault_of_the_catalogue() {
     assert!(
         says.contains("no acceptance test depends on VELO_OVR_FACTOR"),
         "{says}"
-    );
-}
-
-#[test]
-fn tests_run_on_the_simulated_axis() {
-    let json = json(&[MILLING, "--run"]);
-    let ran = json["simulated"].as_array().expect("results");
-    let names: BTreeSet<&str> = ran.iter().filter_map(|r| r["id"].as_str()).collect();
-    for id in [
-        "SG1-X",
-        "SG4-S",
-        "SBH-Z",
-        "SE1+-X",
-        "SE2--Y",
-        "EXTERNAL-C-X",
-        "EXTERNAL-A-S",
-        "COMPARE-Z",
-        "CHANGE-SBH-S",
-    ] {
-        assert!(names.contains(id), "{id} was not run");
-    }
-    for one in ran {
-        assert_eq!(one["holds"], true, "{one}");
-        assert!(
-            !one["expectations"]
-                .as_array()
-                .expect("expectations")
-                .is_empty()
-        );
-        assert!(!one["stops"].as_array().expect("stops").is_empty(), "{one}");
-    }
-}
-
-#[test]
-fn a_test_that_fails_on_the_simulated_axis_is_told() {
-    let file = milling("acceptance-run", &[]);
-    let catalogue = Path::new(&file)
-        .with_file_name("spec")
-        .join("sinumerik-840d/acceptance.toml");
-    let text = std::fs::read_to_string(&catalogue).expect("readable");
-    // An axis that stays below its limit is not stopped.
-    let slow = text.replace(
-        "{VELO_LIMIT[k] + MAX(VELO_LIMIT[k] / 10, 60000) : speed}",
-        "{VELO_LIMIT[k] / 2 : speed}",
-    );
-    assert_ne!(text, slow);
-    std::fs::write(&catalogue, slow).expect("written");
-    let output = stillpoint(&["acceptance", &file, "--run"]);
-    assert_eq!(output.status.code(), Some(1));
-    let text = stdout(&output);
-    assert!(
-        text.contains("simulated tests do not give what is expected"),
-        "{text}"
     );
 }
