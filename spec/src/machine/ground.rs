@@ -204,6 +204,15 @@ impl<'a> Ground<'a> {
     }
 
     /// Evaluates an expression of `file`.
+    /// [`Self::value`] of a formula that may be missing.
+    ///
+    /// # Errors
+    /// As [`Self::value`].
+    pub fn optional(&self, file: &DataFile, formula: &Option<Formula>) -> Result<Option<i64>> {
+        let formula = formula.as_ref();
+        formula.map(|f| self.value(file, f)).transpose()
+    }
+
     ///
     /// # Errors
     /// It has no value here, which is a fault of the family's data.

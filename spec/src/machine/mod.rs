@@ -17,6 +17,7 @@ pub mod acceptance;
 pub mod data;
 mod document;
 mod eval;
+mod entry;
 mod family;
 mod family_file;
 #[cfg(test)]

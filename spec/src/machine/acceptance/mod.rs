@@ -14,7 +14,7 @@ use toml::Spanned;
 use super::Machine;
 use super::family::Family;
 use super::family_file::Check;
-use super::ground::{DataFile, grounds, read_names};
+use super::ground::{DataFile, read_names};
 use crate::diag::Result;
 use plan::{Plan, TestData, plan};
 
@@ -138,17 +138,14 @@ impl Machine {
         let words: Vec<_> = data.words.into_iter().collect();
         let mut plans = Vec::new();
         for test in data.test {
-            let known = test.of.known(family);
-            plans.extend(plan(&mut check, test, known, &words, &data.part));
+            plans.extend(plan(&mut check, test, family, &words, &data.part));
         }
         complete(&mut check, family, &plans, &data.untested);
         check.findings.finish(())?;
         let mut tests = Vec::new();
         for plan in &plans {
-            for ground in grounds(self, plan.of) {
-                for k in &plan.each {
-                    tests.extend(plan.test(&file, ground.at(*k))?);
-                }
+            for ground in plan.premise.grounds(&file, self)? {
+                tests.push(plan.test(&file, &ground)?);
             }
         }
         let untested = data.untested.into_iter();
