@@ -171,13 +171,6 @@ fn common(machine: &Machine) -> Values {
     values
 }
 
-impl Door {
-    /// Whether the axis can be reached through it.
-    pub fn has(&self, axis: &str) -> bool {
-        self.axes.iter().any(|name| name.get_ref() == axis)
-    }
-}
-
 impl<'a> Ground<'a> {
     fn behind(mut self, door: &'a Door) -> Self {
         insert(&mut self.values, &door.values);
@@ -204,6 +197,13 @@ impl<'a> Ground<'a> {
     }
 
     /// Evaluates an expression of `file`.
+    ///
+    /// # Errors
+    /// It has no value here, which is a fault of the family's data.
+    pub fn value(&self, file: &DataFile, formula: &Formula) -> Result<i64> {
+        self.eval(file, &formula.expr, formula.text.span())
+    }
+
     /// [`Self::value`] of a formula that may be missing.
     ///
     /// # Errors
@@ -211,13 +211,6 @@ impl<'a> Ground<'a> {
     pub fn optional(&self, file: &DataFile, formula: &Option<Formula>) -> Result<Option<i64>> {
         let formula = formula.as_ref();
         formula.map(|f| self.value(file, f)).transpose()
-    }
-
-    ///
-    /// # Errors
-    /// It has no value here, which is a fault of the family's data.
-    pub fn value(&self, file: &DataFile, formula: &Formula) -> Result<i64> {
-        self.eval(file, &formula.expr, formula.text.span())
     }
 
     /// [`Self::value`] of a part of the text at `span`.

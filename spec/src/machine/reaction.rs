@@ -213,11 +213,10 @@ impl Machine {
         let file = DataFile::read(&family.folder, "reaction-chain.toml", "reaction chains")?;
         let data: FileData = file.parse()?;
         let mut check = file.check();
-        let explore: Vec<Explore> = {
-            let known = About::Axis.known(family);
-            let entries = data.explore.into_iter();
-            entries.filter_map(|e| check.explore(e, &known)).collect()
-        };
+        let explore = data.explore.into_iter();
+        let explore: Vec<Explore> = explore
+            .filter_map(|e| check.explore(e, &family.known))
+            .collect();
         let words: Vec<_> = data.words.into_iter().collect();
         let mut plans = Vec::new();
         for chain in data.chain {
@@ -231,7 +230,7 @@ impl Machine {
                 chains.push(plan.chain(&file, &ground)?);
             }
         }
-        let runs = runs::plan(family, &explore, &self.axes, &self.basis.judged)?.runs;
+        let runs = runs::plan(family, &explore, self.parts(), &self.basis.judged)?.runs;
         Ok(Reactions {
             source: data.source,
             notes: data.notes,
@@ -258,10 +257,10 @@ fn plan(
         about: data.of,
         known: &known,
         words,
+    };
     let mut reader = Reader {
         check,
         names: &names,
-    };
     };
     let mut steps = Vec::new();
     for name in data.groups {

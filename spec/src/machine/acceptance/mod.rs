@@ -185,7 +185,8 @@ fn complete(
         read.extend(cycle);
     }
     let all = [&family.control, &family.axis, &family.door];
-    let all: Vec<&String> = all.into_iter().flat_map(IndexMap::keys).collect();
+    let all = all.into_iter().chain(&family.group);
+    let all: Vec<&String> = all.flat_map(IndexMap::keys).collect();
     for name in &all {
         let excused = untested.keys().any(|key| key.get_ref() == *name);
         if !excused && !read.contains(*name) {
