@@ -132,10 +132,10 @@ pub fn of_runs(
     let mut specs: BTreeMap<PathBuf, Spec> = BTreeMap::new();
     for run in runs {
         if !specs.contains_key(&run.file) {
-            specs.insert(run.file.clone(), Spec::load(&run.file)?);
+            specs.insert(run.file.clone(), machine.spec(&run.file)?);
         }
         let spec = &specs[&run.file];
-        let cycle = u64::try_from(machine.monitoring_cycle).ok();
+        let cycle = u64::try_from(run.cycle).ok();
         let system = spec.system(&run.system, cycle)?;
         let source: Arc<str> = Arc::from("");
         let bound = bind(&run.file, &source, system, &run.params, readings)?;

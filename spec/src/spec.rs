@@ -162,6 +162,28 @@ impl Spec {
         }
     }
 
+    /// Puts a machine that stands in another file in the place of the one with its name.
+    pub(crate) fn put_machine(
+        &mut self,
+        file: &str,
+        text: &Arc<str>,
+        name: &Text,
+        def: schema::Machine,
+    ) {
+        let id = self.sources.len();
+        self.sources.push(Source {
+            name: file.to_owned(),
+            text: text.clone(),
+            spec: self.name.clone(),
+        });
+        let located = Located {
+            file: id,
+            span: name.span(),
+            def,
+        };
+        self.machines.insert(name.get_ref().clone(), located);
+    }
+
     /// Names of the systems of this file, in the order they stand there.
     pub fn systems(&self) -> impl Iterator<Item = &str> {
         self.systems.keys().map(String::as_str)

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use stillpoint_spec::{Spec, codegen};
 
 /// Folders with specification files, relative to `spec/`.
-const FOLDERS: [&str; 2] = ["sinumerik-840d", "bench"];
+const FOLDERS: [&str; 3] = ["sinumerik-840d", "heidenhain-fs", "bench"];
 
 fn main() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");

@@ -23,6 +23,11 @@ fn milling() -> Machine {
     machine::load(&path, spec()).unwrap_or_else(|e| panic!("{e}"))
 }
 
+fn centre() -> Machine {
+    let path = spec().join("machines/machining-centre-heidenhain.toml");
+    machine::load(&path, spec()).unwrap_or_else(|e| panic!("{e}"))
+}
+
 fn cells(machine: &Machine, axis: &str, parameter: &str) -> Vec<i64> {
     let axis = machine
         .axes
@@ -98,26 +103,100 @@ fn axes_alike_share_a_run_and_each_axis_has_all_of_them() {
 
 #[test]
 fn each_run_fits_its_system() {
-    let machine = milling();
-    assert!(machine.runs.len() >= 10, "{} runs", machine.runs.len());
-    let cycle = u64::try_from(machine.monitoring_cycle).ok();
-    for run in &machine.runs {
-        let spec = Spec::load(&run.file).unwrap_or_else(|e| panic!("{e}"));
-        let system = spec
-            .system(&run.system, cycle)
-            .unwrap_or_else(|e| panic!("{e}"));
-        let scaled = system.scaled;
-        if let Err(error) = Bound::new(system, &run.params, &BTreeMap::new()) {
-            panic!("{}: {error}", run.title);
+    for machine in [milling(), centre()] {
+        assert!(machine.runs.len() >= 10, "{} runs", machine.runs.len());
+        for run in &machine.runs {
+            let spec = machine.spec(&run.file).unwrap_or_else(|e| panic!("{e}"));
+            let system = spec
+                .system(&run.system, u64::try_from(run.cycle).ok())
+                .unwrap_or_else(|e| panic!("{e}"));
+            let scaled = system.scaled;
+            if let Err(error) = Bound::new(system, &run.params, &BTreeMap::new()) {
+                panic!("{}: {error}", run.title);
+            }
+            let steps = |t: &String| t.starts_with("times in steps of ");
+            let told = run.abstractions.iter().any(steps);
+            assert_eq!(scaled, told, "{}", run.title);
         }
-        let steps = "times in steps of ";
-        assert_eq!(
-            scaled,
-            run.abstractions.iter().any(|t| t.starts_with(steps)),
-            "{}",
-            run.title
-        );
     }
+}
+
+#[test]
+fn the_machining_centre_is_explored_by_groups() {
+    let machine = centre();
+    // 3 ms (HFS-TIMING-001)
+    assert_eq!(machine.monitoring_cycle, 3_000);
+    let groups: Vec<&str> = machine
+        .axis_groups
+        .iter()
+        .map(|g| g.name.as_str())
+        .collect();
+    assert_eq!(groups, ["NC", "S", "T"]);
+    assert_eq!(machine.groups, [&["X", "Y", "Z"][..], &["S"], &["M"]]);
+    let doors: Vec<Vec<&str>> = (machine.doors.iter())
+        .map(|d| d.axes.iter().map(|a| a.get_ref().as_str()).collect())
+        .collect();
+    assert_eq!(doors, [&["X", "Y", "Z", "S"][..], &["M"]]);
+    assert!(
+        machine.not_explored.is_empty(),
+        "{:?}",
+        machine.not_explored
+    );
+    assert_eq!(
+        machine.coverage(),
+        [
+            "Group NC: X, Y, Z.",
+            "Group S: S.",
+            "Group T: M.",
+            "Logic splc is that of the machine file: the safe PLC program."
+        ]
+    );
+    // The longest time of an axis of the group: 600 ms; the spindle has 2.5 s.
+    let channel = |axis: &str| run(&machine, "channel", axis).params["t_ss1"][0];
+    assert_eq!((channel("Z"), channel("S")), (200, 834));
+    let title = &run(&machine, "channel", "Z").title;
+    assert_eq!(title, "stop reaction of a group in the CC, group NC");
+    // The keylock is evaluated in the cycle of the PLC.
+    let keylock = machine.runs.iter().find(|r| r.system == "keylock");
+    assert_eq!(keylock.map(|r| r.cycle), Some(21_000));
+    // X and Y are alike, Z is not.
+    let limits = |axis: &str| run(&machine, "speed_limit", axis).axes.join(" ");
+    assert_eq!(
+        (limits("Y"), limits("Z")),
+        ("X Y".to_owned(), "Z".to_owned())
+    );
+}
+
+#[test]
+fn a_logic_takes_the_place_of_that_of_the_tables() {
+    let path = spec().join("../tests/machines/door-ignored.toml");
+    let machine = machine::load(&path, spec()).unwrap_or_else(|e| panic!("{e}"));
+    let run = machine
+        .runs
+        .iter()
+        .find(|r| r.system == "logic")
+        .expect("a run");
+    let fingerprint = |spec: Spec| {
+        let system = spec.system("logic", None).unwrap_or_else(|e| panic!("{e}"));
+        let logic = system.instances.iter().find(|i| i.machine == "splc");
+        (
+            logic.expect("the instance").rules.len(),
+            system.fingerprint(),
+        )
+    };
+    let tables = fingerprint(Spec::load(&run.file).unwrap_or_else(|e| panic!("{e}")));
+    let own = fingerprint(machine.spec(&run.file).unwrap_or_else(|e| panic!("{e}")));
+    assert!(
+        tables.0 > 0 && own.0 == 0,
+        "{} and {} rules",
+        tables.0,
+        own.0
+    );
+    assert_ne!(tables.1, own.1);
+    // That of the machining centre is the example of the tables with other comments.
+    let centre = centre();
+    let same = fingerprint(centre.spec(&run.file).unwrap_or_else(|e| panic!("{e}")));
+    assert_eq!(same, tables);
 }
 
 #[test]

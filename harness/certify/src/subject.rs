@@ -60,14 +60,14 @@ impl Subject {
                 let machine = machine::load(path, &families).map_err(unreadable)?;
                 let family = families.join(&machine.family).join("family.toml");
                 files.extend([path.to_owned(), family]);
-                let cycle = u64::try_from(machine.monitoring_cycle).ok();
                 let mut specs: BTreeMap<&Path, Spec> = BTreeMap::new();
                 for run in &machine.runs {
                     if !specs.contains_key(run.file.as_path()) {
-                        let spec = Spec::load(&run.file).map_err(unreadable)?;
+                        let spec = machine.spec(&run.file).map_err(unreadable)?;
                         files.extend(spec.files().map(PathBuf::from));
                         specs.insert(&run.file, spec);
                     }
+                    let cycle = u64::try_from(run.cycle).ok();
                     let bound = specs[run.file.as_path()].system(&run.system, cycle);
                     subject.add(run.title.clone(), bind(bound, &run.params, readings)?);
                 }

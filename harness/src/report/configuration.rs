@@ -31,12 +31,24 @@ pub(super) fn blocks(subject: &Subject) -> Vec<Block> {
             title => format!("Axis {}: {title}", axis.name),
         };
         let functions = match axis.functions.is_empty() {
-            true => "no safety function".to_owned(),
-            false => axis.functions.join(", "),
+            // What monitors an axis of a group follows from the group.
+            true if !machine.axis_groups.is_empty() => String::new(),
+            true => "; enabled: no safety function".to_owned(),
+            false => format!("; enabled: {}", axis.functions.join(", ")),
         };
-        let mut inside = vec![paragraph(format!("A {kind}; enabled: {functions}."))];
+        let mut inside = vec![paragraph(format!("A {kind}{functions}."))];
         inside.extend(settings(&axis.values));
         out.push(section(&title, &format!("axis-{}", n + 1), inside));
+    }
+    for (n, group) in machine.axis_groups.iter().enumerate() {
+        let title = match group.title.as_str() {
+            "" => format!("Axis group {}", group.name),
+            title => format!("Axis group {}: {title}", group.name),
+        };
+        let axes: Vec<&str> = group.axes.iter().map(|a| a.get_ref().as_str()).collect();
+        let mut inside = vec![paragraph(format!("Its axes: {}.", axes.join(", ")))];
+        inside.extend(settings(&group.values));
+        out.push(section(&title, &format!("group-{}", n + 1), inside));
     }
     for (n, door) in machine.doors.iter().enumerate() {
         let title = match door.title.as_str() {
@@ -53,26 +65,7 @@ pub(super) fn blocks(subject: &Subject) -> Vec<Block> {
 
 /// What is explored together, apart, or not at all.
 fn coverage(machine: &Machine) -> Vec<Vec<Inline>> {
-    let mut out: Vec<Vec<Inline>> = Vec::new();
-    for group in &machine.groups {
-        out.push(words(format!(
-            "Coupled, explored together: {}.",
-            group.join(", ")
-        )));
-    }
-    let coupled = |name: &str| machine.groups.iter().any(|g| g.iter().any(|m| m == name));
-    let alone: Vec<&str> = machine
-        .axes
-        .iter()
-        .map(|a| a.name.as_str())
-        .filter(|a| !coupled(a))
-        .collect();
-    if !alone.is_empty() {
-        out.push(words(format!(
-            "On its own, explored separately: {}.",
-            alone.join(", ")
-        )));
-    }
+    let mut out: Vec<Vec<Inline>> = machine.coverage().into_iter().map(words).collect();
     for item in &machine.not_explored {
         out.push(vec![
             Inline::Strong("Not explored: ".to_owned()),

@@ -23,21 +23,8 @@ pub fn text(subject: &Subject, checked: &[Checked], summaries: &[Summary]) -> St
     let mut out = String::new();
     headline(&mut out, subject, checked, summaries);
     if let Some(machine) = &subject.machine {
-        for group in &machine.groups {
-            let _ = writeln!(out, "Coupled, explored together: {}.", group.join(", "));
-        }
-        let alone: Vec<&str> = machine
-            .axes
-            .iter()
-            .map(|a| a.name.as_str())
-            .filter(|a| !machine.groups.iter().any(|g| g.iter().any(|m| m == a)))
-            .collect();
-        if !alone.is_empty() {
-            let _ = writeln!(
-                out,
-                "On its own, explored separately: {}.",
-                alone.join(", ")
-            );
+        for sentence in machine.coverage() {
+            let _ = writeln!(out, "{sentence}");
         }
         for item in &machine.not_explored {
             let _ = writeln!(out, "Not explored: {item}");

@@ -14,7 +14,7 @@ pub struct FamilyData {
     pub title: String,
     /// The functions that can be enabled for an axis.
     pub functions: Vec<Enabled>,
-    /// The parameters of the control, of an axis and of a door, in the order of the data.
+    /// The parameters of the control, of an axis, of a group and of a door, in the order of the data.
     pub parameters: Vec<Datum>,
 }
 
@@ -34,7 +34,7 @@ pub struct Enabled {
 pub struct Datum {
     /// Its name in a machine file.
     pub name: String,
-    /// Where it stands there: `control`, `axis` or `door`.
+    /// Where it stands there: `control`, `axis`, `group` or `door`.
     pub table: &'static str,
     /// The manual's names; empty for what is no machine datum.
     pub manual: String,
@@ -66,11 +66,14 @@ pub struct Allowed {
 pub fn load(folder: &Path) -> Result<FamilyData> {
     let family = family_file::load(folder)?;
     let tables = [
-        ("control", &family.control),
-        ("axis", &family.axis),
-        ("door", &family.door),
+        ("control", Some(&family.control)),
+        ("axis", Some(&family.axis)),
+        ("group", family.group.as_ref()),
+        ("door", Some(&family.door)),
     ];
-    let parameters = tables.into_iter().flat_map(|(table, params)| {
+    let tables = tables.into_iter();
+    let tables = tables.filter_map(|(table, params)| Some((table, params?)));
+    let parameters = tables.flat_map(|(table, params)| {
         let datum = move |(name, param): (&String, &Param)| datum(name, table, param);
         params.iter().map(datum)
     });
@@ -106,6 +109,7 @@ fn allowed(param: &Param, kind: AxisKind) -> Allowed {
     let limits = param.limits(kind);
     let range = match param.quantity {
         Quantity::Bool => "true, false".to_owned(),
+        Quantity::Groups => "names of groups".to_owned(),
         Quantity::Choice => {
             let names = param.choices.iter().map(|(name, _)| format!("\"{name}\""));
             names.collect::<Vec<_>>().join(", ")

@@ -37,6 +37,17 @@ impl Findings {
         self.list.push(one.label(label).help(help));
     }
 
+    /// The value of a result; its errors become findings.
+    pub(super) fn take<T>(&mut self, result: Result<T>) -> Option<T> {
+        match result {
+            Ok(value) => Some(value),
+            Err(Diagnostics(list)) => {
+                self.list.extend(list);
+                None
+            }
+        }
+    }
+
     /// Whether nothing is wrong so far.
     pub(super) fn none(&self) -> bool {
         self.list.is_empty()

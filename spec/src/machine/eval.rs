@@ -73,8 +73,8 @@ impl Evaluator<'_> {
             .and_then(|k| cells.get(k).copied())
             .ok_or_else(|| {
                 format!(
-                    "'{name}[{k}]' does not exist: the indices are 0 to {}",
-                    cells.len() - 1
+                    "'{name}[{k}]' does not exist: it has {} values, the first has the index 0",
+                    cells.len()
                 )
             })
     }
@@ -105,17 +105,35 @@ impl Evaluator<'_> {
         }
     }
 
+    /// `MIN`, `MAX` and `SUM`; a list that is named stands for all its values, of which there may be none.
+    fn over_all(&self, name: &str, args: &[Expr]) -> Result<i64, String> {
+        let mut cells = Vec::new();
+        for arg in args {
+            match &arg.kind {
+                Kind::Name(list) => cells.extend_from_slice(self.cells(list)?),
+                _ => cells.push(self.value(arg)?),
+            }
+        }
+        let mut all = cells.into_iter();
+        match name {
+            "MIN" => all.min().ok_or_else(nothing),
+            "MAX" => all.max().ok_or_else(nothing),
+            _ => all.try_fold(0_i64, i64::checked_add).ok_or_else(overflow),
+        }
+    }
+
     fn call(&self, name: &str, args: &[Expr]) -> Result<i64, String> {
         if let ("SEL", [g, a, b]) = (name, args) {
             return self.value(if self.value(g)? == 0 { a } else { b });
+        }
+        if let ("MIN" | "MAX" | "SUM", [_, ..]) = (name, args) {
+            return self.over_all(name, args);
         }
         let args = args
             .iter()
             .map(|a| self.value(a))
             .collect::<Result<Vec<i64>, String>>()?;
         match (name, args.as_slice()) {
-            ("MIN", [first, rest @ ..]) => Ok(rest.iter().fold(*first, |m, x| m.min(*x))),
-            ("MAX", [first, rest @ ..]) => Ok(rest.iter().fold(*first, |m, x| m.max(*x))),
             ("ABS", [x]) => x.checked_abs().ok_or_else(overflow),
             ("LIMIT", [lo, x, hi]) => Ok(*x.min(hi).max(lo)),
             ("CYCLES", [t]) if *t >= 0 && self.cycle > 0 => {
@@ -123,11 +141,16 @@ impl Evaluator<'_> {
             }
             ("CYCLES", [_]) => Err("CYCLES needs a time that is not negative".to_owned()),
             _ => Err(format!(
-                "no function '{name}' with {} arguments: MIN, MAX, ABS, LIMIT, SEL and CYCLES can be used",
+                "no function '{name}' with {} arguments: MIN, MAX, SUM, ABS, LIMIT, SEL and CYCLES can be used",
                 args.len()
             )),
         }
     }
+}
+
+fn nothing() -> String {
+    "the least or greatest of no values: name one that always exists too, as in MAX(0, list)"
+        .to_owned()
 }
 
 fn overflow() -> String {
@@ -144,6 +167,7 @@ mod tests {
             ("a".to_owned(), vec![7]),
             ("list".to_owned(), vec![1, 2, 3]),
             ("off".to_owned(), vec![0]),
+            ("none".to_owned(), vec![]),
         ]);
         let expr = parse_expr(text).map_err(|e| e.message)?;
         eval(&expr, &values, 12_000)
@@ -164,6 +188,10 @@ mod tests {
             ("CYCLES(0)", 0),
             ("LIMIT(0, a, 5)", 5),
             ("T#25ms", 25_000),
+            ("SUM(list)", 6),
+            ("SUM(none)", 0),
+            ("MAX(list, a) + MIN(list)", 8),
+            ("MAX(0, none)", 0),
         ] {
             assert_eq!(run(text), Ok(value), "{text}");
         }
@@ -175,6 +203,8 @@ mod tests {
             "unknown",
             "list",
             "list[3]",
+            "none[0]",
+            "MAX(none)",
             "list[-1]",
             "a / off",
             "9223372036854775807 + a",

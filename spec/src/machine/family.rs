@@ -22,17 +22,61 @@ pub(super) struct Family {
     pub source: Arc<str>,
     pub title: String,
     pub max_axes: usize,
+    /// The greatest number of axis groups that a machine file may declare.
+    pub max_groups: usize,
     pub monitoring_cycle: Formula,
-    /// TRUE for an axis whose stops act on every axis of the machine.
-    pub coupled_to_all: Formula,
+    /// TRUE for an axis whose stops act on every axis of the machine; none: there is no such axis.
+    pub coupled_to_all: Option<Formula>,
     pub functions: Vec<Function>,
     pub control: IndexMap<String, Param>,
     pub axis: IndexMap<String, Param>,
+    /// Parameters of an axis group. With them a machine file declares its groups, and a door names groups in place of axes.
+    pub group: Option<IndexMap<String, Param>>,
     pub door: IndexMap<String, Param>,
     /// Named expressions over the values of an axis, in order.
     pub lets: Vec<(String, Formula)>,
+    /// Named expressions over the values of a group and of what belongs to it, in order.
+    pub group_lets: Vec<(String, Formula)>,
     pub rules: Vec<Rule>,
     pub explore: Vec<Explore>,
+    /// The names that expressions may read.
+    pub known: Known,
+    /// Machines of the tables that a machine file may replace by its own `[logic]`.
+    pub logic: IndexMap<String, Slot>,
+}
+
+/// The names that expressions of each scope may read.
+#[derive(Debug, Default)]
+pub(super) struct Known {
+    pub control: Vec<String>,
+    pub axis: Vec<String>,
+    /// A door and one axis behind it.
+    pub door: Vec<String>,
+    /// A group, a door with everything behind it, or the machine.
+    pub whole: Vec<String>,
+    /// Whether machine files declare groups.
+    pub groups: bool,
+}
+
+impl Known {
+    /// The names for what is explored.
+    pub fn of_explored(&self, each: Scope, members: usize) -> &[String] {
+        match each {
+            Scope::Axis => &self.axis,
+            Scope::Group if members > 0 => &self.axis,
+            _ => &self.whole,
+        }
+    }
+}
+
+/// A machine of the tables that a machine file may replace.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Slot {
+    /// The specification file that declares it.
+    pub file: String,
+    /// What it is, in a few words.
+    pub text: String,
 }
 
 /// A safety function that can be enabled for an axis.
@@ -62,12 +106,16 @@ pub(super) enum Quantity {
     Grid,
     Pitch,
     Speed,
+    /// A speed in revolutions, whatever the kind of axis.
+    Rotation,
     Time,
     Percent,
     Frequency,
     Count,
     Choice,
     Bool,
+    /// Groups that come before this one, by name; inside a bit for each, in the order of the machine file.
+    Groups,
 }
 
 impl Quantity {
@@ -79,16 +127,16 @@ impl Quantity {
             (Self::Grid, _) => Dimension::Grid,
             (Self::Pitch, _) => Dimension::Pitch,
             (Self::Speed, AxisKind::Linear) => Dimension::Speed,
-            (Self::Speed, AxisKind::Rotary) => Dimension::Rotation,
+            (Self::Speed, AxisKind::Rotary) | (Self::Rotation, _) => Dimension::Rotation,
             (Self::Time, _) => Dimension::Time,
             (Self::Percent, _) => Dimension::Percent,
             (Self::Frequency, _) => Dimension::Frequency,
-            (Self::Count | Self::Choice | Self::Bool, _) => Dimension::Count,
+            (Self::Count | Self::Choice | Self::Bool | Self::Groups, _) => Dimension::Count,
         }
     }
 }
 
-/// A parameter of the control, an axis or a door.
+/// A parameter of the control, an axis, a group or a door.
 #[derive(Debug)]
 pub(super) struct Param {
     pub quantity: Quantity,
@@ -103,6 +151,8 @@ pub(super) struct Param {
     /// What the values of an array are, for messages: `SG1 to SG4`.
     pub elements: String,
     pub choices: Vec<(String, i64)>,
+    /// The kinds of axes that have it, as a machine file names them; empty: all.
+    pub kinds: Vec<String>,
     pub linear: Limits,
     pub rotary: Limits,
 }
@@ -123,6 +173,11 @@ impl Param {
         }
     }
 
+    /// Whether an axis of the kind with this name has it; what is no axis has no kind.
+    pub fn is_of(&self, kind: &str) -> bool {
+        kind.is_empty() || self.kinds.is_empty() || self.kinds.iter().any(|k| k == kind)
+    }
+
     /// The value as a user writes it.
     pub fn show(&self, value: i64, kind: AxisKind) -> String {
         match self.quantity {
@@ -132,6 +187,7 @@ impl Param {
                 .find(|(_, code)| *code == value)
                 .map_or_else(|| value.to_string(), |(name, _)| format!("\"{name}\"")),
             Quantity::Bool => (value != 0).to_string(),
+            Quantity::Groups if value == 0 => "none".to_owned(),
             _ => self.quantity.dimension(kind).show(value),
         }
     }
@@ -152,6 +208,7 @@ pub(super) enum Scope {
     Axis,
     Door,
     Group,
+    Machine,
 }
 
 /// A plausibility rule: `when` must not hold.
@@ -169,7 +226,7 @@ pub(super) struct Rule {
     pub fix: String,
 }
 
-/// A system to explore for an axis or a group of coupled axes.
+/// A system to explore for an axis, a group of axes, a door or the machine.
 #[derive(Debug)]
 pub(super) struct Explore {
     pub file: String,
@@ -179,8 +236,10 @@ pub(super) struct Explore {
     pub text: String,
     /// Where the system is coarser than the axis beside its times; may be empty.
     pub note: String,
-    /// For a group: how many axes the system has.
+    /// For a group: how many axes the system has, each with values of its own; 0: any, the group has one value of each.
     pub members: usize,
+    /// The length of a cycle of the system, where it is not the monitoring cycle.
+    pub cycle: Option<Formula>,
     pub params: Vec<Binding>,
 }
 

@@ -11,7 +11,7 @@ use super::AxisKind;
 use super::document::Findings;
 use super::eval;
 use super::family::{
-    Binding, Explore, Family, Formula, Function, Limits, Param, Quantity, Rule, Scope,
+    Binding, Explore, Family, Formula, Function, Known, Limits, Param, Quantity, Rule, Scope, Slot,
 };
 use super::value::{Raw, number};
 use crate::diag::Result;
@@ -24,14 +24,25 @@ struct FamilyFile {
     name: Spanned<String>,
     title: String,
     max_axes: usize,
+    #[serde(default)]
+    max_groups: usize,
     monitoring_cycle: Spanned<String>,
-    coupled_to_all: Spanned<String>,
+    coupled_to_all: Option<Spanned<String>>,
+    #[serde(default)]
     function: Vec<Function>,
+    #[serde(default)]
     control: IndexMap<String, ParamData>,
     axis: IndexMap<String, ParamData>,
+    group: Option<IndexMap<String, ParamData>>,
+    #[serde(default)]
     door: IndexMap<String, ParamData>,
     #[serde(default, rename = "let")]
     lets: IndexMap<String, Spanned<String>>,
+    #[serde(default)]
+    group_let: IndexMap<String, Spanned<String>>,
+    #[serde(default)]
+    logic: IndexMap<String, Slot>,
+    #[serde(default)]
     plausibility: Vec<RuleData>,
     explore: Vec<ExploreData>,
 }
@@ -55,6 +66,8 @@ struct ParamData {
     rotary: Option<LimitsData>,
     #[serde(default)]
     choice: IndexMap<String, i64>,
+    #[serde(default)]
+    kinds: Vec<String>,
     id: Vec<String>,
 }
 
@@ -97,9 +110,20 @@ pub(super) struct ExploreData {
     member: IndexMap<Spanned<String>, Vec<String>>,
     #[serde(default)]
     members: usize,
+    cycle: Option<Spanned<String>>,
     #[serde(default)]
     note: String,
 }
+
+/// What the expressions about an axis may read beside parameters, functions and lets.
+const OF_AXIS: [&str; 6] = [
+    "kind",
+    "LINEAR",
+    "ROTARY",
+    "spindle",
+    "enabled_any",
+    "monitoring_cycle",
+];
 
 /// The names of the families under `root`, sorted: folders with a `family.toml`.
 pub(super) fn families(root: &Path) -> Vec<String> {
@@ -129,13 +153,6 @@ pub(super) fn load(folder: &Path) -> Result<Family> {
         Some(family) => check.findings.finish(family),
         None => Err(check.findings.into_diagnostics()),
     }
-}
-
-/// The names that expressions of each scope may read.
-struct Known {
-    control: Vec<String>,
-    axis: Vec<String>,
-    door: Vec<String>,
 }
 
 /// Reads one file of a family's data and collects what is wrong in it.
@@ -171,59 +188,72 @@ impl Check {
         }
         let control = self.params(data.control);
         let axis = self.params(data.axis);
+        let group = data.group.map(|group| self.params(group));
         let door = self.params(data.door);
         let owned = |params: &IndexMap<String, Param>| params.keys().cloned().collect::<Vec<_>>();
         let mut known = Known {
             control: owned(&control),
-            axis: [
-                "kind",
-                "LINEAR",
-                "ROTARY",
-                "enabled_any",
-                "monitoring_cycle",
-            ]
-            .map(str::to_owned)
-            .to_vec(),
-            door: Vec::new(),
+            axis: OF_AXIS.map(str::to_owned).to_vec(),
+            groups: group.is_some(),
+            ..Known::default()
         };
         let monitoring_cycle = self.formula(data.monitoring_cycle, &known.control);
         known.axis.extend(owned(&control));
         known.axis.extend(owned(&axis));
-        known
-            .axis
-            .extend(data.function.iter().map(|f| f.variable.clone()));
-        let mut lets = Vec::new();
-        for (name, text) in data.lets {
-            let formula = self.formula(text, &known.axis);
-            known.axis.push(name.clone());
-            lets.extend(formula.map(|f| (name, f)));
-        }
-        let coupled_to_all = self.formula(data.coupled_to_all, &known.axis);
+        let functions = data.function.iter();
+        known.axis.extend(functions.map(|f| f.variable.clone()));
+        let lets = self.lets(data.lets, &mut known.axis);
+        let coupled_to_all = match data.coupled_to_all {
+            Some(text) => Some(self.formula(text, &known.axis)?),
+            None => None,
+        };
         known.door = known.axis.clone();
         known.door.extend(owned(&door));
+        known.whole = known.door.clone();
+        known.whole.extend(group.iter().flat_map(owned));
+        let group_lets = self.lets(data.group_let, &mut known.whole);
         known.axis.push("k".to_owned());
+        known.whole.push("k".to_owned());
         let rules = data.plausibility.into_iter();
         let rules = rules.filter_map(|r| self.rule(r, &known)).collect();
         let explore = data.explore.into_iter();
-        let explore = explore
-            .filter_map(|e| self.explore(e, &known.axis))
-            .collect();
+        let explore = explore.filter_map(|e| self.explore(e, &known)).collect();
         Some(Family {
             folder: folder.to_owned(),
             file: file.to_owned(),
             source: source.clone(),
             title: data.title,
             max_axes: data.max_axes,
+            max_groups: data.max_groups,
             monitoring_cycle: monitoring_cycle?,
-            coupled_to_all: coupled_to_all?,
+            coupled_to_all,
             functions: data.function,
             control,
             axis,
+            group,
             door,
             lets,
+            group_lets,
             rules,
             explore,
+            known,
+            logic: data.logic,
         })
+    }
+
+    /// Named expressions, each of which may read those before it.
+    fn lets(
+        &mut self,
+        data: IndexMap<String, Spanned<String>>,
+        known: &mut Vec<String>,
+    ) -> Vec<(String, Formula)> {
+        let mut lets = Vec::new();
+        for (name, text) in data {
+            let formula = self.formula(text, known);
+            known.push(name.clone());
+            lets.extend(formula.map(|f| (name, f)));
+        }
+        lets
     }
 
     fn params(&mut self, data: IndexMap<String, ParamData>) -> IndexMap<String, Param> {
@@ -249,6 +279,7 @@ impl Check {
             count: data.count,
             elements: data.elements,
             choices: data.choice.into_iter().collect(),
+            kinds: data.kinds,
             linear: Limits::default(),
             rotary: Limits::default(),
         };
@@ -265,6 +296,7 @@ impl Check {
         let codes = param.choices.iter().map(|(_, code)| *code);
         let (min, max) = match (param.quantity, &data.range) {
             (Quantity::Bool, None) => (0, 1),
+            (Quantity::Groups, None) => (0, i64::MAX),
             (Quantity::Choice, None) => {
                 (codes.clone().min().unwrap_or(0), codes.max().unwrap_or(0))
             }
@@ -334,12 +366,7 @@ impl Check {
             Scope::Control => &known.control,
             Scope::Axis => &known.axis,
             Scope::Door => &known.door,
-            Scope::Group => {
-                let help = "write of = \"control\", \"axis\" or \"door\"";
-                self.findings
-                    .add(data.when.span(), "no rules are judged for groups", "", help);
-                return None;
-            }
+            Scope::Group | Scope::Machine => &known.whole,
         };
         Some(Rule {
             of: data.of,
@@ -357,17 +384,23 @@ impl Check {
         })
     }
 
-    /// What one entry of `[[explore]]` says; its expressions may read `known`.
-    pub fn explore(&mut self, data: ExploreData, known: &[String]) -> Option<Explore> {
-        if matches!(data.each, Scope::Control | Scope::Door) {
-            let help = "write each = \"axis\" or \"group\"";
-            self.findings.add(
-                data.when.span(),
-                "systems are explored for axes and groups",
-                "",
-                help,
-            );
+    /// What one entry of `[[explore]]` says.
+    pub fn explore(&mut self, data: ExploreData, known: &Known) -> Option<Explore> {
+        if data.each == Scope::Control {
+            let help = "write each = \"axis\", \"group\", \"door\" or \"machine\"";
+            let message = "no systems are explored for the control alone";
+            self.findings.add(data.when.span(), message, "", help);
         }
+        if data.each == Scope::Group && data.members == 0 && !known.groups {
+            let help = "write members = 3, or declare the parameters of a group";
+            let message = "how many axes has the system?";
+            self.findings.add(data.when.span(), message, "", help);
+        }
+        let known = known.of_explored(data.each, data.members);
+        let cycle = match data.cycle {
+            Some(text) => Some(self.formula(text, known)?),
+            None => None,
+        };
         let mut params = Vec::new();
         for (name, text) in data.param {
             params.push(Binding::Value(name, self.formula(text, known)?));
@@ -394,6 +427,7 @@ impl Check {
             text: data.text,
             note: data.note,
             members: data.members,
+            cycle,
             params,
         })
     }

@@ -175,13 +175,6 @@ fn common(machine: &Machine) -> Values {
     values
 }
 
-impl Door {
-    /// Whether the axis can be reached through it.
-    pub fn has(&self, axis: &str) -> bool {
-        self.axes.iter().any(|name| name.get_ref() == axis)
-    }
-}
-
 impl<'a> Ground<'a> {
     fn behind(mut self, door: &'a Door) -> Self {
         insert(&mut self.values, &door.values);
@@ -213,6 +206,15 @@ impl<'a> Ground<'a> {
     /// It has no value here, which is a fault of the family's data.
     pub fn value(&self, file: &DataFile, formula: &Formula) -> Result<i64> {
         self.eval(file, &formula.expr, formula.text.span())
+    }
+
+    /// [`Self::value`] of a formula that may be missing.
+    ///
+    /// # Errors
+    /// As [`Self::value`].
+    pub fn optional(&self, file: &DataFile, formula: &Option<Formula>) -> Result<Option<i64>> {
+        let formula = formula.as_ref();
+        formula.map(|f| self.value(file, f)).transpose()
     }
 
     /// [`Self::value`] of a part of the text at `span`.

@@ -14,14 +14,17 @@
 //! ```
 
 pub mod acceptance;
+mod coverage;
 pub mod data;
 mod document;
+mod entry;
 mod eval;
 mod family;
 mod family_file;
 #[cfg(test)]
 mod family_tests;
 mod ground;
+mod logic;
 mod plausible;
 pub mod reaction;
 mod read;
@@ -29,6 +32,7 @@ mod runs;
 mod template;
 pub mod units;
 mod value;
+mod whole;
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -41,7 +45,9 @@ use toml::de::{DeTable, DeValue};
 use crate::diag::{Result, nearest};
 use document::Findings;
 use family::{Family, Param};
+use logic::Logic;
 use plausible::Judged;
+use runs::Parts;
 
 /// A byte range of the machine file.
 pub type Place = Range<usize>;
@@ -68,6 +74,8 @@ pub struct Machine {
     pub axes: Vec<Axis>,
     /// Axes whose stops act on one another, by name; an axis on its own is in none. Each in the order of the file.
     pub groups: Vec<Vec<String>>,
+    /// The axis groups that the file declares, in its order; none in a family whose groups follow from the axes.
+    pub axis_groups: Vec<Group>,
     /// Its guard doors, in the order of the file.
     pub doors: Vec<Door>,
     /// What has to be explored to cover the machine.
@@ -95,6 +103,8 @@ pub struct Axis {
     pub title: String,
     /// What it moves.
     pub kind: AxisKind,
+    /// Whether it is a spindle.
+    pub spindle: bool,
     /// The safety functions enabled for it, in the order of the file.
     pub functions: Vec<String>,
     /// A value for every parameter of an axis.
@@ -103,6 +113,20 @@ pub struct Axis {
     pub interpolates_with: Vec<Spanned<String>>,
     place: Place,
     functions_place: Option<Place>,
+}
+
+/// An axis group: axes that are released and stopped together.
+#[derive(Debug, Clone)]
+pub struct Group {
+    /// Its name in the file.
+    pub name: String,
+    /// One line about it; may be empty.
+    pub title: String,
+    /// Its axes.
+    pub axes: Vec<Spanned<String>>,
+    /// A value for every parameter of a group.
+    pub values: Settings,
+    place: Place,
 }
 
 /// A guard door.
@@ -114,6 +138,8 @@ pub struct Door {
     pub title: String,
     /// The axes a person can reach through it.
     pub axes: Vec<Spanned<String>>,
+    /// The groups that it names in their place, in a family with axis groups.
+    pub groups: Vec<Spanned<String>>,
     /// A value for every parameter of a door.
     pub values: Settings,
     place: Place,
@@ -141,7 +167,9 @@ pub struct Run {
     pub file: PathBuf,
     /// The system in that file.
     pub system: String,
-    /// Values of the system's parameters; one cell for a scalar. Times in cycles of the monitoring cycle, or in steps.
+    /// The length of one cycle of the system in microseconds: the monitoring cycle, where the family says nothing else.
+    pub cycle: i64,
+    /// Values of the system's parameters; one cell for a scalar. Times in cycles, or in steps.
     pub params: BTreeMap<String, Vec<i64>>,
     /// Where the run is coarser than the machine: what was rounded, scaled or replaced by its order. Empty: exact.
     pub abstractions: Vec<String>,
@@ -152,6 +180,7 @@ pub struct Run {
 struct Basis {
     family: Family,
     judged: Judged,
+    logic: Logic,
 }
 
 /// A parameter with its value, for readers.
@@ -170,6 +199,14 @@ pub struct Shown {
 }
 
 impl Machine {
+    fn parts(&self) -> Parts<'_> {
+        Parts {
+            axes: &self.axes,
+            groups: &self.axis_groups,
+            doors: &self.doors,
+        }
+    }
+
     /// The folder of the family's data.
     pub fn family_folder(&self) -> &Path {
         &self.basis.family.folder
@@ -188,6 +225,12 @@ impl Machine {
     /// The values of a door, in the order of the family's data.
     pub fn door_shown(&self, door: &Door) -> Vec<Shown> {
         shown(&self.basis.family.door, &door.values)
+    }
+
+    /// The values of a group, in the order of the family's data.
+    pub fn group_shown(&self, group: &Group) -> Vec<Shown> {
+        let params = self.basis.family.group.as_ref();
+        params.map_or_else(Vec::new, |params| shown(params, &group.values))
     }
 
     /// What a function of an axis is, in words.
@@ -210,6 +253,20 @@ fn shown(params: &indexmap::IndexMap<String, Param>, settings: &Settings) -> Vec
         })
     };
     params.iter().filter_map(entry).collect()
+}
+
+impl Group {
+    /// Whether the axis belongs to it.
+    pub fn has(&self, axis: &str) -> bool {
+        self.axes.iter().any(|name| name.get_ref() == axis)
+    }
+}
+
+impl Door {
+    /// Whether the axis can be reached through it.
+    pub fn has(&self, axis: &str) -> bool {
+        self.axes.iter().any(|name| name.get_ref() == axis)
+    }
 }
 
 impl Setting {
@@ -281,12 +338,24 @@ fn read_source(path: &Path, source: &Arc<str>, families: &Path) -> Result<Machin
         return Err(findings.into_diagnostics());
     };
     let family = family_file::load(&families.join(&name))?;
+    let logic = match findings.none() && !family.logic.is_empty() {
+        true => Logic::read(&path.display().to_string(), source, &family),
+        false => Ok(Logic::default()),
+    };
     let draft = read::read(&family, &table, &mut findings);
     let judged = plausible::judge(&family, &draft, &mut findings)?;
-    let (Some(judged), Some(control), true) = (judged, draft.control, findings.none()) else {
+    let logic = findings.take(logic);
+    let (Some(judged), Some(control), Some(logic), true) =
+        (judged, draft.control, logic, findings.none())
+    else {
         return Err(findings.into_diagnostics());
     };
-    let plan = runs::plan(&family, &family.explore, &draft.axes, &judged)?;
+    let parts = Parts {
+        axes: &draft.axes,
+        groups: &draft.groups,
+        doors: &draft.doors,
+    };
+    let plan = runs::plan(&family, &family.explore, parts, &judged)?;
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     Ok(Machine {
         name: draft.name.unwrap_or_else(|| stem.into_owned()),
@@ -294,12 +363,17 @@ fn read_source(path: &Path, source: &Arc<str>, families: &Path) -> Result<Machin
         family: name,
         family_title: family.title.clone(),
         monitoring_cycle: judged.cycle,
-        not_explored: runs::not_explored(&family, &draft.axes, &draft.doors, &plan.groups),
+        not_explored: coverage::not_explored(&family, parts, &plan.groups),
         groups: plan.groups,
         runs: plan.runs,
-        basis: Arc::new(Basis { family, judged }),
+        basis: Arc::new(Basis {
+            family,
+            judged,
+            logic,
+        }),
         control,
         axes: draft.axes,
+        axis_groups: draft.groups,
         doors: draft.doors,
     })
 }

@@ -1,10 +1,11 @@
-//! The values of each axis under the names that expressions know, and the plausibility rules over them.
+//! The values of each axis, group and door under the names that expressions know, and the plausibility rules over them.
 
 use super::document::Findings;
 use super::eval::{Values, eval};
 use super::family::{Family, Formula, Rule, Scope};
 use super::read::Draft;
-use super::{Axis, AxisKind, Door, Place, Settings};
+use super::whole::Whole;
+use super::{Axis, AxisKind, Door, Group, Place, Settings};
 use crate::diag::{Diagnostic, Result};
 use crate::lang::ast::{Expr, Kind};
 
@@ -15,6 +16,12 @@ pub(super) struct Judged {
     pub cycle: i64,
     /// The values of each axis, in the order of the draft.
     pub axes: Vec<Values>,
+    /// The values of each group, with those of its axes and of the doors to it as lists.
+    pub groups: Vec<Values>,
+    /// The values of each door, with those of the axes and groups behind it as lists.
+    pub doors: Vec<Values>,
+    /// The values of the control, with those of all axes, groups and doors as lists.
+    pub machine: Values,
 }
 
 /// Evaluates `formula`. An evaluation that fails is a fault of the family's data and says so.
@@ -68,6 +75,20 @@ pub(super) fn judge(
         judge.rules(Scope::Axis, &mut values, &subject)?;
         axes.push(values);
     }
+    let whole = Whole::new(family, draft, &axes, &control, cycle);
+    let mut groups = Vec::new();
+    // Without all of its axes, values of a group would mislead; what is wrong with the axis is told.
+    let read = |axis: &toml::Spanned<String>| draft.axes.iter().any(|a| a.name == *axis.get_ref());
+    for group in &draft.groups {
+        if !group.axes.iter().all(read) {
+            groups.push(Values::new());
+            continue;
+        }
+        let mut values = whole.group(group)?;
+        let subject = Subject::of_group(group, settings);
+        judge.rules(Scope::Group, &mut values, &subject)?;
+        groups.push(values);
+    }
     for door in &draft.doors {
         for (axis, values) in draft.axes.iter().zip(&axes) {
             if door.axes.iter().any(|name| *name.get_ref() == axis.name) {
@@ -77,7 +98,20 @@ pub(super) fn judge(
             }
         }
     }
-    Ok(Some(Judged { cycle, axes }))
+    let doors = draft.doors.iter().map(|door| whole.door(door, &groups));
+    let doors = doors.collect();
+    let mut machine = whole.machine(&groups);
+    if judge.findings.none() {
+        let subject = Subject::new("the machine", &[settings]);
+        judge.rules(Scope::Machine, &mut machine, &subject)?;
+    }
+    Ok(Some(Judged {
+        cycle,
+        axes,
+        groups,
+        doors,
+        machine,
+    }))
 }
 
 pub(super) fn insert(values: &mut Values, settings: &Settings) {
@@ -112,6 +146,7 @@ fn axis_values(family: &Family, axis: &Axis, control: &Values, cycle: i64) -> Re
         ("LINEAR", 0),
         ("ROTARY", 1),
         ("kind", kind),
+        ("spindle", i64::from(axis.spindle)),
         ("enabled_any", i64::from(!axis.functions.is_empty())),
         ("monitoring_cycle", cycle),
     ];
@@ -146,6 +181,13 @@ impl<'a> Subject<'a> {
             place: Some(axis.place.clone()),
             functions: axis.functions_place.clone(),
             ..Self::new(&format!("axis {}", axis.name), &[&axis.values, control])
+        }
+    }
+
+    fn of_group(group: &'a Group, control: &'a Settings) -> Self {
+        Self {
+            place: Some(group.place.clone()),
+            ..Self::new(&format!("group {}", group.name), &[&group.values, control])
         }
     }
 

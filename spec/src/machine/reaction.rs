@@ -9,9 +9,10 @@ use indexmap::IndexMap;
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::family::{Explore, Formula};
+use super::entry::{Premise, Reader};
+use super::family::{Explore, Family, Formula};
 use super::family_file::{Check, ExploreData};
-use super::ground::{About, DataFile, Ground, grounds};
+use super::ground::{About, DataFile, Ground};
 use super::runs;
 use super::template::{Template, Words};
 use super::units::Dimension;
@@ -182,12 +183,9 @@ struct ChainData {
 
 /// A chain of the data, checked.
 struct Plan {
-    of: About,
-    each: Vec<i64>,
+    premise: Premise,
     name: Template,
     title: Template,
-    when: Formula,
-    lets: Vec<(String, Formula)>,
     speed: Formula,
     speed_text: Template,
     steps: Vec<StepPlan>,
@@ -215,34 +213,24 @@ impl Machine {
         let file = DataFile::read(&family.folder, "reaction-chain.toml", "reaction chains")?;
         let data: FileData = file.parse()?;
         let mut check = file.check();
-        let explore: Vec<Explore> = {
-            let known = About::Axis.known(family);
-            let entries = data.explore.into_iter();
-            entries.filter_map(|e| check.explore(e, &known)).collect()
-        };
+        let explore = data.explore.into_iter();
+        let explore: Vec<Explore> = explore
+            .filter_map(|e| check.explore(e, &family.known))
+            .collect();
         let words: Vec<_> = data.words.into_iter().collect();
         let mut plans = Vec::new();
         for chain in data.chain {
-            let known = chain.of.known(family);
-            plans.extend(plan(
-                &mut check,
-                chain,
-                known,
-                &words,
-                &data.group,
-                data.stages.len(),
-            ));
+            let stages = data.stages.len();
+            plans.extend(plan(&mut check, chain, family, &words, &data.group, stages));
         }
         check.findings.finish(())?;
         let mut chains = Vec::new();
         for plan in &plans {
-            for ground in grounds(self, plan.of) {
-                for k in &plan.each {
-                    chains.extend(plan.chain(&file, ground.at(*k))?);
-                }
+            for ground in plan.premise.grounds(&file, self)? {
+                chains.push(plan.chain(&file, &ground)?);
             }
         }
-        let runs = runs::plan(family, &explore, &self.axes, &self.basis.judged)?.runs;
+        let runs = runs::plan(family, &explore, self.parts(), &self.basis.judged)?.runs;
         Ok(Reactions {
             source: data.source,
             notes: data.notes,
@@ -259,22 +247,20 @@ impl Machine {
 fn plan(
     check: &mut Check,
     data: ChainData,
-    mut known: Vec<String>,
+    family: &Family,
     words: &[(String, Vec<String>)],
     groups: &IndexMap<String, Vec<StepData>>,
     stages: usize,
 ) -> Option<Plan> {
-    let when = check.formula(data.when, &known)?;
-    let mut lets = Vec::new();
-    for (name, text) in data.lets {
-        let formula = check.formula(text, &known)?;
-        known.push(name.clone());
-        lets.push((name, formula));
-    }
+    let (premise, known) = Premise::read(check, family, data.of, data.each, data.when, data.lets)?;
     let names = Words {
         about: data.of,
         known: &known,
         words,
+    };
+    let mut reader = Reader {
+        check,
+        names: &names,
     };
     let mut steps = Vec::new();
     for name in data.groups {
@@ -282,61 +268,43 @@ fn plan(
             let message = format!("there is no group '{}'", name.get_ref());
             let known: Vec<&str> = groups.keys().map(String::as_str).collect();
             let help = format!("groups of this file: {}", known.join(", "));
-            check.findings.add(name.span(), message, "this group", help);
+            let findings = &mut reader.check.findings;
+            findings.add(name.span(), message, "this group", help);
             return None;
         };
         for step in list {
-            steps.push(step_plan(check, step.clone(), &names, stages)?);
+            steps.push(step_plan(&mut reader, step.clone(), stages)?);
         }
     }
     Some(Plan {
-        of: data.of,
-        each: if data.each.is_empty() {
-            vec![0]
-        } else {
-            data.each
-        },
-        name: Template::parse(data.name, &names, &mut check.findings)?,
-        title: Template::parse(data.title, &names, &mut check.findings)?,
-        speed_text: Template::parse(data.speed_text, &names, &mut check.findings)?,
-        speed: check.formula(data.speed, &known)?,
-        when,
-        lets,
+        name: reader.text(data.name)?,
+        title: reader.text(data.title)?,
+        speed_text: reader.text(data.speed_text)?,
+        speed: reader.check.formula(data.speed, &known)?,
+        premise,
         steps,
     })
 }
 
-fn step_plan(
-    check: &mut Check,
-    data: StepData,
-    names: &Words<'_>,
-    stages: usize,
-) -> Option<StepPlan> {
+fn step_plan(reader: &mut Reader<'_>, data: StepData, stages: usize) -> Option<StepPlan> {
+    let findings = &mut reader.check.findings;
     if *data.stage.get_ref() >= stages {
         let help = format!("stages are numbered from 0 to {}", stages.saturating_sub(1));
         let message = format!("there is no stage {}", data.stage.get_ref());
-        check
-            .findings
-            .add(data.stage.span(), message, "this stage", help);
+        findings.add(data.stage.span(), message, "this stage", help);
     }
     if data.time.is_none() != (data.basis == Basis::Measured) {
         let help = "what is measured has no formula, everything else needs one: time = \"...\"";
         let message = "a summand has either a time or the basis \"measured\"";
-        check
-            .findings
-            .add(data.text.span(), message, "this summand", help);
+        findings.add(data.text.span(), message, "this summand", help);
     }
-    let mut optional = |text: Option<Spanned<String>>| match text {
-        Some(text) => check.formula(text, names.known).map(Some),
-        None => Some(None),
-    };
     Some(StepPlan {
         stage: data.stage.into_inner(),
-        when: optional(data.when)?,
-        time: optional(data.time)?,
-        length: optional(data.length)?,
-        margin: optional(data.margin)?,
-        text: Template::parse(data.text, names, &mut check.findings)?,
+        when: reader.formula(data.when)?,
+        time: reader.formula(data.time)?,
+        length: reader.formula(data.length)?,
+        margin: reader.formula(data.margin)?,
+        text: reader.text(data.text)?,
         basis: data.basis,
         id: data.id,
         property: data.property,
@@ -344,37 +312,27 @@ fn step_plan(
 }
 
 impl Plan {
-    /// The chain for one subject; none where it does not apply.
-    fn chain(&self, file: &DataFile, mut ground: Ground<'_>) -> Result<Option<Chain>> {
-        if ground.value(file, &self.when)? == 0 {
-            return Ok(None);
-        }
-        for (name, formula) in &self.lets {
-            let value = ground.value(file, formula)?;
-            ground.set(name, value);
-        }
+    /// The chain for one subject.
+    fn chain(&self, file: &DataFile, ground: &Ground<'_>) -> Result<Chain> {
         let mut steps = Vec::new();
         for step in &self.steps {
-            steps.extend(step.step(file, &ground)?);
+            steps.extend(step.step(file, ground)?);
         }
-        Ok(Some(Chain {
-            name: self.name.fill(file, &ground)?,
-            title: self.title.fill(file, &ground)?,
+        Ok(Chain {
+            name: self.name.fill(file, ground)?,
+            title: self.title.fill(file, ground)?,
             axis: ground.title("axis").unwrap_or_default(),
             kind: ground.kind(),
             speed: ground.value(file, &self.speed)?,
-            speed_text: self.speed_text.fill(file, &ground)?,
+            speed_text: self.speed_text.fill(file, ground)?,
             steps,
-        }))
+        })
     }
 }
 
 impl StepPlan {
     fn step(&self, file: &DataFile, ground: &Ground<'_>) -> Result<Option<Step>> {
-        let value = |formula: &Option<Formula>| match formula {
-            Some(formula) => ground.value(file, formula).map(Some),
-            None => Ok(None),
-        };
+        let value = |formula: &Option<Formula>| ground.optional(file, formula);
         if value(&self.when)? == Some(0) {
             return Ok(None);
         }

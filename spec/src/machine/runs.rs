@@ -1,15 +1,23 @@
-//! From the values of the axes to the explorations that cover the machine.
+//! From the values of the axes, groups and doors to the explorations that cover the machine.
 
 use std::collections::BTreeMap;
 
 use super::eval::Values;
 use super::family::{Binding, Explore, Family, Scope};
 use super::plausible::{Judged, evaluate};
-use super::{Axis, Door, Run};
+use super::{Axis, Door, Group, Run};
 use crate::diag::{Diagnostic, Diagnostics, Result};
 
 /// A scaled system has at most this many steps in its longest time.
 const STEPS: i64 = 2;
+
+/// What a machine consists of.
+#[derive(Clone, Copy)]
+pub(super) struct Parts<'a> {
+    pub axes: &'a [Axis],
+    pub groups: &'a [Group],
+    pub doors: &'a [Door],
+}
 
 /// The groups of coupled axes and the runs.
 pub(super) struct Plan {
@@ -24,44 +32,114 @@ pub(super) struct Plan {
 pub(super) fn plan(
     family: &Family,
     explored: &[Explore],
-    axes: &[Axis],
+    parts: Parts<'_>,
     judged: &Judged,
 ) -> Result<Plan> {
-    let groups = groups(family, axes, judged)?;
-    let singles: Vec<Vec<usize>> = (0..axes.len()).map(|k| vec![k]).collect();
-    let mut runs: Vec<Run> = Vec::new();
+    let coupled = coupled(family, parts.axes, judged)?;
+    let mut planned: Vec<Planned> = Vec::new();
     for explore in explored {
         let scaled = is_scaled(family, explore)?;
-        let (candidates, size) = match explore.each {
-            Scope::Group => (&groups, explore.members),
-            _ => (&singles, 1),
-        };
-        for candidate in candidates {
-            let members = members(family, explore, axes, judged, candidate)?;
-            if members.len() != size {
-                continue;
-            }
+        for subject in subjects(family, explore, parts, &coupled, judged)? {
             // A group whose members differ is explored with the values of each.
-            for of in 0..members.len() {
-                let run = bind(family, explore, scaled, judged.cycle, &members, of)?;
-                merge(&mut runs, run, explore.each);
+            for of in 0..subject.members.len() {
+                let run = bind(family, explore, scaled, judged.cycle, &subject, of)?;
+                merge(&mut planned, run);
             }
         }
     }
-    for run in &mut runs {
-        let axes = if run.axes.len() == 1 { "axis" } else { "axes" };
-        run.title = format!("{}, {axes} {}", run.title, run.axes.join(", "));
-    }
-    let name = |k: &usize| axes.get(*k).map(|a| a.name.clone());
-    let groups = groups.iter().map(|g| g.iter().filter_map(name).collect());
+    let name = |k: &usize| parts.axes.get(*k).map(|a| a.name.clone());
+    let names = |group: &Vec<usize>| group.iter().filter_map(name).collect();
+    let declared = |group: &Group| group.axes.iter().map(|a| a.get_ref().clone()).collect();
     Ok(Plan {
-        groups: groups.collect(),
-        runs,
+        groups: match family.group {
+            Some(_) => parts.groups.iter().map(declared).collect(),
+            None => coupled.iter().map(names).collect(),
+        },
+        runs: planned.into_iter().map(Planned::titled).collect(),
     })
 }
 
-/// An axis and its values.
+/// An exploration, and what it stands for.
+struct Planned {
+    run: Run,
+    each: Scope,
+    /// Whether the values are those of one member among several.
+    of_member: bool,
+    /// The axes, groups or doors it stands for.
+    names: Vec<String>,
+}
+
+impl Planned {
+    /// The run with the names in its title.
+    fn titled(mut self) -> Run {
+        let (one, several) = match (self.each, self.of_member) {
+            (Scope::Axis, _) | (Scope::Group, true) => ("axis", "axes"),
+            (Scope::Group, false) => ("group", "groups"),
+            (Scope::Door, _) => ("door", "doors"),
+            (Scope::Machine | Scope::Control, _) => return self.run,
+        };
+        let noun = if self.names.len() == 1 { one } else { several };
+        self.run.title = format!("{}, {noun} {}", self.run.title, self.names.join(", "));
+        self.run
+    }
+}
+
+/// An axis or a whole and its values.
 type Member<'a> = (&'a str, &'a Values);
+
+/// What a system is explored for.
+struct Subject<'a> {
+    /// One member, or for a system of several axes all of them.
+    members: Vec<Member<'a>>,
+    /// The axes it stands for.
+    axes: Vec<String>,
+}
+
+/// Everything that `explore` is meant for.
+fn subjects<'a>(
+    family: &Family,
+    explore: &Explore,
+    parts: Parts<'a>,
+    coupled: &[Vec<usize>],
+    judged: &'a Judged,
+) -> Result<Vec<Subject<'a>>> {
+    let all = parts.axes.iter().map(|a| a.name.clone()).collect();
+    let names = |list: &[toml::Spanned<String>]| list.iter().map(|a| a.get_ref().clone()).collect();
+    let wholes: Vec<(Member<'a>, Vec<String>)> = match explore.each {
+        Scope::Group if explore.members == 0 => (parts.groups.iter().zip(&judged.groups))
+            .map(|(group, values)| ((group.name.as_str(), values), names(&group.axes)))
+            .collect(),
+        Scope::Door => (parts.doors.iter().zip(&judged.doors))
+            .map(|(door, values)| ((door.name.as_str(), values), names(&door.axes)))
+            .collect(),
+        Scope::Machine => vec![(("", &judged.machine), all)],
+        Scope::Axis | Scope::Group | Scope::Control => Vec::new(),
+    };
+    let mut list = Vec::new();
+    for ((name, values), axes) in wholes {
+        if evaluate(family, &explore.when, values, judged.cycle)? != 0 {
+            let members = vec![(name, values)];
+            list.push(Subject { members, axes });
+        }
+    }
+    let singles: Vec<Vec<usize>>;
+    let (candidates, size) = match explore.each {
+        Scope::Group => (coupled, explore.members),
+        Scope::Axis => {
+            singles = (0..parts.axes.len()).map(|k| vec![k]).collect();
+            (&singles[..], 1)
+        }
+        _ => (&[][..], 0),
+    };
+    for candidate in candidates {
+        let members = members(family, explore, parts.axes, judged, candidate)?;
+        if members.len() == size && size > 0 {
+            let axes = members.iter().map(|(name, _)| (*name).to_owned()).collect();
+            list.push(Subject { members, axes });
+        }
+    }
+    Ok(list)
+}
 
 /// The axes of `candidate` that `explore` is meant for.
 fn members<'a>(
@@ -82,60 +160,13 @@ fn members<'a>(
     Ok(members)
 }
 
-/// What the file describes and no run contains, in words: functions, doors, axes without functions, groups.
-pub(super) fn not_explored(
-    family: &Family,
-    axes: &[Axis],
-    doors: &[Door],
-    groups: &[Vec<String>],
-) -> Vec<String> {
-    let mut list = Vec::new();
-    for axis in axes.iter().filter(|a| a.functions.is_empty()) {
-        list.push(format!("axis {}: no safety function is enabled", axis.name));
-    }
-    for function in family.functions.iter().filter(|f| !f.explored) {
-        let with: Vec<&str> = axes
-            .iter()
-            .filter(|a| a.functions.contains(&function.name))
-            .map(|a| a.name.as_str())
-            .collect();
-        if !with.is_empty() {
-            let with = with.join(", ");
-            list.push(format!(
-                "{} of {with}: its values are checked, not explored",
-                function.name
-            ));
-        }
-    }
-    let sizes: Vec<usize> = family
-        .explore
-        .iter()
-        .map(|e| e.members)
-        .filter(|n| *n > 0)
-        .collect();
-    for group in groups.iter().filter(|g| !sizes.contains(&g.len())) {
-        list.push(format!(
-            "group {}: its axes are explored one by one; there is no system for {} together",
-            group.join(", "),
-            group.len()
-        ));
-    }
-    for door in doors {
-        list.push(format!(
-            "door {}: its values are checked, not explored",
-            door.name
-        ));
-    }
-    list
-}
-
 /// The connected groups of axes: those that interpolate, and those whose stop acts on the whole channel.
-fn groups(family: &Family, axes: &[Axis], judged: &Judged) -> Result<Vec<Vec<usize>>> {
+fn coupled(family: &Family, axes: &[Axis], judged: &Judged) -> Result<Vec<Vec<usize>>> {
     let mut label: Vec<usize> = (0..axes.len()).collect();
     for (i, axis) in axes.iter().enumerate() {
-        let everyone = match judged.axes.get(i) {
-            Some(values) => evaluate(family, &family.coupled_to_all, values, judged.cycle)? != 0,
-            None => false,
+        let everyone = match (&family.coupled_to_all, judged.axes.get(i)) {
+            (Some(formula), Some(values)) => evaluate(family, formula, values, judged.cycle)? != 0,
+            _ => false,
         };
         for (j, other) in axes.iter().enumerate() {
             let named = axis
@@ -198,26 +229,39 @@ struct Time {
     cycles: i64,
 }
 
-/// The run of `explore` for `members`, with the values of the one at `of`.
+/// The run of `explore` for a subject, with the values of the member at `of`.
 fn bind(
     family: &Family,
     explore: &Explore,
     scaled: bool,
     cycle: i64,
-    members: &[Member<'_>],
+    subject: &Subject<'_>,
     of: usize,
-) -> Result<Run> {
+) -> Result<Planned> {
+    let members = &subject.members;
     let mut run = Run {
         title: explore.text.clone(),
-        axes: members.iter().map(|(name, _)| (*name).to_owned()).collect(),
+        axes: subject.axes.clone(),
         file: family.folder.join(&explore.file),
         system: explore.system.clone(),
+        cycle,
         params: BTreeMap::new(),
         abstractions: Vec::new(),
     };
-    let Some((_, values)) = members.get(of) else {
-        return Ok(run);
+    let planned = |run| Planned {
+        run,
+        each: explore.each,
+        of_member: explore.members > 0,
+        names: members.iter().map(|(name, _)| (*name).to_owned()).collect(),
     };
+    let Some((_, values)) = members.get(of) else {
+        return Ok(planned(run));
+    };
+    let cycle = match &explore.cycle {
+        Some(formula) => evaluate(family, formula, values, cycle)?.max(1),
+        None => cycle,
+    };
+    run.cycle = cycle;
     if !explore.note.is_empty() {
         run.abstractions.push(explore.note.clone());
     }
@@ -258,7 +302,7 @@ fn bind(
         .into_iter()
         .map(|t| (t.name, vec![up(t.cycles, step)]));
     run.params.extend(steps);
-    Ok(run)
+    Ok(planned(run))
 }
 
 /// `a / b`, rounded up; both positive or 0.
@@ -293,26 +337,26 @@ fn ranks(values: &[i64]) -> Vec<i64> {
         .collect()
 }
 
-/// Adds a run, or its axes to the one that explores the same.
-fn merge(runs: &mut Vec<Run>, run: Run, each: Scope) {
-    let same = runs.iter_mut().find(|r| {
-        r.file == run.file
-            && r.system == run.system
-            && r.params == run.params
-            && (each != Scope::Group || r.axes == run.axes)
+/// Adds a run, or what it stands for to the one that explores the same.
+fn merge(list: &mut Vec<Planned>, new: Planned) {
+    let same = list.iter_mut().find(|known| {
+        let (a, b) = (&known.run, &new.run);
+        (&a.file, &a.system, a.cycle, &a.params) == (&b.file, &b.system, b.cycle, &b.params)
+            && (known.each, known.of_member) == (new.each, new.of_member)
+            && (!new.of_member || known.names == new.names)
     });
     let Some(known) = same else {
-        runs.push(run);
+        list.push(new);
         return;
     };
-    for axis in run.axes {
-        if !known.axes.contains(&axis) {
-            known.axes.push(axis);
+    let add = |into: &mut Vec<String>, from: Vec<String>| {
+        for text in from {
+            if !into.contains(&text) {
+                into.push(text);
+            }
         }
-    }
-    for text in run.abstractions {
-        if !known.abstractions.contains(&text) {
-            known.abstractions.push(text);
-        }
-    }
+    };
+    add(&mut known.names, new.names);
+    add(&mut known.run.axes, new.run.axes);
+    add(&mut known.run.abstractions, new.run.abstractions);
 }

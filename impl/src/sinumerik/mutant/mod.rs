@@ -1,4 +1,4 @@
-//! Deliberately wrong step functions: see [`crate::sinumerik::mutant`].
+//! Deliberately wrong step functions: see [`crate::mutant`].
 
 mod axis;
 mod checking;

@@ -14,7 +14,7 @@ use toml::Spanned;
 use super::Machine;
 use super::family::Family;
 use super::family_file::Check;
-use super::ground::{DataFile, grounds, read_names};
+use super::ground::{DataFile, read_names};
 use crate::diag::Result;
 use plan::{Plan, TestData, plan};
 
@@ -147,17 +147,14 @@ impl Machine {
         let words: Vec<_> = data.words.into_iter().collect();
         let mut plans = Vec::new();
         for test in data.test {
-            let known = test.of.known(family);
-            plans.extend(plan(&mut check, test, known, &words, &data.part));
+            plans.extend(plan(&mut check, test, family, &words, &data.part));
         }
         complete(&mut check, family, &plans, &data.untested);
         check.findings.finish(())?;
         let mut tests = Vec::new();
         for plan in &plans {
-            for ground in grounds(self, plan.of) {
-                for k in &plan.each {
-                    tests.extend(plan.test(&file, ground.at(*k))?);
-                }
+            for ground in plan.premise.grounds(&file, self)? {
+                tests.push(plan.test(&file, &ground)?);
             }
         }
         let untested = data.untested.into_iter();
@@ -197,7 +194,8 @@ fn complete(
         read.extend(cycle);
     }
     let all = [&family.control, &family.axis, &family.door];
-    let all: Vec<&String> = all.into_iter().flat_map(IndexMap::keys).collect();
+    let all = all.into_iter().chain(&family.group);
+    let all: Vec<&String> = all.flat_map(IndexMap::keys).collect();
     for name in &all {
         let excused = untested.keys().any(|key| key.get_ref() == *name);
         if !excused && !read.contains(*name) {

@@ -7,7 +7,8 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::super::Place;
-use super::super::family::Formula;
+use super::super::entry::{Premise, Reader};
+use super::super::family::{Family, Formula};
 use super::super::family_file::Check;
 use super::super::ground::{About, DataFile, Ground, PATH, partners, read_names};
 use super::super::template::{Template, Words};
@@ -19,7 +20,7 @@ use crate::diag::Result;
 pub(super) struct TestData {
     id: Spanned<String>,
     part: Spanned<String>,
-    pub of: About,
+    of: About,
     #[serde(default)]
     each: Vec<i64>,
     when: Spanned<String>,
@@ -70,14 +71,11 @@ struct MeasureData {
 
 /// A test of the catalogue, checked.
 pub(super) struct Plan {
-    pub each: Vec<i64>,
-    pub of: About,
+    pub premise: Premise,
     part: usize,
     req: Vec<String>,
     id: Template,
     title: Template,
-    when: Formula,
-    lets: Vec<(String, Formula)>,
     requires: Vec<Template>,
     steps: Vec<Template>,
     expect: Vec<ExpectPlan>,
@@ -111,7 +109,7 @@ struct MeasurePlan {
 pub(super) fn plan(
     check: &mut Check,
     data: TestData,
-    mut known: Vec<String>,
+    family: &Family,
     words: &[(String, Vec<String>)],
     parts: &[Part],
 ) -> Option<Plan> {
@@ -124,13 +122,7 @@ pub(super) fn plan(
             .add(data.part.span(), message, "this part", help);
         return None;
     };
-    let when = check.formula(data.when, &known)?;
-    let mut lets = Vec::new();
-    for (name, text) in data.lets {
-        let formula = check.formula(text, &known)?;
-        known.push(name.clone());
-        lets.push((name, formula));
-    }
+    let (premise, known) = Premise::read(check, family, data.of, data.each, data.when, data.lets)?;
     let names = Words {
         about: data.of,
         known: &known,
@@ -167,47 +159,20 @@ pub(super) fn plan(
     let simulate = reader.simulate(data.id.span(), data.simulate, data.hardware)?;
     Some(Plan {
         part,
-        of: data.of,
-        each: if data.each.is_empty() {
-            vec![0]
-        } else {
-            data.each
-        },
+        premise,
         req: data.req,
         id: reader.text(data.id)?,
         title: reader.text(data.title)?,
         requires: reader.texts(data.requires)?,
         steps: reader.texts(data.steps)?,
         simulate,
-        when,
-        lets,
         expect,
         measure,
         depends,
     })
 }
 
-struct Reader<'a> {
-    check: &'a mut Check,
-    names: &'a Words<'a>,
-}
-
 impl Reader<'_> {
-    fn text(&mut self, text: Spanned<String>) -> Option<Template> {
-        Template::parse(text, self.names, &mut self.check.findings)
-    }
-
-    fn texts(&mut self, list: Vec<Spanned<String>>) -> Option<Vec<Template>> {
-        list.into_iter().map(|text| self.text(text)).collect()
-    }
-
-    fn optional(&mut self, text: Option<Spanned<String>>) -> Option<Option<Template>> {
-        match text {
-            Some(text) => self.text(text).map(Some),
-            None => Some(None),
-        }
-    }
-
     /// A test has a scenario, or a reason why it has none.
     fn simulate(
         &mut self,
@@ -234,13 +199,6 @@ impl Reader<'_> {
             }
         }
     }
-
-    fn formula(&mut self, text: Option<Spanned<String>>) -> Option<Option<Formula>> {
-        match text {
-            Some(text) => self.check.formula(text, self.names.known).map(Some),
-            None => Some(None),
-        }
-    }
 }
 
 impl Plan {
@@ -248,9 +206,10 @@ impl Plan {
         let expect = self.expect.iter();
         let expect = expect.flat_map(|e| [&e.when, &e.after, &e.tolerance]);
         let measure = self.measure.iter().map(|m| &m.when);
-        [&self.when]
+        let lets = self.premise.lets.iter().map(|(_, f)| f);
+        [&self.premise.when]
             .into_iter()
-            .chain(self.lets.iter().map(|(_, f)| f))
+            .chain(lets)
             .chain(&self.depends)
             .chain(expect.chain(measure).flatten())
     }
@@ -276,36 +235,23 @@ impl Plan {
             .collect()
     }
 
-    /// The test for one subject; none where it does not apply.
-    pub fn test(&self, file: &DataFile, mut ground: Ground<'_>) -> Result<Option<Test>> {
-        if ground.value(file, &self.when)? == 0 {
-            return Ok(None);
-        }
-        for (name, formula) in &self.lets {
-            let value = ground.value(file, formula)?;
-            ground.set(name, value);
-        }
+    /// The test for one subject.
+    pub fn test(&self, file: &DataFile, ground: &Ground<'_>) -> Result<Test> {
         let texts = |list: &[Template]| {
-            let filled = list.iter().map(|text| text.fill(file, &ground));
+            let filled = list.iter().map(|text| text.fill(file, ground));
             filled.collect::<Result<Vec<String>>>()
         };
-        let holds = |when: &Option<Formula>| match when {
-            Some(when) => ground.value(file, when).map(|v| v != 0),
-            None => Ok(true),
-        };
-        let number = |formula: &Option<Formula>| match formula {
-            Some(formula) => ground.value(file, formula).map(Some),
-            None => Ok(None),
-        };
+        let number = |formula: &Option<Formula>| ground.optional(file, formula);
+        let holds = |when: &Option<Formula>| number(when).map(|v| v != Some(0));
         let mut expect = Vec::new();
         for entry in &self.expect {
             if holds(&entry.when)? {
                 let value = match &entry.value {
-                    Some(value) => Some((entry.signal.clone(), value.fill(file, &ground)?)),
+                    Some(value) => Some((entry.signal.clone(), value.fill(file, ground)?)),
                     None => None,
                 };
                 expect.push(Expect {
-                    text: entry.text.fill(file, &ground)?,
+                    text: entry.text.fill(file, ground)?,
                     signal: value,
                     after: number(&entry.after)?,
                     tolerance: number(&entry.tolerance)?.unwrap_or(0),
@@ -316,20 +262,20 @@ impl Plan {
         for entry in &self.measure {
             if holds(&entry.when)? {
                 let limit = match &entry.limit {
-                    Some(limit) => limit.fill(file, &ground)?,
+                    Some(limit) => limit.fill(file, ground)?,
                     None => String::new(),
                 };
                 measure.push(Measure {
-                    text: entry.text.fill(file, &ground)?,
-                    unit: entry.unit.fill(file, &ground)?,
+                    text: entry.text.fill(file, ground)?,
+                    unit: entry.unit.fill(file, ground)?,
                     limit,
                 });
             }
         }
-        Ok(Some(Test {
-            id: self.id.fill(file, &ground)?,
+        Ok(Test {
+            id: self.id.fill(file, ground)?,
             part: self.part,
-            title: self.title.fill(file, &ground)?,
+            title: self.title.fill(file, ground)?,
             axis: ground.axis.map(|a| a.name.clone()),
             req: self.req.clone(),
             requires: texts(&self.requires)?,
@@ -337,19 +283,19 @@ impl Plan {
             expect,
             measure,
             simulated: match &self.simulate {
-                SimulatePlan::Hardware(reason) => Simulated::Not(reason.fill(file, &ground)?),
+                SimulatePlan::Hardware(reason) => Simulated::Not(reason.fill(file, ground)?),
                 SimulatePlan::Scenario(pieces) => {
                     let mut scenario = String::new();
                     for (when, text) in pieces {
                         if holds(when)? {
-                            scenario.push_str(&text.fill(file, &ground)?);
+                            scenario.push_str(&text.fill(file, ground)?);
                         }
                     }
                     Simulated::Scenario(scenario)
                 }
             },
-            depends: self.dependence(&ground),
-        }))
+            depends: self.dependence(ground),
+        })
     }
 
     /// What the test reads of this subject: parameters, the functions enabled, what a door gives access to.

@@ -1,23 +1,19 @@
 //! The data of the shipped family against the tables of the manual, and every plausibility rule against examples.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::{Path, PathBuf};
 
-use super::AxisKind;
-use super::family::{Family, Param, Quantity};
-use super::units::{Dimension, parse};
+use super::super::AxisKind;
+use super::super::family::{Family, Param, Quantity};
+use super::super::units::{Dimension, parse};
 
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).to_owned()
-}
+const FAMILY: &str = "sinumerik-840d";
 
 fn family() -> Family {
-    super::family_file::load(&root().join("sinumerik-840d")).unwrap_or_else(|e| panic!("{e}"))
+    super::family(FAMILY)
 }
 
 fn table(file: &str) -> toml::Table {
-    let text = std::fs::read_to_string(root().join("sinumerik-840d").join(file)).expect(file);
-    toml::from_str(&text).expect(file)
+    super::table(FAMILY, file)
 }
 
 /// The machine data of the manual by their numbers.
@@ -164,41 +160,6 @@ fn functions_are_the_bits_of_the_enable_word() {
 }
 
 #[test]
-fn requirement_ids_exist() {
-    fn ids(value: &toml::Value, list: &mut Vec<String>) {
-        match value {
-            toml::Value::Table(table) => {
-                for (key, value) in table {
-                    match value.as_array() {
-                        Some(items) if key == "id" => list.extend(
-                            items
-                                .iter()
-                                .filter_map(toml::Value::as_str)
-                                .map(str::to_owned),
-                        ),
-                        _ => ids(value, list),
-                    }
-                }
-            }
-            toml::Value::Array(items) => items.iter().for_each(|i| ids(i, list)),
-            _ => {}
-        }
-    }
-    let mut used = Vec::new();
-    ids(&toml::Value::Table(table("family.toml")), &mut used);
-    assert!(used.len() > 80, "{} ids", used.len());
-    let catalogue = crate::catalogue::load(&root()).unwrap_or_else(|e| panic!("{e}"));
-    let known: BTreeSet<&str> = catalogue
-        .requirements
-        .iter()
-        .map(|r| r.id.as_str())
-        .collect();
-    for id in used {
-        assert!(known.contains(id.as_str()), "{id} is in no catalogue");
-    }
-}
-
-#[test]
 fn alarms_exist() {
     let alarms = table("alarms.toml");
     let alarms = alarms["alarm"].as_array().expect("a list").iter();
@@ -213,7 +174,7 @@ fn alarms_exist() {
 }
 
 /// For each rule a machine that violates it and one beside it that does not: what stands in the file after the family.
-const EXAMPLES: [(&str, &str, &str); 24] = [
+pub(super) const EXAMPLES: [(&str, &str, &str); 24] = [
     (
         "the monitoring cycle is longer than 25 ms",
         "control.SYSCLOCK_CYCLE_TIME = \"5 ms\"\ncontrol.SAFETY_SYSCLOCK_TIME_RATIO = 6\naxis.X = { kind = \"linear\" }",
@@ -336,36 +297,6 @@ const EXAMPLES: [(&str, &str, &str); 24] = [
     ),
 ];
 
-fn load(text: &str) -> crate::diag::Result<super::Machine> {
-    let text = format!("family = \"sinumerik-840d\"\n{text}\n");
-    super::load_bytes(Path::new("example.toml"), text.into_bytes(), &root())
-}
-
-#[test]
-fn each_rule_refuses_its_example_and_nothing_beside_it() {
-    for (rule, bad, good) in EXAMPLES {
-        let errors = load(bad).expect_err(rule).0;
-        let texts: Vec<String> = errors.iter().map(ToString::to_string).collect();
-        assert!(texts.iter().all(|t| t.contains(rule)), "{bad}\n{texts:#?}");
-        assert_eq!(texts.len(), 1, "{texts:#?}");
-        assert!(errors.iter().all(|e| !e.help.is_empty()));
-        if let Err(errors) = load(good) {
-            panic!("{good}\n{errors}");
-        }
-    }
-}
-
-#[test]
-fn each_rule_has_an_example() {
-    for rule in family().rules {
-        let has = EXAMPLES
-            .iter()
-            .any(|(text, _, _)| rule.text.starts_with(text));
-        assert!(has, "no example violates '{}'", rule.text);
-        assert!(!rule.id.is_empty());
-    }
-}
-
 /// Table 4-1 of the manual: six systems are permitted, no other one (S840D-ENC-001).
 #[test]
 fn encoder_systems_are_those_of_the_manual() {
@@ -375,7 +306,7 @@ fn encoder_systems_are_those_of_the_manual() {
             let text = format!(
                 "axis.X = {{ kind = \"linear\", MOTOR_ENCODER = \"{motor}\", LOAD_ENCODER = \"{second}\", functions = [\"SBH/SG\"] }}"
             );
-            if load(&text).is_ok() {
+            if super::load(FAMILY, &text).is_ok() {
                 accepted.push((motor, second));
             }
         }

@@ -1,4 +1,7 @@
-//! From the TOML tables of a machine file to axes and doors with a checked value for every parameter.
+//! From the TOML tables of a machine file to axes, groups and doors with a checked value for every parameter.
+
+mod doors;
+mod groups;
 
 use std::collections::BTreeMap;
 
@@ -7,10 +10,10 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::document::Findings;
-use super::family::{Family, Param};
+use super::family::{Family, Param, Quantity};
 use super::units::alternatives;
 use super::value::{Raw, number_in_range};
-use super::{Axis, AxisKind, Door, Place, Setting, Settings};
+use super::{Axis, AxisKind, Door, Group, Place, Setting, Settings};
 use crate::diag::nearest;
 
 const KINDS: [(&str, AxisKind); 3] = [
@@ -27,64 +30,119 @@ pub(super) struct Draft {
     pub control: Option<Settings>,
     /// The axes whose values could all be read.
     pub axes: Vec<Axis>,
+    /// The axis groups whose values could all be read.
+    pub groups: Vec<Group>,
     /// The doors whose values could all be read.
     pub doors: Vec<Door>,
 }
 
 /// Reads the tables of a machine file; what is wrong goes to `findings`.
 pub(super) fn read(family: &Family, table: &DeTable<'_>, findings: &mut Findings) -> Draft {
+    let mut reader = Reader {
+        family,
+        axes: names_in(table, "axis"),
+        groups: names_in(table, "group"),
+        findings,
+    };
+    reader.keys(table);
+    let empty = DeTable::new();
+    let control = reader.part(table, "control").unwrap_or(&empty);
+    let (settings, sound) = reader.settings(&family.control, control, &Owner::of("the control"));
+    let text = |reader: &mut Reader<'_>, key| {
+        let value = table.get(key)?;
+        reader.findings.text(key, value)
+    };
     let mut draft = Draft {
-        name: None,
-        title: None,
-        control: Some(BTreeMap::new()),
+        name: text(&mut reader, "name"),
+        title: text(&mut reader, "title"),
+        control: sound.then_some(settings),
         axes: Vec::new(),
+        groups: Vec::new(),
         doors: Vec::new(),
     };
-    let mut reader = Reader { family, findings };
-    let mut control = None;
-    for (key, value) in table.iter() {
-        match key.get_ref().as_ref() {
-            "family" => {}
-            "name" => draft.name = reader.findings.text("name", value),
-            "title" => draft.title = reader.findings.text("title", value),
-            "control" => control = reader.findings.table("control", value),
-            "axis" => draft.axes = reader.axes(value),
-            "door" => draft.doors = reader.doors(value),
-            other => reader.findings.unknown_key(
-                key.span(),
-                other,
-                "a machine file",
-                &["family", "name", "title", "control", "axis", "door"],
-            ),
-        }
-    }
-    let empty = DeTable::new();
-    let (settings, sound) = reader.settings(
-        &family.control,
-        control.unwrap_or(&empty),
-        "the control",
-        AxisKind::Linear,
-        &[],
-    );
-    draft.control = sound.then_some(settings);
-    if !table.contains_key("axis") {
-        reader.findings.add(
+    match table.get("axis") {
+        Some(value) => draft.axes = reader.axes(value),
+        None => reader.findings.add(
             None,
             "the machine has no axis",
             "",
             "add a table such as [axis.X] with kind = \"linear\" and its parameters",
-        );
+        ),
     }
-    reader.references(&draft, table);
+    if let Some(params) = &family.group {
+        draft.groups = reader.read_groups(params, table);
+    }
+    if let Some(value) = table.get("door") {
+        draft.doors = reader.doors(value, &draft.groups);
+    }
+    reader.references(&draft);
     draft
+}
+
+/// The names of the tables below `part`, also of those whose values cannot be read: a follow-on finding about them would
+/// mislead.
+fn names_in(table: &DeTable<'_>, part: &str) -> Vec<String> {
+    match table.get(part).map(Spanned::get_ref) {
+        Some(DeValue::Table(inner)) => inner.keys().map(|k| k.get_ref().to_string()).collect(),
+        _ => Vec::new(),
+    }
+}
+
+/// Whose values are read.
+struct Owner<'a> {
+    /// Its name in messages.
+    place: &'a str,
+    kind: AxisKind,
+    /// The kind as the file names it; empty for what is no axis.
+    word: &'a str,
+    /// The keys that are no parameters.
+    structural: &'a [&'a str],
+}
+
+impl<'a> Owner<'a> {
+    fn of(place: &'a str) -> Self {
+        Self {
+            place,
+            kind: AxisKind::Linear,
+            word: "",
+            structural: &[],
+        }
+    }
 }
 
 struct Reader<'a> {
     family: &'a Family,
+    /// The names of all axes and groups of the file.
+    axes: Vec<String>,
+    groups: Vec<String>,
     findings: &'a mut Findings,
 }
 
 impl Reader<'_> {
+    /// The keys at the top of the file.
+    fn keys(&mut self, table: &DeTable<'_>) {
+        let mut known = vec!["family", "name", "title", "control", "axis", "door"];
+        if self.family.group.is_some() {
+            known.push("group");
+        }
+        if !self.family.logic.is_empty() {
+            known.push("logic");
+        }
+        for key in table.keys() {
+            let name = key.get_ref().as_ref();
+            if !known.contains(&name) {
+                self.findings
+                    .unknown_key(key.span(), name, "a machine file", &known);
+            }
+        }
+    }
+
+    /// The table `key` of the file, if it is there and a table.
+    fn part<'t, 'a>(&mut self, table: &'t DeTable<'a>, key: &str) -> Option<&'t DeTable<'a>> {
+        let value = table.get(key)?;
+        self.findings.table(key, value)
+    }
+
     fn axes(&mut self, value: &Spanned<DeValue<'_>>) -> Vec<Axis> {
         let Some(table) = self.findings.table("axis", value) else {
             return Vec::new();
@@ -113,7 +171,7 @@ impl Reader<'_> {
         axes
     }
 
-    /// The names of axes or doors: well-formed, and different also for a reader who ignores case.
+    /// The names of axes, groups or doors: well-formed, and different also for a reader who ignores case.
     fn names(&mut self, what: &str, table: &DeTable<'_>) {
         let mut seen: BTreeMap<String, &str> = BTreeMap::new();
         for (key, _) in table.iter() {
@@ -145,15 +203,27 @@ impl Reader<'_> {
             name: name.to_owned(),
             title: String::new(),
             kind: AxisKind::Linear,
+            spindle: false,
             functions: Vec::new(),
             values: BTreeMap::new(),
             interpolates_with: Vec::new(),
             place: place.clone(),
             functions_place: None,
         };
+        let mut structural = vec!["title", "kind"];
+        if !family.functions.is_empty() {
+            structural.push("functions");
+        }
+        if family.group.is_none() {
+            structural.push("interpolates_with");
+        }
         let mut kind = None;
         for (key, value) in table.iter() {
-            match key.get_ref().as_ref() {
+            let key = key.get_ref().as_ref();
+            if !structural.contains(&key) {
+                continue;
+            }
+            match key {
                 "title" => axis.title = self.findings.text("title", value).unwrap_or_default(),
                 "kind" => kind = self.kind(value),
                 "functions" => {
@@ -174,15 +244,21 @@ impl Reader<'_> {
                 "add a line such as kind = \"linear\"; a spindle has kind = \"spindle\"",
             );
         }
-        axis.kind = kind?;
-        let structural = ["title", "kind", "functions", "interpolates_with"];
-        let place = format!("axis {name}");
-        let (values, sound) = self.settings(&family.axis, table, &place, axis.kind, &structural);
+        let (word, kind) = kind?;
+        axis.kind = kind;
+        axis.spindle = word == "spindle";
+        let owner = Owner {
+            place: &format!("axis {name}"),
+            kind,
+            word,
+            structural: &structural,
+        };
+        let (values, sound) = self.settings(&family.axis, table, &owner);
         axis.values = values;
         sound.then_some(axis)
     }
 
-    fn kind(&mut self, value: &Spanned<DeValue<'_>>) -> Option<AxisKind> {
+    fn kind(&mut self, value: &Spanned<DeValue<'_>>) -> Option<(&'static str, AxisKind)> {
         let text = self.findings.text("kind", value)?;
         let found = KINDS.iter().find(|(name, _)| *name == text);
         if found.is_none() {
@@ -193,7 +269,7 @@ impl Reader<'_> {
                 format!("allowed: {}", alternatives(&KINDS.map(|(name, _)| name))),
             );
         }
-        found.map(|(_, kind)| *kind)
+        found.copied()
     }
 
     fn functions(&mut self, value: &Spanned<DeValue<'_>>) -> Vec<String> {
@@ -231,80 +307,54 @@ impl Reader<'_> {
         list
     }
 
-    fn doors(&mut self, value: &Spanned<DeValue<'_>>) -> Vec<Door> {
-        let Some(table) = self.findings.table("door", value) else {
-            return Vec::new();
-        };
-        self.names("door", table);
-        let mut doors = Vec::new();
-        for (key, value) in table.iter() {
-            let name = key.get_ref().as_ref();
-            let Some(table) = self.findings.table(&format!("door.{name}"), value) else {
-                continue;
-            };
-            let mut title = String::new();
-            let mut axes = Vec::new();
-            for (key, value) in table.iter() {
-                match key.get_ref().as_ref() {
-                    "title" => title = self.findings.text("title", value).unwrap_or_default(),
-                    "axes" => axes = self.findings.texts("axes", value),
-                    _ => {}
-                }
-            }
-            if axes.is_empty() {
-                self.findings.add(
-                    key.span(),
-                    format!("door {name} names no axes"),
-                    "this door",
-                    "add a line such as axes = [\"X\", \"Y\"]: the axes a person can reach through it",
-                );
-            }
-            let place = format!("door {name}");
-            let params = &self.family.door;
-            let (values, sound) =
-                self.settings(params, table, &place, AxisKind::Linear, &["title", "axes"]);
-            if sound {
-                doors.push(Door {
-                    name: name.to_owned(),
-                    title,
-                    axes,
-                    values,
-                    place: key.span(),
-                });
-            }
-        }
-        doors
-    }
-
-    /// A value for each of `params`, given in `table` or by default, and whether all could be read.
+    /// A value for each of `params`, given in `table` or by default, and whether all could be read. An axis has no value of a
+    /// parameter for other kinds of axes.
     fn settings(
         &mut self,
         params: &IndexMap<String, Param>,
         table: &DeTable<'_>,
-        place: &str,
-        kind: AxisKind,
-        structural: &[&str],
+        owner: &Owner<'_>,
     ) -> (Settings, bool) {
         let mut sound = true;
         let mut settings: Settings = params
             .iter()
-            .map(|(name, param)| (name.clone(), Setting::by_default(param, kind)))
+            .filter(|(_, param)| param.is_of(owner.word))
+            .map(|(name, param)| (name.clone(), Setting::by_default(param, owner.kind)))
             .collect();
         for (key, value) in table.iter() {
             let name = key.get_ref().as_ref();
             if let Some(param) = params.get(name) {
-                match self.setting(name, param, value, place, kind) {
+                let setting = if param.is_of(owner.word) {
+                    self.setting(name, param, value, owner)
+                } else {
+                    self.other_kind(key.span(), name, param, owner);
+                    None
+                };
+                match setting {
                     Some(setting) => _ = settings.insert(name.to_owned(), setting),
                     None => sound = false,
                 }
-            } else if !structural.contains(&name) {
-                let mut known = structural.to_vec();
-                known.extend(params.keys().map(String::as_str));
-                self.findings.unknown_key(key.span(), name, place, &known);
+            } else if !owner.structural.contains(&name) {
+                let mut known = owner.structural.to_vec();
+                let own = params.iter().filter(|(_, param)| param.is_of(owner.word));
+                known.extend(own.map(|(name, _)| name.as_str()));
+                self.findings
+                    .unknown_key(key.span(), name, owner.place, &known);
                 sound = false;
             }
         }
         (settings, sound)
+    }
+
+    fn other_kind(&mut self, at: Place, name: &str, param: &Param, owner: &Owner<'_>) {
+        let message = format!(
+            "{}: {name} is for an axis with kind {}, this one has kind \"{}\"",
+            owner.place,
+            alternatives(&param.kinds.iter().map(String::as_str).collect::<Vec<_>>()),
+            owner.word
+        );
+        let help = "remove it, or correct the kind";
+        self.findings.add(at, message, "of another kind", help);
     }
 
     fn setting(
@@ -312,9 +362,12 @@ impl Reader<'_> {
         name: &str,
         param: &Param,
         value: &Spanned<DeValue<'_>>,
-        place: &str,
-        kind: AxisKind,
+        owner: &Owner<'_>,
     ) -> Option<Setting> {
+        let (place, kind) = (owner.place, owner.kind);
+        if param.quantity == Quantity::Groups {
+            return self.predecessors(name, value, place);
+        }
         if param.count == 0 {
             let cell = self.cell(&format!("{place}: {name}"), param, value, kind)?;
             return Some(Setting::given(param, kind, vec![cell], vec![value.span()]));
@@ -365,18 +418,14 @@ impl Reader<'_> {
     }
 
     /// Axes that other entries name must exist; an axis does not interpolate with itself.
-    fn references(&mut self, draft: &Draft, table: &DeTable<'_>) {
-        // Also those whose values could not be read: a follow-on finding about them would mislead.
-        let names: Vec<&str> = match table.get("axis").map(Spanned::get_ref) {
-            Some(DeValue::Table(axes)) => axes.keys().map(|k| k.get_ref().as_ref()).collect(),
-            _ => Vec::new(),
-        };
-        let lists = draft
-            .axes
-            .iter()
-            .map(|a| (Some(&a.name), &a.interpolates_with));
-        let lists = lists.chain(draft.doors.iter().map(|d| (None, &d.axes)));
-        for (own, list) in lists {
+    fn references(&mut self, draft: &Draft) {
+        let of_axes = draft.axes.iter();
+        let of_axes = of_axes.map(|a| (Some(&a.name), &a.interpolates_with));
+        let of_groups = draft.groups.iter().map(|g| (None, &g.axes));
+        // A door that names groups has their axes.
+        let of_doors = draft.doors.iter().filter(|d| d.groups.is_empty());
+        let of_doors = of_doors.map(|d| (None, &d.axes));
+        for (own, list) in of_axes.chain(of_groups).chain(of_doors) {
             for other in list {
                 let name = other.get_ref();
                 if own == Some(name) {
@@ -386,12 +435,12 @@ impl Reader<'_> {
                         "this axis itself",
                         "name the other axes only",
                     );
-                } else if !names.contains(&name.as_str()) {
+                } else if !self.axes.contains(name) {
                     self.findings.add(
                         other.span(),
                         format!("there is no axis '{name}'"),
                         "no such axis",
-                        format!("axes of this machine: {}", names.join(", ")),
+                        format!("axes of this machine: {}", self.axes.join(", ")),
                     );
                 }
             }

@@ -1,0 +1,89 @@
+//! What is explored together, apart, or not at all, in words.
+
+use super::family::{Explore, Family, Scope};
+use super::runs::Parts;
+use super::{Axis, Machine};
+
+/// What the file describes and no run contains, in words: functions, doors, axes without functions, groups.
+pub(super) fn not_explored(
+    family: &Family,
+    parts: Parts<'_>,
+    coupled: &[Vec<String>],
+) -> Vec<String> {
+    let (axes, doors) = (parts.axes, parts.doors);
+    let mut list = Vec::new();
+    let enables = !family.functions.is_empty();
+    for axis in axes.iter().filter(|a| enables && a.functions.is_empty()) {
+        list.push(format!("axis {}: no safety function is enabled", axis.name));
+    }
+    let grouped = |axis: &Axis| parts.groups.iter().any(|g| g.has(&axis.name));
+    let declares = family.group.is_some();
+    for axis in axes.iter().filter(|a| declares && !grouped(a)) {
+        let name = &axis.name;
+        list.push(format!(
+            "axis {name}: it is in no group, nothing monitors it"
+        ));
+    }
+    for function in family.functions.iter().filter(|f| !f.explored) {
+        let with: Vec<&str> = axes
+            .iter()
+            .filter(|a| a.functions.contains(&function.name))
+            .map(|a| a.name.as_str())
+            .collect();
+        if !with.is_empty() {
+            let with = with.join(", ");
+            list.push(format!(
+                "{} of {with}: its values are checked, not explored",
+                function.name
+            ));
+        }
+    }
+    let sizes: Vec<usize> = family
+        .explore
+        .iter()
+        .map(|e| e.members)
+        .filter(|n| *n > 0)
+        .collect();
+    let unfit = |group: &&Vec<String>| !declares && !sizes.contains(&group.len());
+    for group in coupled.iter().filter(unfit) {
+        list.push(format!(
+            "group {}: its axes are explored one by one; there is no system for {} together",
+            group.join(", "),
+            group.len()
+        ));
+    }
+    let with_doors = |e: &Explore| matches!(e.each, Scope::Door | Scope::Machine);
+    let explored = family.explore.iter().any(with_doors);
+    for door in doors.iter().filter(|_| !explored) {
+        list.push(format!(
+            "door {}: its values are checked, not explored",
+            door.name
+        ));
+    }
+    list
+}
+
+impl Machine {
+    /// What is explored together and what apart, one sentence each; [`Machine::not_explored`] has the rest.
+    pub fn coverage(&self) -> Vec<String> {
+        let mut list = Vec::new();
+        if self.axis_groups.is_empty() {
+            let coupled = self.groups.iter().map(|group| group.join(", "));
+            list.extend(coupled.map(|group| format!("Coupled, explored together: {group}.")));
+            let coupled = |axis: &&Axis| self.groups.iter().any(|g| g.contains(&axis.name));
+            let alone = self.axes.iter().filter(|axis| !coupled(axis));
+            let alone: Vec<&str> = alone.map(|a| a.name.as_str()).collect();
+            if !alone.is_empty() {
+                let alone = alone.join(", ");
+                list.push(format!("On its own, explored separately: {alone}."));
+            }
+        }
+        for (group, axes) in self.axis_groups.iter().zip(&self.groups) {
+            list.push(format!("Group {}: {}.", group.name, axes.join(", ")));
+        }
+        for (name, text) in self.logic() {
+            list.push(format!("Logic {name} is that of the machine file: {text}."));
+        }
+        list
+    }
+}

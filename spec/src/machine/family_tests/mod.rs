@@ -1,0 +1,101 @@
+//! The data of the shipped families against the tables of the manuals, and every plausibility rule against examples.
+
+mod heidenhain;
+mod sinumerik;
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+use super::family::Family;
+
+/// The families with, for each rule, a machine that violates it and one beside it that does not.
+fn examples() -> [(&'static str, Vec<(&'static str, String, String)>); 2] {
+    let sinumerik =
+        sinumerik::EXAMPLES.map(|(rule, bad, good)| (rule, bad.to_owned(), good.to_owned()));
+    [
+        ("sinumerik-840d", sinumerik.to_vec()),
+        ("heidenhain-fs", heidenhain::examples()),
+    ]
+}
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).to_owned()
+}
+
+fn family(name: &str) -> Family {
+    super::family_file::load(&root().join(name)).unwrap_or_else(|e| panic!("{e}"))
+}
+
+fn table(family: &str, file: &str) -> toml::Table {
+    let text = std::fs::read_to_string(root().join(family).join(file)).expect(file);
+    toml::from_str(&text).expect(file)
+}
+
+/// Loads what stands in a machine file after the family.
+fn load(family: &str, text: &str) -> crate::diag::Result<super::Machine> {
+    let text = format!("family = \"{family}\"\n{text}\n");
+    super::load_bytes(Path::new("example.toml"), text.into_bytes(), &root())
+}
+
+#[test]
+fn requirement_ids_exist() {
+    fn ids(value: &toml::Value, list: &mut Vec<String>) {
+        match value {
+            toml::Value::Table(table) => {
+                for (key, value) in table {
+                    match value.as_array() {
+                        Some(items) if key == "id" => list.extend(
+                            items
+                                .iter()
+                                .filter_map(toml::Value::as_str)
+                                .map(str::to_owned),
+                        ),
+                        _ => ids(value, list),
+                    }
+                }
+            }
+            toml::Value::Array(items) => items.iter().for_each(|i| ids(i, list)),
+            _ => {}
+        }
+    }
+    let catalogue = crate::catalogue::load(&root()).unwrap_or_else(|e| panic!("{e}"));
+    let requirements = catalogue.requirements.iter();
+    let known: BTreeSet<&str> = requirements.map(|r| r.id.as_str()).collect();
+    for (family, _) in examples() {
+        let mut used = Vec::new();
+        let file = table(family, "family.toml");
+        ids(&toml::Value::Table(file), &mut used);
+        assert!(used.len() > 80, "{family}: {} ids", used.len());
+        for id in used {
+            assert!(known.contains(id.as_str()), "{id} is in no catalogue");
+        }
+    }
+}
+
+#[test]
+fn each_rule_refuses_its_example_and_nothing_beside_it() {
+    for (family, list) in examples() {
+        for (rule, bad, good) in list {
+            let errors = load(family, &bad).expect_err(rule).0;
+            let texts: Vec<String> = errors.iter().map(ToString::to_string).collect();
+            assert!(texts.iter().all(|t| t.contains(rule)), "{bad}\n{texts:#?}");
+            assert_eq!(texts.len(), 1, "{texts:#?}");
+            assert!(errors.iter().all(|e| !e.help.is_empty()));
+            if let Err(errors) = load(family, &good) {
+                panic!("{good}\n{errors}");
+            }
+        }
+    }
+}
+
+#[test]
+fn each_rule_has_an_example() {
+    for (name, examples) in examples() {
+        for rule in family(name).rules {
+            let mut known = examples.iter();
+            let has = known.any(|(text, _, _)| rule.text.starts_with(text));
+            assert!(has, "no example violates '{}'", rule.text);
+            assert!(!rule.id.is_empty());
+        }
+    }
+}
