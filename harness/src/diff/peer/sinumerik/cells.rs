@@ -7,32 +7,7 @@ use stillpoint_monitors::sinumerik::{
 };
 
 use super::numbers::*;
-use crate::diff::peer::adapter::Cells;
-
-/// Implements [`Cells`]: the fields of a state in their order, each with its way from a number and back.
-macro_rules! cells {
-    ($($state:ty, $count:literal { $($field:ident = $load:expr, $store:expr;)+ })+) => {$(
-        impl Cells for $state {
-            const COUNT: usize = $count;
-
-            fn load(cells: &[i32]) -> Self {
-                let mut cells = cells.iter().copied();
-                let mut next = || cells.next().unwrap_or(0);
-                Self { $($field: ($load)(next()),)+ }
-            }
-
-            fn store(self, cells: &mut [i32]) {
-                for (cell, value) in cells.iter_mut().zip([$(($store)(self.$field)),+]) {
-                    *cell = value;
-                }
-            }
-        }
-    )+};
-}
-
-const fn truthy(cell: i32) -> bool {
-    cell != 0
-}
+use crate::diff::peer::adapter::{Cells, cells};
 
 fn position(position: Position) -> i32 {
     position.0

@@ -1,11 +1,10 @@
 //! The values of the monitors as the numbers of the tables, and back.
 
-use stillpoint_model::Domain;
-use stillpoint_monitors::kernel::{Cycles, Distance, Speed};
 use stillpoint_monitors::sinumerik::level::{ExternalStop, InternalStop, Level};
 use stillpoint_monitors::sinumerik::selection::{FactorIndex, Mode, Monitored, Stage};
 use stillpoint_monitors::sinumerik::{fault, path_test, pulses, reference, stop};
 
+pub(super) use crate::diff::peer::numbers::*;
 use crate::diff::product::Values;
 
 /// What an internal stop can be; never a test stop or STOP F.
@@ -63,17 +62,6 @@ const LEVELS: [Level; 8] = [
     Level::A,
 ];
 
-/// The value with this number; the first one for a number that none has.
-pub(super) fn value<T: Copy>(all: &[T], ordinal: i32) -> T {
-    let found = usize::try_from(ordinal).ok().and_then(|k| all.get(k));
-    *found.unwrap_or(&all[0])
-}
-
-/// The number of a value.
-pub(super) fn ordinal<T: PartialEq>(all: &[T], value: T) -> i32 {
-    all.iter().position(|v| *v == value).unwrap_or(0) as i32
-}
-
 pub(super) fn level(ordinal: i32) -> Level {
     value(&LEVELS, ordinal)
 }
@@ -88,14 +76,6 @@ pub(super) fn external_stop(ordinal: i32) -> ExternalStop {
 
 pub(super) fn rank(level: Level) -> i64 {
     i64::from(level.rank())
-}
-
-pub(super) fn cycles(cell: i32) -> Cycles {
-    Cycles::new(u32::try_from(cell).unwrap_or(0))
-}
-
-pub(super) fn cell(cycles: Cycles) -> i32 {
-    i32::try_from(cycles.count()).unwrap_or(i32::MAX)
 }
 
 pub(super) fn stage(ordinal: i32) -> Stage {
@@ -120,32 +100,4 @@ pub(super) fn watched(monitored: Monitored) -> i64 {
         Monitored::Speed => 1,
         Monitored::Standstill => 2,
     }
-}
-
-pub(super) fn speed(value: i32) -> Speed {
-    Speed(u32::try_from(value).unwrap_or(0))
-}
-
-pub(super) fn increments(speed: Speed) -> i32 {
-    i32::try_from(speed.0).unwrap_or(i32::MAX)
-}
-
-pub(super) fn distance(value: i32) -> Distance {
-    Distance(u32::try_from(value).unwrap_or(0))
-}
-
-pub(super) fn small(value: i32) -> u8 {
-    u8::try_from(value).unwrap_or(u8::MAX)
-}
-
-pub(super) fn bit(b: bool) -> i64 {
-    i64::from(b)
-}
-
-pub(super) fn truth() -> Domain {
-    Domain { lo: 0, hi: 1 }
-}
-
-pub(super) fn upto(hi: i32) -> Domain {
-    Domain { lo: 0, hi }
 }

@@ -1,0 +1,27 @@
+//! Monitors of HEIDENHAIN Functional Safety (iTNC 530 HSCI, NC software 606 42x).
+//!
+//! One module is one safety function of one channel: channel A runs on the main computer (MC), channel B on the controller
+//! computer (CC). In each channel a safety kernel (SKERN) executes and monitors; a safe PLC program (SPLC) of the machine
+//! builder tells it by the fields `PP_...` what is wanted, and reads the fields `NN_...`.
+//!
+//! | module | safety function | steps after |
+//! | --- | --- | --- |
+//! | [`gate`] | what the kernel takes over from its safe PLC for one axis group | - |
+//! | [`both_channels`] | the stricter of what the two channels were asked for | `gate` of both channels |
+//! | [`types`] | stops, monitoring states, modes in their priority: no step | - |
+//!
+//! Conventions common to the modules of this family:
+//!
+//! * One call is one HSCI cycle of 3 ms, the same for all monitors. Durations are [`Cycles`](crate::kernel::Cycles).
+//! * Monitors judge with the monitoring state valid at the start of the cycle; of all causes of a cycle the highest stop
+//!   wins; a stop beats a release, a stricter request beats a laxer one (HFS-STOP-009).
+//! * A timer started with t expires t cycles after the cycle of its start; t = 0 expires in the cycle of the start.
+//! * `main_switch` and `power_on` (main switch off and on) first set everything volatile to its initial value; then the
+//!   cycle is evaluated with its other inputs.
+//! * A signal that is missing must be the one that stops: an output that permits is `true` only when it was worked out.
+
+pub mod both_channels;
+pub mod gate;
+#[cfg(feature = "mutants")]
+pub mod mutant;
+pub mod types;

@@ -1,0 +1,14 @@
+//! Monitors of HEIDENHAIN Functional Safety.
+
+mod interface;
+
+pub use interface::*;
+
+use stillpoint_monitors::heidenhain::types::Kind;
+
+use crate::source::Source;
+
+/// Any kind of group.
+pub fn kind<S: Source>(source: &mut S) -> Kind {
+    source.any_of(&Kind::ALL)
+}
