@@ -35,6 +35,8 @@ family! { sinumerik:
 
 family! { heidenhain:
     gate both_channels
+    speed operating_stop stop_path position_limit revolutions comparison deceleration axis_count
+    reference agreement brakes tool_holder acceptance self_test status_bits sampling self_checks start_checks
 }
 
 /// The lines of the table for a mutant of `monitor`, whose step function `subject` has.

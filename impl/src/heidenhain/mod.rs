@@ -8,6 +8,25 @@
 //! | --- | --- | --- |
 //! | [`gate`] | what the kernel takes over from its safe PLC for one axis group | - |
 //! | [`both_channels`] | the stricter of what the two channels were asked for | `gate` of both channels |
+//! | [`speed`] | limited speed (SLS) of an axis or spindle | `group` of the cycle before |
+//! | [`operating_stop`] | operating stop (SOS): speed and path of a standing axis | `group` of the cycle before |
+//! | [`stop_path`] | path of an axis during SS2 | `stop` of the cycle before |
+//! | [`position_limit`] | limited position (SLP) with its return lock | `reference` |
+//! | [`revolutions`] | two revolutions of restricted spindle operation | `group` of the cycle before |
+//! | [`comparison`] | nominal with actual value: position or speed | `group` of the cycle before |
+//! | [`deceleration`] | dv/dt on the emergency ramp | `stop` of the cycle before |
+//! | [`axis_count`] | how many axes move at a time with the door open | `group` of the cycle before |
+//! | [`reference`] | referencing of an axis up to "axis checked" | - |
+//! | [`agreement`] | one item compared between the channels, with its window | both channels |
+//! | [`brakes`] | brake outputs of a safe PLC | `stop` |
+//! | [`tool_holder`] | opening of the tool holder by a safe PLC | `group` of the cycle before |
+//! | [`acceptance`] | acceptance of changed safe machine parameters | - |
+//! | [`self_test`] | order of the self-test, its interval | - |
+//! | [`status_bits`] | reactions to the safe status bits of a telegram | - |
+//! | [`sampling`] | forced dynamic sampling of a pair of inputs | - |
+//! | [`self_checks`] | reactions to faults that the kernel finds in itself | - |
+//! | [`start_checks`] | configuration while the control boots | - |
+//! | [`parameters`] | safe machine parameters, checked and converted: no step | - |
 //! | [`types`] | stops, monitoring states, modes in their priority: no step | - |
 //!
 //! Conventions common to the modules of this family:
@@ -20,8 +39,27 @@
 //!   cycle is evaluated with its other inputs.
 //! * A signal that is missing must be the one that stops: an output that permits is `true` only when it was worked out.
 
+pub mod acceptance;
+pub mod agreement;
+pub mod axis_count;
 pub mod both_channels;
+pub mod brakes;
+pub mod comparison;
+pub mod deceleration;
 pub mod gate;
 #[cfg(feature = "mutants")]
 pub mod mutant;
+pub mod operating_stop;
+pub mod parameters;
+pub mod position_limit;
+pub mod reference;
+pub mod revolutions;
+pub mod sampling;
+pub mod self_checks;
+pub mod self_test;
+pub mod speed;
+pub mod start_checks;
+pub mod status_bits;
+pub mod stop_path;
+pub mod tool_holder;
 pub mod types;

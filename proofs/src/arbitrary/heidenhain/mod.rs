@@ -1,8 +1,12 @@
 //! Monitors of HEIDENHAIN Functional Safety.
 
 mod interface;
+mod machine;
+mod watching;
 
 pub use interface::*;
+pub use machine::*;
+pub use watching::*;
 
 use stillpoint_monitors::heidenhain::types::Kind;
 

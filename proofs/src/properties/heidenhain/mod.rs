@@ -6,4 +6,40 @@ monitors! { heidenhain:
     gate
     /// Requests of both channels.
     both_channels
+    /// Limited speed.
+    speed
+    /// Operating stop.
+    operating_stop
+    /// Path of an SS2.
+    stop_path
+    /// Limited position.
+    position_limit
+    /// Two revolutions.
+    revolutions
+    /// Nominal and actual value.
+    comparison
+    /// dv/dt.
+    deceleration
+    /// Number of moving axes.
+    axis_count
+    /// Referencing.
+    reference
+    /// Comparison between the channels.
+    agreement
+    /// Brake outputs.
+    brakes
+    /// Tool holder.
+    tool_holder
+    /// Acceptance of parameters.
+    acceptance
+    /// Self-test.
+    self_test
+    /// Status bits.
+    status_bits
+    /// Forced dynamic sampling.
+    sampling
+    /// Checks of the kernel.
+    self_checks
+    /// Checks while booting.
+    start_checks
 }

@@ -1,7 +1,10 @@
 //! The monitors of HEIDENHAIN Functional Safety as peers of its tables.
 
+mod checks;
 mod interface;
+mod machine;
 mod numbers;
+mod watching;
 
 use stillpoint_monitors::heidenhain::mutant::Mutant;
 
@@ -9,7 +12,28 @@ use super::{Family, Made, Params};
 
 pub(super) static FAMILY: Family = Family {
     name: "heidenhain-fs",
-    machines: &[("gate", "gate"), ("both_channels", "both_channels")],
+    machines: &[
+        ("gate", "gate"),
+        ("both_channels", "both_channels"),
+        ("speed", "speed"),
+        ("operating_stop", "operating_stop"),
+        ("stop_path", "stop_path"),
+        ("position_limit", "position_limit"),
+        ("revolutions", "revolutions"),
+        ("comparison", "comparison"),
+        ("deceleration", "deceleration"),
+        ("axis_count", "axis_count"),
+        ("reference", "reference"),
+        ("agreement", "agreement"),
+        ("brakes", "brakes"),
+        ("tool_holder", "tool_holder"),
+        ("acceptance", "acceptance"),
+        ("self_test", "self_test"),
+        ("status_bits", "status_bits"),
+        ("sampling", "sampling"),
+        ("self_checks", "self_checks"),
+        ("start_checks", "start_checks"),
+    ],
     systems: &[],
     fixed: &[],
     make,
@@ -20,7 +44,7 @@ fn make(machine: &str, params: &Params, mutant: Option<super::Mutant>) -> Made {
         super::Mutant::Heidenhain(mutant) => Some(mutant),
         super::Mutant::Sinumerik(_) => None,
     });
-    for make in [interface::make] {
+    for make in [interface::make, watching::make, machine::make, checks::make] {
         if let Some(adapter) = make(machine, params, mutant)? {
             return Ok(Some(adapter));
         }

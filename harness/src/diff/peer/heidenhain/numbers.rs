@@ -1,6 +1,6 @@
 //! The values of the monitors as the numbers of the tables, and back.
 
-use stillpoint_monitors::heidenhain::types::{GroupState, Kind, Som, Stop};
+use stillpoint_monitors::heidenhain::types::{GroupState, Kind, Som, Stop, Unit};
 
 pub(super) use crate::diff::peer::numbers::*;
 
@@ -37,4 +37,14 @@ pub(super) fn som_rank(som: Som) -> i64 {
 /// The kind of group with this number.
 pub(super) fn kind(ordinal: i32) -> Kind {
     value(&Kind::ALL, ordinal)
+}
+
+/// The safe operating mode with this number.
+pub(super) fn som(ordinal: i32) -> Som {
+    value(&Som::ALL, ordinal)
+}
+
+/// The machine operating mode with this number.
+pub(super) fn unit(ordinal: i32) -> Unit {
+    value(&Unit::ALL, ordinal)
 }
