@@ -128,10 +128,10 @@ contract! {
             || (s.inputs.cancel && matches!(s.before.phase, Phase::Changed | Phase::Confirming)))
             => s.after.phase == Phase::Interrupted && !s.outputs.in_service;
 
-    /// A checksum that becomes wrong in service is SS1F.
+    /// A checksum that becomes wrong in service is SS1F and takes the control out of service until the next boot.
     wrong_checksum_in_service_stops ["HFS-FAULT-004", "HFS-PARAM-001"]:
         when |s| s.before.phase == Phase::Valid && !s.inputs.boot && !s.inputs.matches
-            => s.outputs.demand == Stop::Ss1F;
+            => s.outputs.demand == Stop::Ss1F && s.after.phase == Phase::Interrupted && !s.outputs.in_service;
 
     /// Nothing else raises a stop here.
     no_stop_while_out_of_service ["HFS-PARAM-005", "HFS-FAULT-004"]:
@@ -157,8 +157,8 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
         }
     } else {
         match state.phase {
-            Phase::Valid => state,
-            Phase::Interrupted => state,
+            Phase::Valid if !inputs.matches => phase_only(Phase::Interrupted),
+            Phase::Valid | Phase::Interrupted => state,
             Phase::Changed | Phase::Confirming if inputs.cancel => phase_only(Phase::Interrupted),
             Phase::Changed if inputs.password => State {
                 phase: Phase::Confirming,

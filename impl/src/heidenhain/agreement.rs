@@ -1,7 +1,7 @@
-//! Comparison of one item between the channels: they may differ for a window, not for longer.
+//! Comparison of one item between the channels: they may differ for less than a window.
 //!
 //! The two safe PLCs run in cycles of their own, so that what they hand over changes at different times (up to 22 cycles of
-//! 3 ms). How a difference is answered in the meantime, by the stricter of both values, is the business of whoever reads
+//! 3 ms; the faster one takes one of them at least, so that no regular difference lasts for all of them). How a difference is answered in the meantime, by the stricter of both values, is the business of whoever reads
 //! them. Which stop a fault raises depends on the item: SS1F for the flag "axis checked", SS1 for all others.
 //!
 //! Recommended readings of the manual implemented here: AMB-49 22 cycles.
@@ -20,7 +20,7 @@ impl Config {
         window: Cycles::new(22),
     };
 
-    /// `window`: how long the channels may differ.
+    /// `window`: the number of cycles of difference in a row that is a fault.
     ///
     /// # Errors
     /// [`ConfigError::NoDelay`] when `window` is 0.
@@ -63,19 +63,19 @@ pub struct Inputs {
 /// The outputs of one cycle.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Outputs {
-    /// They have differed for longer than the window.
+    /// They have differed for a whole window.
     pub fault: bool,
 }
 
 contract! {
-    /// Longer than the window: a fault in the first cycle beyond it, and as long as they differ.
+    /// A whole window of difference is a fault, which lasts as long as they differ.
     long_difference_is_a_fault ["HFS-P-31", "HFS-KDV-001", "HFS-KDV-005", "HFS-KDV-006"]:
-        when |s| s.inputs.differ && s.before.cycles == s.config.window
-            => s.outputs.fault && s.after == s.before;
+        when |s| s.inputs.differ && s.before.cycles.count() as u64 + 1 >= s.config.window.count() as u64
+            => s.outputs.fault && s.after.cycles == s.config.window;
 
     /// Within the window each cycle of difference counts one, and is no fault.
     window_runs ["HFS-KDV-005", "HFS-TIMING-002"]:
-        when |s| s.inputs.differ && s.before.cycles < s.config.window
+        when |s| s.inputs.differ && s.before.cycles.count() as u64 + 1 < s.config.window.count() as u64
             => !s.outputs.fault && s.after.cycles.count() as u64 == s.before.cycles.count() as u64 + 1;
 
     /// As soon as they agree, the window is whole again.
@@ -96,6 +96,6 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
     let after = State {
         cycles: Cycles::new(state.cycles.count().saturating_add(1)).min(config.window),
     };
-    let fault = state.cycles >= config.window;
+    let fault = after.cycles == config.window;
     (after, Outputs { fault })
 }

@@ -1,7 +1,8 @@
 //! Brake outputs of one safe PLC: what it makes of the release requests of its kernel (safe brake control, SBC).
 //!
 //! An output of one axis follows the request. An output shared by several axes opens when all of them ask for it; in the test
-//! of the brake control, when one does. The safe PLC never opens a brake on its own.
+//! of the brake control, when one does. The safe PLC never opens a brake on its own, and outside the test none whose drive
+//! is off: that the kernel does not ask for it (HFS-SBC-007) is checked here too, since closing is always permitted.
 
 pub use crate::contract::Stateless as State;
 
@@ -29,14 +30,10 @@ pub struct Inputs {
     pub shared: [Axis; 2],
 }
 
-impl Inputs {
-    /// Whether the kernel keeps its promise: no release of a drive that is off, except in the test (HFS-SBC-007).
-    pub fn kernel_keeps_its_word(&self) -> bool {
-        let [first, second] = self.shared;
-        self.test
-            || ((self.own.drive || !self.own.release)
-                && (first.drive || !first.release)
-                && (second.drive || !second.release))
+impl Axis {
+    /// Whether the request counts: the drive holds its axis, or the test wants it.
+    const fn released(self, test: bool) -> bool {
+        self.release && (self.drive || test)
     }
 }
 
@@ -52,12 +49,12 @@ pub struct Outputs {
 contract! {
     /// The brake of a single axis is released exactly while it is asked for.
     own_output_follows_the_request ["HFS-SBC-001", "HFS-SBC-004"]:
-        when |s| s.before.invariant(&s.config)
+        when |s| s.inputs.own.drive || s.inputs.test
             => s.outputs.own == s.inputs.own.release;
 
     /// In operation a shared output releases only when all its axes ask for it.
     all_must_ask ["HFS-P-28", "HFS-SBC-005"]:
-        when |s| !s.inputs.test
+        when |s| !s.inputs.test && s.inputs.shared[0].drive && s.inputs.shared[1].drive
             => s.outputs.collected == (s.inputs.shared[0].release && s.inputs.shared[1].release);
 
     /// In the test of the brake control one is enough.
@@ -70,21 +67,23 @@ contract! {
         when |s| !s.inputs.own.release && !s.inputs.shared[0].release && !s.inputs.shared[1].release
             => s.outputs == Outputs::default();
 
-    /// Outside the test no brake of a drive without torque is released, given the promise of the kernel.
+    /// Outside the test no brake of a drive without torque is released.
     released_axis_has_torque ["HFS-P-27", "HFS-SBC-007"]:
-        when |s| s.inputs.kernel_keeps_its_word() && !s.inputs.test
+        when |s| !s.inputs.test
             => (!s.outputs.own || s.inputs.own.drive)
                 && (!s.outputs.collected || (s.inputs.shared[0].drive && s.inputs.shared[1].drive));
 }
 
 pub(crate) fn transition(_: State, _: &Config, inputs: &Inputs) -> (State, Outputs) {
+    let test = inputs.test;
     let [first, second] = inputs.shared;
+    let (first, second) = (first.released(test), second.released(test));
     let outputs = Outputs {
-        own: inputs.own.release,
-        collected: if inputs.test {
-            first.release || second.release
+        own: inputs.own.released(test),
+        collected: if test {
+            first || second
         } else {
-            first.release && second.release
+            first && second
         },
     };
     (State, outputs)

@@ -76,7 +76,7 @@ pub struct Inputs {
 pub struct Outputs {
     /// The axis moves.
     pub too_fast: bool,
-    /// The axis is further from where it stood than it may be.
+    /// The axis does not move, but is further from where it stood than it may be.
     pub too_far: bool,
     /// The stop to be raised.
     pub demand: Stop,
@@ -86,7 +86,7 @@ contract! {
     /// An axis that does not stand is braked by SS1 in the same cycle.
     moving_axis_is_braked ["HFS-P-14", "HFS-SOS-001", "HFS-SOS-002", "HFS-TIMING-012"]:
         when |s| s.inputs.watched && !s.inputs.self_test && s.inputs.speed >= s.config.still
-            => s.outputs.too_fast && s.outputs.demand == Stop::Ss1;
+            => s.outputs.too_fast && !s.outputs.too_far && s.outputs.demand == Stop::Ss1;
 
     /// One that creeps further than it may from where it stood gets SS0.
     creeping_axis_loses_its_torque ["HFS-P-14", "HFS-SOS-003"]:
@@ -127,7 +127,7 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
     }
     let begin = state.reference(inputs.position);
     let too_fast = !inputs.self_test && inputs.speed >= config.still;
-    let too_far = inputs.position.distance(begin) > config.path;
+    let too_far = !too_fast && inputs.position.distance(begin) > config.path;
     let outputs = Outputs {
         too_fast,
         too_far,

@@ -4,6 +4,8 @@
 //! raises nothing. Moving further out is another SS1 and locks the axis: any motion is stopped until the limits in the
 //! safe machine parameters have been changed. The lock is kept through power-off.
 //!
+//! New limits come with a restart: their cycle resets the lock and nothing else, since no axis is checked yet.
+//!
 //! Recommended readings of the manual implemented here: AMB-13 (settled), AMB-14 PER_EXCURSION: the way back is offered
 //! anew each time the axis has been inside.
 
@@ -105,7 +107,7 @@ pub struct Outputs {
 contract! {
     /// A checked axis found beyond a limit for the first time is stopped in the same cycle and may then be driven back.
     axis_beyond_a_limit_stops ["HFS-SLP-001", "HFS-SLP-002", "HFS-SLP-003", "HFS-SLP-004"]:
-        when |s| s.inputs.checked && (s.before.lock == Lock::None || s.inputs.changed) && !s.config.inside(s.inputs.position)
+        when |s| s.inputs.checked && !s.inputs.changed && s.before.lock == Lock::None && !s.config.inside(s.inputs.position)
             => s.outputs.demand == Stop::Ss1 && s.after.lock == Lock::ReturnAllowed;
 
     /// On the way back, standing outside or moving inwards raises nothing.
@@ -131,6 +133,11 @@ contract! {
         when |s| s.before.lock == Lock::Locked && s.after.lock != Lock::Locked
             => s.inputs.changed;
 
+    /// New limits end every lock, and their cycle raises nothing.
+    new_limits_reset_the_lock ["HFS-SLP-005"]:
+        when |s| s.inputs.changed
+            => s.after.lock == Lock::None && s.outputs.demand == Stop::None;
+
     /// Back inside, the axis is watched as before.
     inside_ends_the_way_back ["HFS-SLP-004"]:
         when |s| s.before.lock == Lock::ReturnAllowed && s.inputs.checked && s.config.inside(s.inputs.position)
@@ -153,15 +160,11 @@ contract! {
 }
 
 pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (State, Outputs) {
-    let before = if inputs.changed {
-        Lock::None
-    } else {
-        state.lock
-    };
     let position = inputs.position;
     let inside = config.inside(position);
     let outwards = config.outwards(state.last, position);
-    let (lock, stops) = match before {
+    let (lock, stops) = match state.lock {
+        _ if inputs.changed => (Lock::None, false),
         Lock::Locked => (Lock::Locked, position != state.last),
         lock if !inputs.checked => (lock, false),
         Lock::None if inside => (Lock::None, false),

@@ -3,7 +3,10 @@
 //! After power-on the axis is homed. If it is where it was when its checked position was saved, in both channels, it counts
 //! as checked again; else a person drives it to the mark on the machine and confirms it with the permissive key. Until
 //! then it moves with closed doors only, except in the machine mode for homing and testing. An axis without a group
-//! moves always.
+//! moves always and is never checked.
+//!
+//! What asks for a check, an exchanged encoder or a changed parameter, takes effect at the next power-on; the saved position
+//! is then worthless. So is one that was found but not yet compared when the power went.
 //!
 //! Recommended readings of the manual implemented here: AMB-61 FLAG_AND_POS, a saved position counts only if it was checked
 //! when it was saved.
@@ -67,11 +70,11 @@ impl State {
 
     /// A checked axis is saved as checked, one that is not as not.
     #[cfg_attr(creusot, creusot_contracts::macros::logic)]
-    pub fn invariant(&self, _config: &Config) -> bool {
+    pub fn invariant(&self, config: &Config) -> bool {
         match self.axis {
             AxisRef::NotHomed | AxisRef::Homed => true,
             AxisRef::NotChecked => !self.saved,
-            AxisRef::Checked => self.saved,
+            AxisRef::Checked => self.saved && config.safe_axis,
         }
     }
 }
@@ -110,12 +113,16 @@ pub struct Inputs {
 impl Inputs {
     /// Whether the person's confirmation is accepted.
     fn confirms(&self) -> bool {
-        self.own_at_mark && self.peer_at_mark && self.confirm && self.som != Som::Som1
+        self.own_at_mark
+            && self.peer_at_mark
+            && self.confirm
+            && self.som != Som::Som1
+            && self.unit == Unit::Reference
     }
 
     /// Whether the position found is the one that was saved.
     fn found_again(&self) -> bool {
-        self.own_matches && self.peer_matches && !self.check_cause
+        self.own_matches && self.peer_matches
     }
 }
 
@@ -138,7 +145,7 @@ contract! {
     /// Power-on: the position is unknown, what was saved is kept.
     power_on_forgets_the_position ["HFS-REF-001", "HFS-REF-011"]:
         when |s| s.inputs.power_on
-            => s.after.axis != AxisRef::Checked && s.after.axis != AxisRef::NotChecked && !s.outputs.ax_safe;
+            => s.after.axis == AxisRef::NotHomed && !s.outputs.ax_safe;
 
     /// An axis becomes checked by the comparison with a checked saved position in both channels, or by the person at the
     /// mark in both channels, and in no other way.
@@ -146,31 +153,38 @@ contract! {
         "HFS-REF-013"]:
         when |s| s.before.axis != AxisRef::Checked && s.after.axis == AxisRef::Checked
             => match s.before.axis {
-                AxisRef::Homed => s.before.saved && s.inputs.own_matches && s.inputs.peer_matches && !s.inputs.check_cause,
+                AxisRef::Homed => s.before.saved && s.inputs.own_matches && s.inputs.peer_matches,
                 AxisRef::NotChecked => s.inputs.own_at_mark && s.inputs.peer_at_mark && s.inputs.confirm
-                    && s.inputs.som != Som::Som1,
+                    && s.inputs.som != Som::Som1 && s.inputs.unit == Unit::Reference,
                 AxisRef::NotHomed | AxisRef::Checked => false,
             };
 
     /// The comparison decides in the cycle after the homing: checked, or to be checked by a person.
     comparison_decides ["HFS-P-41", "HFS-REF-007", "HFS-REF-010", "HFS-REF-012"]:
-        when |s| s.before.axis == AxisRef::Homed && !s.inputs.power_on
-            => s.after.axis == if s.before.saved && s.inputs.own_matches && s.inputs.peer_matches && !s.inputs.check_cause {
+        when |s| s.config.safe_axis && s.before.axis == AxisRef::Homed && !s.inputs.power_on
+            => s.after.axis == if s.before.saved && s.inputs.own_matches && s.inputs.peer_matches {
                 AxisRef::Checked
             } else {
                 AxisRef::NotChecked
             };
 
-    /// The person at the mark decides, in SOM_2 to SOM_4.
-    person_at_the_mark_decides ["HFS-CHK-001", "HFS-CHK-003", "HFS-CHK-004"]:
-        when |s| s.before.axis == AxisRef::NotChecked && !s.inputs.power_on
+    /// The person at the mark decides, in SOM_2 to SOM_4, with the door open or closed.
+    person_at_the_mark_decides ["HFS-CHK-001", "HFS-CHK-003", "HFS-CHK-004", "HFS-CHK-010"]:
+        when |s| s.config.safe_axis && s.before.axis == AxisRef::NotChecked && !s.inputs.power_on
             => (s.after.axis == AxisRef::Checked) == (s.inputs.own_at_mark && s.inputs.peer_at_mark && s.inputs.confirm
-                && s.inputs.som != Som::Som1);
+                && s.inputs.som != Som::Som1 && s.inputs.unit == Unit::Reference);
 
-    /// A cause for a check that comes before the axis is homed is not forgotten by a second power-on.
-    check_cause_is_not_forgotten ["HFS-REF-010", "HFS-REF-011"]:
-        when |s| s.inputs.check_cause && (s.inputs.power_on || s.before.axis == AxisRef::NotHomed)
-            => !s.after.saved;
+    /// A saved position counts after power-on only without a cause for a check, if the axis was checked, or was not homed
+    /// since it was saved: a second power-on forgets no cause.
+    saved_position_needs_a_check ["HFS-REF-007", "HFS-REF-008", "HFS-REF-010", "HFS-SLP-008"]:
+        when |s| s.inputs.power_on
+            => !s.after.saved || (!s.inputs.check_cause && s.before.saved
+                && matches!(s.before.axis, AxisRef::Checked | AxisRef::NotHomed));
+
+    /// A checked position without a cause for a check is kept through power-off.
+    checked_position_is_kept ["HFS-REF-008"]:
+        when |s| s.config.safe_axis && s.inputs.power_on && !s.inputs.check_cause && s.before.axis == AxisRef::Checked
+            => s.after.saved;
 
     /// Once checked, the axis stays so until power-on.
     checked_until_power_on ["HFS-REF-011"]:
@@ -190,13 +204,14 @@ contract! {
 
     /// Before homing a safe axis moves in the mode for it only, whatever the door.
     no_other_mode_before_homing ["HFS-REF-006"]:
-        when |s| s.config.safe_axis && s.after.axis == AxisRef::NotHomed
+        when |s| s.config.safe_axis && matches!(s.after.axis, AxisRef::NotHomed | AxisRef::Homed)
             => s.outputs.may_move == (s.inputs.unit == Unit::Reference);
 
     /// An axis without a group moves always and stops nothing.
     axis_without_group_is_free ["HFS-NS-001", "HFS-NS-002", "HFS-CHK-007"]:
         when |s| !s.config.safe_axis
-            => s.outputs.may_move && !s.outputs.untested && !s.outputs.ax_safe && s.outputs.demand == Stop::None;
+            => s.outputs.may_move && !s.outputs.untested && !s.outputs.ax_safe && !s.outputs.checked
+                && s.outputs.demand == Stop::None;
 
     /// A checked axis moves everywhere and is never untested.
     checked_axis_is_free ["HFS-REF-009"]:
@@ -210,24 +225,19 @@ contract! {
 }
 
 impl State {
-    /// The state one cycle later.
+    /// The state one cycle later, of a safe axis.
     fn advanced(self, inputs: &Inputs) -> Self {
-        let before = if inputs.power_on {
-            Self::restored(self.saved)
-        } else {
-            self
-        };
-        match before.axis {
-            AxisRef::NotHomed => Self {
-                axis: if inputs.homed {
-                    AxisRef::Homed
-                } else {
-                    AxisRef::NotHomed
-                },
-                saved: before.saved && !inputs.check_cause,
+        if inputs.power_on {
+            let compared = self.axis != AxisRef::Homed;
+            return Self::restored(self.saved && compared && !inputs.check_cause);
+        }
+        match self.axis {
+            AxisRef::NotHomed if inputs.homed => Self {
+                axis: AxisRef::Homed,
+                ..self
             },
             AxisRef::Homed => {
-                let saved = before.saved && inputs.found_again();
+                let saved = self.saved && inputs.found_again();
                 Self {
                     axis: if saved {
                         AxisRef::Checked
@@ -241,20 +251,24 @@ impl State {
                 axis: AxisRef::Checked,
                 saved: true,
             },
-            AxisRef::NotChecked | AxisRef::Checked => before,
+            AxisRef::NotHomed | AxisRef::NotChecked | AxisRef::Checked => self,
         }
     }
 }
 
 pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (State, Outputs) {
-    let after = state.advanced(inputs);
+    let after = if config.safe_axis {
+        state.advanced(inputs)
+    } else {
+        State::INITIAL
+    };
     let checked = after.axis == AxisRef::Checked;
     let homing = inputs.unit == Unit::Reference;
     let may_move = !config.safe_axis
         || match after.axis {
             AxisRef::Checked => true,
-            AxisRef::NotHomed => homing,
-            AxisRef::Homed | AxisRef::NotChecked => homing || !inputs.door_open,
+            AxisRef::NotHomed | AxisRef::Homed => homing,
+            AxisRef::NotChecked => homing || !inputs.door_open,
         };
     let untested = config.safe_axis && !checked && inputs.moving && inputs.door_open && !homing;
     let outputs = Outputs {

@@ -1,27 +1,31 @@
 //! Forced dynamic sampling of one pair of inputs: the supplies of its channels are switched off in turn.
 //!
+//! A supply switched at the end of one cycle acts on what is read in the next.
+//!
 //! During its own pulse an input must read 0, else a short circuit holds it and it could not report an open contact: SS1. A
 //! 0 outside its own pulse is a real one; the other channel watches on during the pulse of the first.
 
 use crate::heidenhain::types::Stop;
 use crate::kernel::{ConfigError, Cycles};
 
-/// The length of a pulse.
+/// The length of a pulse and the meaning of the pair.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Config {
     t_low: Cycles,
+    emergency: bool,
 }
 
 impl Config {
-    /// `t_low`: how long a supply is switched off; the manual does not print it.
+    /// `t_low`: how long a supply is switched off; the manual does not print it. `emergency`: the pair is an emergency stop,
+    /// an open contact of which is SS1; others, such as doors, are evaluated elsewhere.
     ///
     /// # Errors
     /// [`ConfigError::NoDelay`] when `t_low` is 0.
-    pub const fn new(t_low: Cycles) -> Result<Self, ConfigError> {
+    pub const fn new(t_low: Cycles, emergency: bool) -> Result<Self, ConfigError> {
         if t_low.is_zero() {
             Err(ConfigError::NoDelay)
         } else {
-            Ok(Self { t_low })
+            Ok(Self { t_low, emergency })
         }
     }
 }
@@ -100,9 +104,15 @@ contract! {
     /// An open contact that no short circuit hides is seen in the same cycle unless its own pulse runs: during a pulse the
     /// other channel sees it.
     open_contact_is_seen ["HFS-P-07", "HFS-DYN-001", "HFS-ES-004"]:
-        when |s| (!s.inputs.contact_a && !s.inputs.stuck_a && s.after.pulse != Pulse::ALow)
-            || (!s.inputs.contact_b && !s.inputs.stuck_b && s.after.pulse != Pulse::BLow)
-            => s.outputs.opened;
+        when |s| (!s.inputs.contact_a && !s.inputs.stuck_a && s.before.pulse != Pulse::ALow)
+            || (!s.inputs.contact_b && !s.inputs.stuck_b && s.before.pulse != Pulse::BLow)
+            => s.outputs.opened && (s.outputs.demand == Stop::Ss1 || !s.config.emergency);
+
+    /// So with both contacts open one channel sees it in every cycle of the test.
+    emergency_stop_is_seen_in_every_pulse ["HFS-P-07", "HFS-ES-001", "HFS-ES-004"]:
+        when |s| s.config.emergency && !s.inputs.contact_a && !s.inputs.contact_b
+            && !s.inputs.stuck_a && !s.inputs.stuck_b
+            => s.outputs.demand == Stop::Ss1;
 
     /// A pulse is never taken for an open contact.
     pulse_is_no_open_contact ["HFS-DYN-001"]:
@@ -111,19 +121,20 @@ contract! {
 
     /// An input that stays 1 without its supply is stopped by SS1.
     short_circuit_is_stopped ["HFS-FAULT-012", "HFS-IO-003"]:
-        when |s| (s.after.pulse == Pulse::ALow && s.inputs.stuck_a) || (s.after.pulse == Pulse::BLow && s.inputs.stuck_b)
+        when |s| (s.before.pulse == Pulse::ALow && s.inputs.stuck_a) || (s.before.pulse == Pulse::BLow && s.inputs.stuck_b)
             => s.outputs.short && s.outputs.demand == Stop::Ss1;
 
-    /// Without a short circuit nothing is raised.
+    /// With closed contacts and without a short circuit nothing is raised.
     good_input_passes ["HFS-FAULT-012"]:
         when |s| !s.inputs.stuck_a && !s.inputs.stuck_b
-            => !s.outputs.short && s.outputs.demand == Stop::None;
+            => !s.outputs.short
+                && (s.outputs.demand == Stop::None || (s.config.emergency && s.outputs.opened));
 
     /// Without its supply an input without short circuit reads 0, with it what its contact is.
     inputs_read_their_contacts ["HFS-DYN-001", "HFS-KDV-003"]:
         when |s| !s.inputs.stuck_a && !s.inputs.stuck_b
-            => s.outputs.reads_a == (s.inputs.contact_a && s.after.pulse != Pulse::ALow)
-                && s.outputs.reads_b == (s.inputs.contact_b && s.after.pulse != Pulse::BLow);
+            => s.outputs.reads_a == (s.inputs.contact_a && s.before.pulse != Pulse::ALow)
+                && s.outputs.reads_b == (s.inputs.contact_b && s.before.pulse != Pulse::BLow);
 
     /// A test that is due begins with channel A.
     test_begins_with_channel_a ["HFS-DYN-001", "HFS-ES-004"]:
@@ -180,16 +191,21 @@ impl State {
 
 pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (State, Outputs) {
     let after = state.advanced(config, inputs.due);
-    let (low_a, low_b) = (after.pulse == Pulse::ALow, after.pulse == Pulse::BLow);
+    let (low_a, low_b) = (state.pulse == Pulse::ALow, state.pulse == Pulse::BLow);
     let reads_a = inputs.stuck_a || (inputs.contact_a && !low_a);
     let reads_b = inputs.stuck_b || (inputs.contact_b && !low_b);
     let short = (low_a && reads_a) || (low_b && reads_b);
+    let opened = (!reads_a && !low_a) || (!reads_b && !low_b);
     let outputs = Outputs {
         reads_a,
         reads_b,
-        opened: (!reads_a && !low_a) || (!reads_b && !low_b),
+        opened,
         short,
-        demand: if short { Stop::Ss1 } else { Stop::None },
+        demand: if short || (opened && config.emergency) {
+            Stop::Ss1
+        } else {
+            Stop::None
+        },
     };
     (after, outputs)
 }

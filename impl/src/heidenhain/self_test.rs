@@ -3,11 +3,14 @@
 //! After every start it runs from the configuration through the internal checks, the chain of normally closed contacts and
 //! the emergency stop circuit with the control voltage off; then, with the voltage on, the keys free and the doors shut,
 //! through the brake control, the cut-out channels and last the holding brakes. Repeated in time, it begins with the
-//! holding brakes instead, and switches the drives off after them. Who tests what is the business of each step; this
-//! machine keeps their order, waits where a person has something to do, and stops where a step has found a fault.
+//! holding brakes instead, and switches the drives off after them; the rest is the whole test again (7.1: "the complete
+//! safety self-test"). What is tested is the business of each step; this machine keeps their order, waits where a person
+//! has something to do, and stops where a step has found a fault. The cycle of the main switch is a reset and nothing else.
+//!
+//! A brake that does not hold raises no stop, since its drive must hold the axis; but no test is good any more.
 //!
 //! Recommended readings of the manual implemented here: AMB-37 SS0_PLUS_SS1F, a fault of the brake control is SS0 of the
-//! drives concerned (which is SS1F of all others).
+//! drives concerned and SS1F of all others.
 
 use crate::heidenhain::types::Stop;
 use crate::kernel::{ConfigError, Cycles};
@@ -171,8 +174,10 @@ pub struct Outputs {
     pub ask_voltage: bool,
     /// The cut-out channels are tested: the groups may leave STO.
     pub cut_out_done: bool,
-    /// The stop to be raised.
+    /// The stop to be raised for the whole machine.
     pub demand: Stop,
+    /// The stop of the drives whose brake control has failed.
+    pub brake_demand: Stop,
 }
 
 contract! {
@@ -199,18 +204,17 @@ contract! {
     /// Power-on starts the whole test anew.
     power_on_starts_anew ["HFS-TEST-001", "HFS-SS1F-003"]:
         when |s| s.inputs.power_on
-            => !s.outputs.gen_safe && !s.after.repeated && s.after.phase != Phase::Passed
-                && s.after.phase != Phase::HoldingBrakes;
+            => s.after == State::INITIAL && !s.outputs.gen_safe && s.outputs.demand == Stop::None;
 
     /// A configuration that nobody confirms stops the test where it is.
     unknown_configuration_waits ["HFS-TEST-009"]:
-        when |s| s.before.phase == Phase::Configuration && !s.inputs.configured && !s.inputs.fault
+        when |s| s.before.phase == Phase::Configuration && !s.inputs.configured
             => s.after.phase == Phase::Configuration && s.outputs.demand == Stop::None;
 
     /// Circuit open, voltage on too early or not yet, keys pressed, doors open: the test waits, without a stop.
     test_waits_for_people ["HFS-TEST-005", "HFS-TEST-006", "HFS-TEST-011", "HFS-TEST-016", "HFS-TEST-017", "HFS-HW-006"]:
-        when |s| !s.inputs.power_on && !s.inputs.fault && match s.before.phase {
-            Phase::EsCircuit => !s.inputs.es_closed,
+        when |s| !s.inputs.power_on && match s.before.phase {
+            Phase::EsCircuit => !s.inputs.es_closed && !s.inputs.fault,
             Phase::VoltageOff => s.inputs.cvo,
             Phase::VoltageOn => !s.inputs.cvo,
             Phase::Keys => !s.inputs.keys_free,
@@ -227,10 +231,11 @@ contract! {
             => s.after.phase == s.before.phase && s.outputs.demand == Stop::None;
 
     /// A fault of the control or the drives ends the test with SS1F.
-    fault_ends_the_test ["HFS-TEST-012", "HFS-TEST-013", "HFS-TEST-019", "HFS-TEST-020", "HFS-TEST-021", "HFS-TEST-022",
+    fault_ends_the_test ["HFS-TEST-012", "HFS-TEST-015", "HFS-TEST-019", "HFS-TEST-020", "HFS-TEST-021", "HFS-TEST-022",
         "HFS-TEST-023"]:
         when |s| !s.inputs.power_on && s.inputs.fault
-            && matches!(s.before.phase, Phase::Internal | Phase::Chain | Phase::VoltageOn | Phase::CutOut)
+            && matches!(s.before.phase, Phase::Internal | Phase::Chain | Phase::BrakeControl | Phase::CutOut
+                | Phase::DrivesOff)
             => s.outputs.demand == Stop::Ss1F && s.after.phase == Phase::Failed && !s.outputs.gen_safe;
 
     /// A fault of the emergency stop circuit is SS1.
@@ -238,49 +243,53 @@ contract! {
         when |s| !s.inputs.power_on && s.inputs.fault && s.before.phase == Phase::EsCircuit
             => s.outputs.demand == Stop::Ss1 && s.after.phase == Phase::EsCircuit;
 
-    /// A fault of the brake control is SS0.
+    /// A fault of the brake control is also SS0 of its drives; nothing else is.
     fault_of_the_brake_control_is_ss0 ["HFS-BCT-002", "HFS-BCT-003"]:
-        when |s| !s.inputs.power_on && s.inputs.fault && s.before.phase == Phase::BrakeControl
-            => s.outputs.demand == Stop::Ss0 && s.after.phase == Phase::Failed;
+        when |s| s.inputs.fault || s.outputs.brake_demand != Stop::None
+            => (s.outputs.brake_demand == Stop::Ss0)
+                == (s.before.phase == Phase::BrakeControl && s.inputs.fault && !s.inputs.power_on);
 
-    /// Channel B answers a test of the brake control that channel A leaves out, and drives left on, by SS1F.
-    channel_b_watches_channel_a ["HFS-BCT-008", "HFS-TEST-015"]:
-        when |s| !s.inputs.power_on && s.config.cc
-            && ((s.before.phase == Phase::BrakeControl && s.inputs.omitted && !s.inputs.fault)
-                || (s.before.phase == Phase::DrivesOff && s.inputs.fault))
+    /// Channel B answers a test of the brake control that channel A leaves out by SS1F.
+    channel_b_watches_channel_a ["HFS-BCT-008"]:
+        when |s| !s.inputs.power_on && s.config.cc && s.before.phase == Phase::BrakeControl && s.inputs.omitted
             => s.outputs.demand == Stop::Ss1F && s.after.phase == Phase::Failed;
 
-    /// A brake that does not hold fails the test but stops nothing: the drive holds the axis.
+    /// A brake that does not hold keeps the test from passing and leaves no test good, but stops nothing: the drive holds
+    /// the axis.
     bad_brake_fails_without_a_stop ["HFS-BRT-001", "HFS-BRT-002", "HFS-BRT-003"]:
         when |s| !s.inputs.power_on && s.before.phase == Phase::HoldingBrakes && s.inputs.done && !s.inputs.brake_good
-            && s.inputs.doors(&s.config) && !s.inputs.fault
-            => s.after.phase == Phase::Failed && s.outputs.demand == Stop::None && !s.outputs.gen_safe;
+            && s.inputs.doors(&s.config)
+            => s.after.phase == Phase::HoldingBrakes && s.outputs.demand == Stop::None && !s.outputs.gen_safe;
 
     /// A failed test stays failed until the main switch.
     failure_lasts_until_the_main_switch ["HFS-BRT-002", "HFS-SS1F-003", "HFS-SS0-005"]:
         when |s| s.before.phase == Phase::Failed && !s.inputs.power_on
             => s.after.phase == Phase::Failed && !s.outputs.gen_safe && s.outputs.demand == Stop::None;
 
-    /// A repeated test begins with the holding brakes, then switches the drives off and runs the rest.
-    repeated_test_begins_with_the_brakes ["HFS-TEST-024", "HFS-TEST-025", "HFS-BRT-005"]:
+    /// A repeated test begins with the holding brakes, and with the doors shut: until then the request waits.
+    repeated_test_begins_with_the_brakes ["HFS-TEST-014", "HFS-TEST-024", "HFS-TEST-025", "HFS-BRT-005"]:
         when |s| !s.inputs.power_on && s.before.phase == Phase::Passed
-            => s.after.phase == if s.inputs.start { Phase::HoldingBrakes } else { Phase::Passed }
-                && (!s.inputs.start || s.after.repeated);
+            => if s.inputs.start && s.inputs.doors(&s.config) {
+                s.after.phase == Phase::HoldingBrakes && s.after.repeated
+            } else {
+                s.after.phase == Phase::Passed
+            };
 
-    /// The drives are off before a repeated test goes on.
-    drives_are_off_before_the_rest ["HFS-TEST-015", "HFS-TEST-025"]:
+    /// The drives are off before a repeated test goes on, with the whole self-test.
+    drives_are_off_before_the_rest ["HFS-TEST-001", "HFS-TEST-015", "HFS-TEST-025"]:
         when |s| s.before.phase == Phase::DrivesOff && !s.inputs.power_on && !s.inputs.fault
-            => s.after.phase == if s.inputs.done { Phase::Internal } else { Phase::DrivesOff };
+            => s.after.phase == if s.inputs.done { Phase::Configuration } else { Phase::DrivesOff };
 
     /// The brake control is tested unless SMP560 bit 3 leaves it out.
     brake_control_is_tested ["HFS-BCT-001", "HFS-TEST-008"]:
-        when |s| s.before.phase == Phase::Doors && !s.inputs.power_on && !s.inputs.fault && s.inputs.doors(&s.config)
+        when |s| s.before.phase == Phase::Doors && !s.inputs.power_on && s.inputs.doors(&s.config)
             => s.after.phase == if s.config.no_control { Phase::CutOut } else { Phase::BrakeControl };
 
-    /// The safe PLC is told while the brake control is tested, the operating stop while anything is.
+    /// The safe PLC is told while the brake control is tested, the operating stop while anything of the drives is.
     test_is_told ["HFS-BCT-007", "HFS-TEST-018", "HFS-TEST-011"]:
         when |s| s.outputs.running
-            => s.outputs.brake_test == (s.after.phase == Phase::BrakeControl) && s.outputs.path_only
+            => s.outputs.brake_test == (s.after.phase == Phase::BrakeControl)
+                && s.outputs.path_only == (s.after.phase != Phase::Configuration)
                 && s.outputs.ask_voltage == (s.after.phase == Phase::VoltageOn);
 
     /// The drives stay without torque until the cut-out channels are tested.
@@ -300,10 +309,12 @@ enum Outcome {
     Wait,
     /// The next step.
     Next(Phase),
-    /// A stop, and the step is tried again.
-    Stop(Stop),
-    /// The test has failed, with this stop.
-    Fail(Stop),
+    /// SS1, and the step is tried again.
+    Stop,
+    /// The test has failed: SS1F.
+    Fail,
+    /// No test is good any more; the step is tried again.
+    Spoilt,
 }
 
 /// What the step of `state` comes to.
@@ -317,15 +328,14 @@ fn outcome(state: &State, config: &Config, inputs: &Inputs) -> Outcome {
     };
     let doors = inputs.doors(config);
     let done = inputs.done && doors;
-    if inputs.fault && state.running() {
-        return match state.phase {
-            Phase::EsCircuit => Outcome::Stop(Stop::Ss1),
-            Phase::BrakeControl => Outcome::Fail(Stop::Ss0),
-            Phase::DrivesOff if !config.cc => Outcome::Fail(Stop::None),
-            _ => Outcome::Fail(Stop::Ss1F),
-        };
-    }
     match state.phase {
+        Phase::Internal | Phase::Chain | Phase::BrakeControl | Phase::CutOut | Phase::DrivesOff
+            if inputs.fault =>
+        {
+            Outcome::Fail
+        }
+        Phase::EsCircuit if inputs.fault => Outcome::Stop,
+
         Phase::Configuration => when(inputs.configured, Phase::Internal),
         Phase::Internal => when(inputs.done, Phase::Chain),
         Phase::Chain => when(inputs.done, Phase::EsCircuit),
@@ -335,32 +345,38 @@ fn outcome(state: &State, config: &Config, inputs: &Inputs) -> Outcome {
         Phase::Keys => when(inputs.keys_free, Phase::Doors),
         Phase::Doors if config.no_control => when(doors, Phase::CutOut),
         Phase::Doors => when(doors, Phase::BrakeControl),
-        Phase::BrakeControl if config.cc && inputs.omitted => Outcome::Fail(Stop::Ss1F),
+        Phase::BrakeControl if config.cc && inputs.omitted => Outcome::Fail,
         Phase::BrakeControl => when(done, Phase::CutOut),
         Phase::CutOut if state.repeated => when(done, Phase::Passed),
         Phase::CutOut => when(done, Phase::HoldingBrakes),
-        Phase::HoldingBrakes if done && !inputs.brake_good => Outcome::Fail(Stop::None),
+        Phase::HoldingBrakes if done && !inputs.brake_good => Outcome::Spoilt,
         Phase::HoldingBrakes if state.repeated => when(done, Phase::DrivesOff),
         Phase::HoldingBrakes => when(done, Phase::Passed),
-        Phase::DrivesOff => when(inputs.done, Phase::Internal),
-        Phase::Passed => when(inputs.start, Phase::HoldingBrakes),
+        Phase::DrivesOff => when(inputs.done, Phase::Configuration),
+        Phase::Passed => when(inputs.start && doors, Phase::HoldingBrakes),
         Phase::Failed => Outcome::Wait,
     }
 }
 
 pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (State, Outputs) {
-    let before = if inputs.power_on {
-        State::INITIAL
-    } else {
-        State {
-            rest: state.rest.tick(),
-            ..state
-        }
+    if inputs.power_on {
+        return (State::INITIAL, shown(State::INITIAL));
+    }
+    let before = State {
+        rest: state.rest.tick(),
+        ..state
     };
     let (after, demand) = match outcome(&before, config, inputs) {
         Outcome::Wait => (before, Stop::None),
-        Outcome::Stop(stop) => (before, stop),
-        Outcome::Fail(stop) => (before.failed(), stop),
+        Outcome::Stop => (before, Stop::Ss1),
+        Outcome::Fail => (before.failed(), Stop::Ss1F),
+        Outcome::Spoilt => {
+            let spoilt = State {
+                rest: Cycles::ZERO,
+                ..before
+            };
+            (spoilt, Stop::None)
+        }
         Outcome::Next(Phase::Passed) => {
             let passed = State {
                 phase: Phase::Passed,
@@ -379,15 +395,26 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
             (next, Stop::None)
         }
     };
-    let running = after.running();
+    let brake_fault = before.phase == Phase::BrakeControl && inputs.fault;
     let outputs = Outputs {
-        gen_safe: !after.rest.is_zero(),
-        running,
-        brake_test: after.phase == Phase::BrakeControl,
-        path_only: running,
-        ask_voltage: after.phase == Phase::VoltageOn,
-        cut_out_done: matches!(after.phase, Phase::HoldingBrakes | Phase::Passed),
         demand,
+        brake_demand: if brake_fault { Stop::Ss0 } else { Stop::None },
+        ..shown(after)
     };
     (after, outputs)
+}
+
+/// What a state shows, without a stop.
+fn shown(state: State) -> Outputs {
+    let running = state.running();
+    Outputs {
+        gen_safe: !state.rest.is_zero(),
+        running,
+        brake_test: state.phase == Phase::BrakeControl,
+        path_only: running && state.phase != Phase::Configuration,
+        ask_voltage: state.phase == Phase::VoltageOn,
+        cut_out_done: matches!(state.phase, Phase::HoldingBrakes | Phase::Passed),
+        demand: Stop::None,
+        brake_demand: Stop::None,
+    }
 }

@@ -1,7 +1,8 @@
 //! Checks of the configuration while the control boots.
 //!
 //! Axes of different kind in one group are found by both channels; drive parameters that are not plausible by channel B. Any
-//! of them is SS1F, and the control does not go into service before the main switch has been off and on.
+//! of them is SS1F, and the control does not go into service before the main switch has been off and on. The
+//! cycle of the main switch is a reset and nothing else: the boot follows it.
 
 use crate::heidenhain::types::Stop;
 use crate::kernel::ConfigError;
@@ -91,19 +92,19 @@ pub struct Outputs {
 contract! {
     /// Axes of different kind in one group, found while booting by either channel: SS1F.
     mixed_group_is_refused ["HFS-FAULT-005", "HFS-LIM-003", "HFS-GRP-001"]:
-        when |s| s.inputs.mixed && (s.before.start == Start::Booting || s.inputs.power_on)
+        when |s| s.inputs.mixed && s.before.start == Start::Booting && !s.inputs.power_on
             => s.outputs.demand == Stop::Ss1F && s.after.start == Start::Refused;
 
     /// Drive parameters that are not plausible are found by channel B: SS1F.
     implausible_drive_is_refused ["HFS-FAULT-009"]:
-        when |s| s.config.cc && (s.before.start == Start::Booting || s.inputs.power_on)
+        when |s| s.config.cc && s.before.start == Start::Booting && !s.inputs.power_on
             && (s.inputs.motor_speed < 0 || s.inputs.motor_speed > 100 || s.inputs.rated_speed <= 0
                 || !s.inputs.feed_constant)
             => s.outputs.demand == Stop::Ss1F && s.after.start == Start::Refused;
 
     /// A control whose checks passed goes into service at the end of its boot, not before.
     service_begins_after_the_boot ["HFS-ARCH-011"]:
-        when |s| s.outputs.demand == Stop::None && (s.before.start == Start::Booting || s.inputs.power_on)
+        when |s| s.outputs.demand == Stop::None && s.before.start == Start::Booting && !s.inputs.power_on
             => (s.after.start == Start::InService) == s.inputs.booted;
 
     /// What was refused stays refused until the main switch.
@@ -111,15 +112,22 @@ contract! {
         when |s| s.before.start == Start::Refused && !s.inputs.power_on
             => s.after.start == Start::Refused;
 
+    /// The main switch starts the boot anew.
+    main_switch_boots ["HFS-ACK-001", "HFS-ARCH-011"]:
+        when |s| s.inputs.power_on
+            => s.after == State::INITIAL && s.outputs.demand == Stop::None;
+
     /// In service nothing is checked any more; plausible parameters pass.
     no_stop_without_cause ["HFS-FAULT-009"]:
-        when |s| (s.before.start != Start::Booting && !s.inputs.power_on)
-            || (!s.inputs.mixed && s.inputs.plausible())
+        when |s| s.before.start != Start::Booting || (!s.inputs.mixed && s.inputs.plausible())
             => s.outputs.demand == Stop::None;
 }
 
 pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (State, Outputs) {
-    if state.start != Start::Booting && !inputs.power_on {
+    if inputs.power_on {
+        return (State::INITIAL, Outputs::default());
+    }
+    if state.start != Start::Booting {
         return (state, Outputs::default());
     }
     let (start, demand) = if inputs.mixed || (config.cc && !inputs.plausible()) {

@@ -65,7 +65,7 @@ variants! {
 
     reference_forgets_the_cause: reference |state, config, inputs| {
         let mut inputs = *inputs;
-        inputs.check_cause &= state.axis == reference::AxisRef::Homed;
+        inputs.check_cause &= state.axis == reference::AxisRef::Checked;
         reference::transition(state, config, &inputs)
     }
 
@@ -104,13 +104,14 @@ variants! {
 
     sampling_blind_in_the_pulse: sampling |state, config, inputs| {
         let (after, mut outputs) = sampling::transition(state, config, inputs);
-        outputs.opened &= after.timer.is_zero();
+        outputs.opened &= state.timer.is_zero();
+
         (after, outputs)
     }
 
     sampling_b_untested: sampling |state, config, inputs| {
         let (after, mut outputs) = sampling::transition(state, config, inputs);
-        if after.pulse == sampling::Pulse::BLow {
+        if state.pulse == sampling::Pulse::BLow && outputs.short {
             outputs.short = false;
             outputs.demand = Stop::None;
         }

@@ -102,7 +102,7 @@ mutants! { heidenhain:
         ReferenceInSom1 "reference-in-som-1" => machine::reference_in_som_1;
         /// The other channel is not asked.
         ReferenceOneChannel "reference-one-channel" => machine::reference_one_channel;
-        /// A cause for a check counts only in the cycle of the comparison.
+        /// A cause for a check counts only if the axis was checked when the power went: a second power-on forgets it.
         ReferenceForgetsTheCause "reference-forgets-the-cause" => machine::reference_forgets_the_cause;
     }
     /// The comparison of the channels with this mutant in it.

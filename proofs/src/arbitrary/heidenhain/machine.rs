@@ -231,7 +231,7 @@ pub fn sampling<S: Source>(
     source: &mut S,
 ) -> Option<(sampling::State, sampling::Config, sampling::Inputs)> {
     let t_low = source.any_delay(LONGEST);
-    let config = sampling::Config::new(t_low).ok()?;
+    let config = sampling::Config::new(t_low, source.any_bool()).ok()?;
     let pulse = source.any_of(&[
         Pulse::None,
         Pulse::ALow,

@@ -1,6 +1,8 @@
 //! Monitors of HEIDENHAIN Functional Safety: the step functions under test, their contracts, and properties over several steps, one
 //! file per topic.
 
+pub mod units;
+
 monitors! { heidenhain:
     /// Take-over from the safe PLC.
     gate

@@ -89,7 +89,8 @@ fn status_bits(mutant: Option<Mutant>) -> Adapter {
 }
 
 fn sampling(p: &Params, mutant: Option<Mutant>) -> Refusable {
-    let config = sampling::Config::new(p.time("t_low"))?;
+    // The pair of the table is an emergency stop.
+    let config = sampling::Config::new(p.time("t_low"), true)?;
     let next = mutant.map_or(sampling::next as sampling::Next, Mutant::sampling);
     Ok(Adapter::new(
         &["due", "contact_a", "contact_b", "stuck_a", "stuck_b"],
