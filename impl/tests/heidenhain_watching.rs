@@ -96,6 +96,7 @@ fn an_axis_beyond_its_limit_is_driven_back_or_locked() {
         let inputs = position_limit::Inputs {
             checked: true,
             changed,
+            stopping: false,
             position: Position(position),
         };
         let demand = monitor.step(&inputs).demand;
@@ -114,6 +115,25 @@ fn an_axis_beyond_its_limit_is_driven_back_or_locked() {
 }
 
 #[test]
+fn an_axis_that_overruns_its_limit_is_not_locked() {
+    let config = position_limit::Config::new(Position(0), Position(10)).expect("in order");
+    let mut monitor = position_limit::Monitor::new(config);
+    let at = |position: i32, stopping: bool| position_limit::Inputs {
+        checked: true,
+        changed: false,
+        stopping,
+        position: Position(position),
+    };
+    assert_eq!(monitor.step(&at(11, false)).demand, Stop::Ss1);
+    for overrun in 12..20 {
+        assert_eq!(monitor.step(&at(overrun, true)).demand, Stop::None);
+    }
+    assert_eq!(monitor.step(&at(18, false)).demand, Stop::None);
+    assert_eq!(monitor.step(&at(19, false)).demand, Stop::Ss1);
+    assert_eq!(monitor.state().lock, position_limit::Lock::Locked);
+}
+
+#[test]
 fn a_lock_outlasts_power_off() {
     let config = position_limit::Config::new(Position(0), Position(10)).expect("in order");
     let state = position_limit::State::restored(true, Position(4));
@@ -121,6 +141,7 @@ fn a_lock_outlasts_power_off() {
     let inputs = position_limit::Inputs {
         checked: false,
         changed: false,
+        stopping: false,
         position: Position(5),
     };
     assert_eq!(monitor.step(&inputs).demand, Stop::Ss1);

@@ -2,7 +2,9 @@
 //!
 //! Beyond a limit the axis is stopped by SS1. Then the operator may drive it back: to stand outside, or to move inwards,
 //! raises nothing. Moving further out is another SS1 and locks the axis: any motion is stopped until the limits in the
-//! safe machine parameters have been changed. The lock is kept through power-off.
+//! safe machine parameters have been changed. The lock is kept through power-off. While the stop still brakes the axis, or
+//! its torque is off, nobody drives it: what it overruns is not the wrong way (4.8.12: the axis may be returned "after
+//! switching the machine back on").
 //!
 //! New limits come with a restart: their cycle resets the lock and nothing else, since no axis is checked yet.
 //!
@@ -93,6 +95,8 @@ pub struct Inputs {
     pub checked: bool,
     /// The limits have been changed: OEM password and restart.
     pub changed: bool,
+    /// An SS1 or a higher stop brakes the axis or has taken its torque.
+    pub stopping: bool,
     /// The actual position of this channel.
     pub position: Position,
 }
@@ -118,9 +122,14 @@ contract! {
 
     /// Driving a checked axis further out stops and locks it.
     wrong_way_locks ["HFS-P-40", "HFS-SLP-005"]:
-        when |s| s.before.lock == Lock::ReturnAllowed && !s.inputs.changed && s.inputs.checked
+        when |s| s.before.lock == Lock::ReturnAllowed && !s.inputs.changed && s.inputs.checked && !s.inputs.stopping
             && s.config.outwards(s.before.last, s.inputs.position)
             => s.outputs.demand == Stop::Ss1 && s.after.lock == Lock::Locked;
+
+    /// What the axis overruns while it is stopped does not lock it.
+    overrun_does_not_lock ["HFS-SLP-004"]:
+        when |s| s.before.lock != Lock::Locked && s.inputs.stopping
+            => s.after.lock != Lock::Locked;
 
     /// A locked axis is stopped whenever it moves, in either direction, checked or not.
     locked_axis_does_not_move ["HFS-P-42", "HFS-SLP-005", "HFS-SLP-009"]:
@@ -170,7 +179,7 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
         Lock::None if inside => (Lock::None, false),
         Lock::None => (Lock::ReturnAllowed, true),
         Lock::ReturnAllowed if inside => (Lock::None, false),
-        Lock::ReturnAllowed if outwards => (Lock::Locked, true),
+        Lock::ReturnAllowed if outwards && !inputs.stopping => (Lock::Locked, true),
         Lock::ReturnAllowed => (Lock::ReturnAllowed, false),
     };
     let demand = if stops { Stop::Ss1 } else { Stop::None };

@@ -65,6 +65,8 @@ mutants! { heidenhain:
         PositionLimitUnlocksInside "position-limit-unlocks-inside" => watching::position_limit_unlocks_inside;
         /// The way back is stopped like the way out.
         PositionLimitStopsTheWayBack "position-limit-stops-the-way-back" => watching::position_limit_stops_the_way_back;
+        /// What the axis overruns while it is stopped locks it.
+        PositionLimitLocksOverrun "position-limit-locks-overrun" => watching::position_limit_locks_overrun;
     }
     /// The two revolutions with this mutant in them.
     fn revolutions {

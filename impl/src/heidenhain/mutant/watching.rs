@@ -84,6 +84,11 @@ variants! {
         (after, outputs)
     }
 
+    position_limit_locks_overrun: position_limit |state, config, inputs| {
+        let inputs = position_limit::Inputs { stopping: false, ..*inputs };
+        position_limit::transition(state, config, &inputs)
+    }
+
     revolutions_add_up: revolutions |state, config, inputs| {
         let step = inputs.step.saturating_abs();
         revolutions::transition(state, config, &revolutions::Inputs { step, ..*inputs })

@@ -114,6 +114,7 @@ pub fn position_limit<S: Source>(
     let inputs = position_limit::Inputs {
         checked: source.any_bool(),
         changed: source.any_bool(),
+        stopping: source.any_bool(),
         position: position(source, 3),
     };
     Some((state, config, inputs))

@@ -162,7 +162,7 @@ fn position_limit(p: &Params, mutant: Option<Mutant>) -> Refusable {
         Mutant::position_limit,
     );
     Ok(Adapter::new(
-        &["checked", "changed", "position"],
+        &["checked", "changed", "stopping", "position"],
         &["demand", "lock"],
         vec![upto(2), upto(p.value("pos_max"))],
         position_limit::State::INITIAL,
@@ -170,7 +170,8 @@ fn position_limit(p: &Params, mutant: Option<Mutant>) -> Refusable {
             let inputs = position_limit::Inputs {
                 checked: i[0] != 0,
                 changed: i[1] != 0,
-                position: Position(i[2]),
+                stopping: i[2] != 0,
+                position: Position(i[3]),
             };
             let (after, out) = next(state, &config, &inputs);
             o.extend([stop_rank(out.demand), i64::from(lock_rank(after.lock))]);
