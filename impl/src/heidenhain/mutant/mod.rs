@@ -12,7 +12,7 @@ macro_rules! variants {
 }
 
 mod interface;
-mod machine;
+mod service;
 mod watching;
 
 mutants! { heidenhain:
@@ -99,79 +99,79 @@ mutants! { heidenhain:
     /// The referencing with this mutant in it.
     fn reference {
         /// A saved position counts whether it was checked or not.
-        ReferencePositionOnly "reference-position-only" => machine::reference_position_only;
+        ReferencePositionOnly "reference-position-only" => service::reference_position_only;
         /// The confirmation is accepted in SOM_1.
-        ReferenceInSom1 "reference-in-som-1" => machine::reference_in_som_1;
+        ReferenceInSom1 "reference-in-som-1" => service::reference_in_som_1;
         /// The other channel is not asked.
-        ReferenceOneChannel "reference-one-channel" => machine::reference_one_channel;
+        ReferenceOneChannel "reference-one-channel" => service::reference_one_channel;
         /// A cause for a check counts only if the axis was checked when the power went: a second power-on forgets it.
-        ReferenceForgetsTheCause "reference-forgets-the-cause" => machine::reference_forgets_the_cause;
+        ReferenceForgetsTheCause "reference-forgets-the-cause" => service::reference_forgets_the_cause;
     }
     /// The comparison of the channels with this mutant in it.
     fn agreement {
         /// The window is one cycle short.
-        AgreementEarly "agreement-early" => machine::agreement_early;
+        AgreementEarly "agreement-early" => service::agreement_early;
         /// The window is not whole again when the channels agree.
-        AgreementAddsUp "agreement-adds-up" => machine::agreement_adds_up;
+        AgreementAddsUp "agreement-adds-up" => service::agreement_adds_up;
     }
     /// The brake outputs with this mutant in them.
     fn brakes {
         /// In operation one request opens a shared output.
-        BrakesAnyRequest "brakes-any-request" => machine::brakes_any_request;
+        BrakesAnyRequest "brakes-any-request" => service::brakes_any_request;
         /// In the test a shared output needs all requests.
-        BrakesTestOverlooked "brakes-test-overlooked" => machine::brakes_test_overlooked;
+        BrakesTestOverlooked "brakes-test-overlooked" => service::brakes_test_overlooked;
     }
     /// The tool holder with this mutant in it.
     fn tool_holder {
         /// The holder opens in the cycle in which torque off is asked for.
-        ToolHolderAtOnce "tool-holder-at-once" => machine::tool_holder_at_once;
+        ToolHolderAtOnce "tool-holder-at-once" => service::tool_holder_at_once;
         /// An open door counts as closed.
-        ToolHolderDoorOverlooked "tool-holder-door-overlooked" => machine::tool_holder_door_overlooked;
+        ToolHolderDoorOverlooked "tool-holder-door-overlooked" => service::tool_holder_door_overlooked;
         /// Torque off is asked for while the spindle turns.
-        ToolHolderCutsOffTurning "tool-holder-cuts-off-turning" => machine::tool_holder_cuts_off_turning;
+        ToolHolderCutsOffTurning "tool-holder-cuts-off-turning" => service::tool_holder_cuts_off_turning;
     }
     /// The acceptance with this mutant in it.
     fn acceptance {
         /// The list begins without the password.
-        AcceptanceWithoutPassword "acceptance-without-password" => machine::acceptance_without_password;
+        AcceptanceWithoutPassword "acceptance-without-password" => service::acceptance_without_password;
         /// One press confirms the whole list.
-        AcceptanceOnePress "acceptance-one-press" => machine::acceptance_one_press;
+        AcceptanceOnePress "acceptance-one-press" => service::acceptance_one_press;
     }
     /// The self-test with this mutant in it.
     fn self_test {
         /// The test goes on with open doors.
-        SelfTestDoorsOverlooked "self-test-doors-overlooked" => machine::self_test_doors_overlooked;
+        SelfTestDoorsOverlooked "self-test-doors-overlooked" => service::self_test_doors_overlooked;
         /// A brake that does not hold passes.
-        SelfTestBadBrakePasses "self-test-bad-brake-passes" => machine::self_test_bad_brake_passes;
+        SelfTestBadBrakePasses "self-test-bad-brake-passes" => service::self_test_bad_brake_passes;
         /// A passed test is good for ever.
-        SelfTestNeverOverdue "self-test-never-overdue" => machine::self_test_never_overdue;
+        SelfTestNeverOverdue "self-test-never-overdue" => service::self_test_never_overdue;
     }
     /// The forced dynamic sampling with this mutant in it.
     fn sampling {
         /// During a pulse neither channel sees an open contact.
-        SamplingBlindInThePulse "sampling-blind-in-the-pulse" => machine::sampling_blind_in_the_pulse;
+        SamplingBlindInThePulse "sampling-blind-in-the-pulse" => service::sampling_blind_in_the_pulse;
         /// A short circuit of channel B is not found.
-        SamplingBUntested "sampling-b-untested" => machine::sampling_b_untested;
+        SamplingBUntested "sampling-b-untested" => service::sampling_b_untested;
     }
     /// The status bits with this mutant in them.
     fn status_bits {
         /// The mask of the PLC also hides -N0.
-        StatusBitsMaskTooWide "status-bits-mask-too-wide" => machine::status_bits_mask_too_wide;
+        StatusBitsMaskTooWide "status-bits-mask-too-wide" => service::status_bits_mask_too_wide;
         /// The MC serves its watchdogs without DC-link voltage.
-        StatusBitsMcServesOn "status-bits-mc-serves-on" => machine::status_bits_mc_serves_on;
+        StatusBitsMcServesOn "status-bits-mc-serves-on" => service::status_bits_mc_serves_on;
     }
     /// The checks of the kernel with this mutant in them.
     fn self_checks {
         /// A slow fan is not seen.
-        SelfChecksFanOverlooked "self-checks-fan-overlooked" => machine::self_checks_fan_overlooked;
+        SelfChecksFanOverlooked "self-checks-fan-overlooked" => service::self_checks_fan_overlooked;
         /// The request of the safe PLC's run-time system is SS1 only.
-        SelfChecksRuntimeIsSs1 "self-checks-runtime-is-ss1" => machine::self_checks_runtime_is_ss1;
+        SelfChecksRuntimeIsSs1 "self-checks-runtime-is-ss1" => service::self_checks_runtime_is_ss1;
     }
     /// The checks while booting with this mutant in them.
     fn start_checks {
         /// Any motor speed is plausible.
-        StartChecksAnySpeed "start-checks-any-speed" => machine::start_checks_any_speed;
+        StartChecksAnySpeed "start-checks-any-speed" => service::start_checks_any_speed;
         /// A refused control tries again by itself.
-        StartChecksTriesAgain "start-checks-tries-again" => machine::start_checks_tries_again;
+        StartChecksTriesAgain "start-checks-tries-again" => service::start_checks_tries_again;
     }
 }

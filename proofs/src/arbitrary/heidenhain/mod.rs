@@ -1,11 +1,11 @@
 //! Monitors of HEIDENHAIN Functional Safety.
 
 mod interface;
-mod machine;
+mod service;
 mod watching;
 
 pub use interface::*;
-pub use machine::*;
+pub use service::*;
 pub use watching::*;
 
 use stillpoint_monitors::heidenhain::types::Kind;

@@ -2,8 +2,8 @@
 
 mod checks;
 mod interface;
-mod machine;
 mod numbers;
+mod service;
 mod watching;
 
 use stillpoint_monitors::heidenhain::mutant::Mutant;
@@ -44,7 +44,7 @@ fn make(machine: &str, params: &Params, mutant: Option<super::Mutant>) -> Made {
         super::Mutant::Heidenhain(mutant) => Some(mutant),
         super::Mutant::Sinumerik(_) => None,
     });
-    for make in [interface::make, watching::make, machine::make, checks::make] {
+    for make in [interface::make, watching::make, service::make, checks::make] {
         if let Some(adapter) = make(machine, params, mutant)? {
             return Ok(Some(adapter));
         }
