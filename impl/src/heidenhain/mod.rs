@@ -6,8 +6,17 @@
 //!
 //! | module | safety function | steps after |
 //! | --- | --- | --- |
+//! | [`som`] | safe operating mode from the keylock inputs (safe PLC) | - |
+//! | [`button`] | validity of a permissive button or key (safe PLC) | - |
 //! | [`gate`] | what the kernel takes over from its safe PLC for one axis group | - |
 //! | [`both_channels`] | the stricter of what the two channels were asked for | `gate` of both channels |
+//! | [`startup`] | protection against unexpected start-up | `group` of the cycle before |
+//! | [`judge`] | stops that requests, machine operating mode and permissive demand | `both_channels`, `startup` |
+//! | [`axis_release`] | feed enable of one axis in a released group, with an SS2 of its own | `group` of the cycle before |
+//! | [`stop`] | stop reaction of one axis group: SS2, SS1D, SS1, SS1F, SS0 with their timers | `judge`, all monitors |
+//! | [`group`] | monitoring state of one axis group | `stop` |
+//! | [`switch_on`] | control voltage on: edge, chain of contacts, -STO.A.G | `stop` of every group |
+//! | [`output_enable`] | `NN_GenOutputEnable` | `stop` of every group |
 //! | [`types`] | stops, monitoring states, modes in their priority: no step | - |
 //!
 //! Conventions common to the modules of this family:
@@ -20,8 +29,17 @@
 //!   cycle is evaluated with its other inputs.
 //! * A signal that is missing must be the one that stops: an output that permits is `true` only when it was worked out.
 
+pub mod axis_release;
 pub mod both_channels;
+pub mod button;
 pub mod gate;
+pub mod group;
+pub mod judge;
 #[cfg(feature = "mutants")]
 pub mod mutant;
+pub mod output_enable;
+pub mod som;
+pub mod startup;
+pub mod stop;
+pub mod switch_on;
 pub mod types;

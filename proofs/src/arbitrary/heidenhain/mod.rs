@@ -1,8 +1,12 @@
 //! Monitors of HEIDENHAIN Functional Safety.
 
+mod groups;
 mod interface;
+mod machine;
 
+pub use groups::*;
 pub use interface::*;
+pub use machine::*;
 
 use stillpoint_monitors::heidenhain::types::Kind;
 

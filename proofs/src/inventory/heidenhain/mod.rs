@@ -1,6 +1,9 @@
 //! Harnesses of the monitors of HEIDENHAIN Functional Safety.
 
+mod groups;
 mod interface;
+mod machine;
 
 /// The lists of this family.
-pub(super) static ENTRIES: [&[super::Entry]; 1] = [interface::ENTRIES];
+pub(super) static ENTRIES: [&[super::Entry]; 3] =
+    [interface::ENTRIES, groups::ENTRIES, machine::ENTRIES];

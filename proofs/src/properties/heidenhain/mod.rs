@@ -6,4 +6,22 @@ monitors! { heidenhain:
     gate
     /// Requests of both channels.
     both_channels
+    /// Stop reaction.
+    stop
+    /// Requests, operating mode and permissive.
+    judge
+    /// Monitoring state.
+    group
+    /// Start-up protection.
+    startup
+    /// Feed enable of an axis.
+    axis_release
+    /// Safe operating mode.
+    som
+    /// Permissive.
+    button
+    /// Control voltage on.
+    switch_on
+    /// Permission of the outputs.
+    output_enable
 }

@@ -1,6 +1,6 @@
 //! The values of the monitors as the numbers of the tables, and back.
 
-use stillpoint_monitors::heidenhain::types::{GroupState, Kind, Som, Stop};
+pub(super) use stillpoint_monitors::heidenhain::types::{GroupState, Kind, Phase, Som, Stop, Unit};
 
 pub(super) use crate::diff::peer::numbers::*;
 
@@ -34,7 +34,17 @@ pub(super) fn som_rank(som: Som) -> i64 {
     rank(&Som::ALL, som)
 }
 
+/// The machine operating mode with this number.
+pub(super) fn unit(ordinal: i32) -> Unit {
+    value(&Unit::ALL, ordinal)
+}
+
 /// The kind of group with this number.
 pub(super) fn kind(ordinal: i32) -> Kind {
     value(&Kind::ALL, ordinal)
+}
+
+/// The phase with this number.
+pub(super) fn phase(ordinal: i32) -> Phase {
+    value(&Phase::ALL, ordinal)
 }
