@@ -6,8 +6,17 @@
 //!
 //! | module | safety function | steps after |
 //! | --- | --- | --- |
+//! | [`som`] | safe operating mode from the keylock inputs (safe PLC) | - |
+//! | [`button`] | validity of a permissive button or key (safe PLC) | - |
 //! | [`gate`] | what the kernel takes over from its safe PLC for one axis group | - |
 //! | [`both_channels`] | the stricter of what the two channels were asked for | `gate` of both channels |
+//! | [`startup`] | protection against unexpected start-up | `group` of the cycle before |
+//! | [`judge`] | stops that requests, machine operating mode and permissive demand | `both_channels`, `startup` |
+//! | [`axis_release`] | feed enable of one axis in a released group, with an SS2 of its own | `group` of the cycle before |
+//! | [`stop`] | stop reaction of one axis group: SS2, SS1D, SS1, SS1F, SS0 with their timers | `judge`, all monitors |
+//! | [`group`] | monitoring state of one axis group | `stop` |
+//! | [`switch_on`] | control voltage on: edge, chain of contacts, -STO.A.G | `stop` of every group |
+//! | [`output_enable`] | `NN_GenOutputEnable` | `stop` of every group |
 //! | [`speed`] | limited speed (SLS) of an axis or spindle | `group` of the cycle before |
 //! | [`operating_stop`] | operating stop (SOS): speed and path of a standing axis | `group` of the cycle before |
 //! | [`stop_path`] | path of an axis during SS2 | `stop` of the cycle before |
@@ -42,14 +51,19 @@
 pub mod acceptance;
 pub mod agreement;
 pub mod axis_count;
+pub mod axis_release;
 pub mod both_channels;
 pub mod brakes;
+pub mod button;
 pub mod comparison;
 pub mod deceleration;
 pub mod gate;
+pub mod group;
+pub mod judge;
 #[cfg(feature = "mutants")]
 pub mod mutant;
 pub mod operating_stop;
+pub mod output_enable;
 pub mod parameters;
 pub mod position_limit;
 pub mod reference;
@@ -57,9 +71,13 @@ pub mod revolutions;
 pub mod sampling;
 pub mod self_checks;
 pub mod self_test;
+pub mod som;
 pub mod speed;
 pub mod start_checks;
+pub mod startup;
 pub mod status_bits;
+pub mod stop;
 pub mod stop_path;
+pub mod switch_on;
 pub mod tool_holder;
 pub mod types;

@@ -56,6 +56,39 @@ impl Stop {
     }
 }
 
+/// What the stop of a group is doing.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Phase {
+    /// No stop.
+    #[default]
+    Run,
+    /// An SS2 waits for the groups of SMP610.
+    Ss2Wait,
+    /// An SS2 brakes along the contour.
+    Ss2Brake,
+    /// An SS1D waits for the groups of SMP610.
+    Ss1DWait,
+    /// Braking along the emergency ramp.
+    EmergencyBrake,
+    /// The drives stand, the brakes close before the torque goes (channel B).
+    BrakeCloses,
+    /// Torque off until a restart.
+    TorqueOff,
+}
+
+impl Phase {
+    /// Every phase.
+    pub const ALL: [Self; 7] = [
+        Self::Run,
+        Self::Ss2Wait,
+        Self::Ss2Brake,
+        Self::Ss1DWait,
+        Self::EmergencyBrake,
+        Self::BrakeCloses,
+        Self::TorqueOff,
+    ];
+}
+
 /// The monitoring state of an axis group (`PP_AxGrpStateReq`, `NN_AxGrpState`), in rising protection (HFS-STOP-006).
 ///
 /// SLS_2, SLS_3 and SLS_4 are limits of their own, which do not compare (see [`GroupState::strictness`]). The list puts the

@@ -1,10 +1,14 @@
 //! Monitors of HEIDENHAIN Functional Safety.
 
+mod groups;
 mod interface;
+mod machine;
 mod service;
 mod watching;
 
+pub use groups::*;
 pub use interface::*;
+pub use machine::*;
 pub use service::*;
 pub use watching::*;
 

@@ -44,4 +44,22 @@ monitors! { heidenhain:
     self_checks
     /// Checks while booting.
     start_checks
+    /// Stop reaction.
+    stop
+    /// Requests, operating mode and permissive.
+    judge
+    /// Monitoring state.
+    group
+    /// Start-up protection.
+    startup
+    /// Feed enable of an axis.
+    axis_release
+    /// Safe operating mode.
+    som
+    /// Permissive.
+    button
+    /// Control voltage on.
+    switch_on
+    /// Permission of the outputs.
+    output_enable
 }

@@ -1,7 +1,10 @@
 //! The monitors of HEIDENHAIN Functional Safety as peers of its tables.
 
+mod cells;
 mod checks;
+mod groups;
 mod interface;
+mod machine;
 mod numbers;
 mod service;
 mod watching;
@@ -15,6 +18,15 @@ pub(super) static FAMILY: Family = Family {
     machines: &[
         ("gate", "gate"),
         ("both_channels", "both_channels"),
+        ("stop", "stop"),
+        ("judge", "judge"),
+        ("group", "group"),
+        ("startup", "startup"),
+        ("axis", "axis_release"),
+        ("som", "som"),
+        ("button", "button"),
+        ("switch_on", "switch_on"),
+        ("output_enable", "output_enable"),
         ("speed", "speed"),
         ("operating_stop", "operating_stop"),
         ("stop_path", "stop_path"),
@@ -44,7 +56,14 @@ fn make(machine: &str, params: &Params, mutant: Option<super::Mutant>) -> Made {
         super::Mutant::Heidenhain(mutant) => Some(mutant),
         super::Mutant::Sinumerik(_) => None,
     });
-    for make in [interface::make, watching::make, service::make, checks::make] {
+    for make in [
+        interface::make,
+        groups::make,
+        machine::make,
+        watching::make,
+        service::make,
+        checks::make,
+    ] {
         if let Some(adapter) = make(machine, params, mutant)? {
             return Ok(Some(adapter));
         }

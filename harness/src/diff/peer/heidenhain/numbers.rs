@@ -1,6 +1,6 @@
 //! The values of the monitors as the numbers of the tables, and back.
 
-use stillpoint_monitors::heidenhain::types::{GroupState, Kind, Som, Stop, Unit};
+pub(super) use stillpoint_monitors::heidenhain::types::{GroupState, Kind, Phase, Som, Stop, Unit};
 
 pub(super) use crate::diff::peer::numbers::*;
 
@@ -34,6 +34,11 @@ pub(super) fn som_rank(som: Som) -> i64 {
     rank(&Som::ALL, som)
 }
 
+/// The machine operating mode with this number.
+pub(super) fn unit(ordinal: i32) -> Unit {
+    value(&Unit::ALL, ordinal)
+}
+
 /// The kind of group with this number.
 pub(super) fn kind(ordinal: i32) -> Kind {
     value(&Kind::ALL, ordinal)
@@ -44,7 +49,7 @@ pub(super) fn som(ordinal: i32) -> Som {
     value(&Som::ALL, ordinal)
 }
 
-/// The machine operating mode with this number.
-pub(super) fn unit(ordinal: i32) -> Unit {
-    value(&Unit::ALL, ordinal)
+/// The phase with this number.
+pub(super) fn phase(ordinal: i32) -> Phase {
+    value(&Phase::ALL, ordinal)
 }
