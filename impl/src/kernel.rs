@@ -156,6 +156,8 @@ pub enum ConfigError {
     CamNearModuloLimit,
     /// The encoder limit frequency is not 300 to 420 kHz (S840D-FREQ-003).
     FrequencyOutOfRange,
+    /// A value is outside the range of its parameter (HFS-PARAM-010).
+    ValueOutOfRange,
 }
 
 impl core::fmt::Display for ConfigError {
@@ -185,6 +187,7 @@ impl core::fmt::Display for ConfigError {
             }
             Self::CamNearModuloLimit => "a cam is too close to the limits of the modulo range",
             Self::FrequencyOutOfRange => "the encoder limit frequency is not 300 to 420 kHz",
+            Self::ValueOutOfRange => "a value is outside the range of its parameter",
         })
     }
 }

@@ -3,6 +3,7 @@
 //! | module | what |
 //! | --- | --- |
 //! | [`sinumerik`] | SINUMERIK 840D / SIMODRIVE 611 digital: one module is one safety function of one monitoring channel |
+//! | [`heidenhain`] | HEIDENHAIN Functional Safety (iTNC 530 HSCI): one module is one safety function of one channel |
 //! | [`kernel`] | what the monitors of every family are made of: durations, positions, speeds, windows, timers |
 //! | [`units`] | user values to increments, rounded to the safe side |
 //! | [`contract`] | how a step carries its contract |
@@ -20,9 +21,10 @@
 
 #[macro_use]
 pub mod contract;
-pub mod kernel;
 #[cfg(feature = "mutants")]
 #[macro_use]
 pub mod mutant;
+pub mod heidenhain;
+pub mod kernel;
 pub mod sinumerik;
 pub mod units;

@@ -33,6 +33,13 @@ macro_rules! mutants {
                 }
             }
 
+            /// The module of the monitor it is a variant of.
+            pub const fn monitor(self) -> &'static str {
+                match self {
+                    $($(Self::$mutant => stringify!($monitor),)+)+
+                }
+            }
+
             $(
                 $(#[doc = $text])+
                 #[doc = "\n\nThe production function unless the mutant is one of it."]

@@ -64,7 +64,8 @@ A harness counts only if each of its covers was met: a property whose premise ne
 the crate `stillpoint-proofs` show that every mutant of the monitors is found by a harness listed here.
 
 A contract is checked for one step from *any* state that satisfies the invariant of the monitor. Since every step
-re-establishes the invariant, and the initial states satisfy it (`initial_states`), its clauses hold along every run.
+re-establishes the invariant, and the initial state satisfies it (each harness of a contract checks that too), its clauses
+hold along every run.
 ";
 
 fn stands_for(entry: &Entry) -> String {

@@ -11,19 +11,41 @@ use stillpoint_model::Options;
 use stillpoint_monitors::sinumerik::mutant::Mutant as Sinumerik;
 use stillpoint_tests::root;
 
-/// Everything that has a monitor: with the parameters of the systems of `axis.toml`, else with those of the milling machine
-/// or its own default ones.
+/// The tables compared: those of a machine, or with the parameters of their systems.
+const FILES: [&str; 13] = [
+    "spec/sinumerik-840d/axis.toml",
+    "spec/machines/milling-840d.toml",
+    "spec/heidenhain-fs/doors.toml",
+    "spec/heidenhain-fs/faults.toml",
+    "spec/heidenhain-fs/group.toml",
+    "spec/heidenhain-fs/interface.toml",
+    "spec/heidenhain-fs/mode.toml",
+    "spec/heidenhain-fs/monitors.toml",
+    "spec/heidenhain-fs/outputs.toml",
+    "spec/heidenhain-fs/reference.toml",
+    "spec/heidenhain-fs/selftest.toml",
+    "spec/heidenhain-fs/status-bits.toml",
+    "spec/heidenhain-fs/stop.toml",
+];
+
+/// What has a monitor: the names of family and machine or system. Families use the same names for different machines.
+type Name = (&'static str, String);
+
+fn name(pairing: &Pairing) -> Name {
+    let family = peer::family(&pairing.bound.system.name).expect("a family with monitors");
+    (family.name, pairing.machine.clone())
+}
+
+/// Everything that has a monitor: with the parameters of the systems of the first file that has it, else with those of the
+/// milling machine or its own default ones.
 fn all() -> Vec<Pairing> {
     let mut all: Vec<Pairing> = Vec::new();
-    for file in [
-        "spec/sinumerik-840d/axis.toml",
-        "spec/machines/milling-840d.toml",
-    ] {
+    for file in FILES {
         let subject =
             subject::load(&root().join(file), &Readings::new()).unwrap_or_else(|e| panic!("{e}"));
         let more = pairings(&subject).unwrap_or_else(|e| panic!("{e}"));
-        let known: BTreeSet<String> = all.iter().map(|p| p.machine.clone()).collect();
-        all.extend(more.into_iter().filter(|p| !known.contains(&p.machine)));
+        let known: BTreeSet<Name> = all.iter().map(name).collect();
+        all.extend(more.into_iter().filter(|p| !known.contains(&name(p))));
     }
     all
 }
@@ -44,27 +66,27 @@ fn explore(pairing: &Pairing) -> Compared {
     exhaustive(pairing, None, &options, &mut ()).unwrap_or_else(|e| panic!("{e}"))
 }
 
-/// The machine that a mutant is one of: the first words of its name are its module.
-fn machine(mutant: Mutant) -> &'static str {
+/// The machine that a mutant is one of.
+fn machine(mutant: Mutant) -> Name {
     let family = mutant.family();
-    let names = family.machines.iter().chain(family.systems);
-    let prefix = |module: &str| format!("{}-", module.replace('_', "-"));
-    names
-        .filter(|(_, module)| mutant.name().starts_with(&prefix(module)))
-        .max_by_key(|(_, module)| module.len())
-        .map(|(machine, _)| *machine)
-        .unwrap_or_else(|| panic!("{mutant:?} is one of no machine that is compared"))
+    let mut names = family.machines.iter().chain(family.systems);
+    let found = names.find(|(_, module)| *module == mutant.monitor());
+    let (machine, _) =
+        found.unwrap_or_else(|| panic!("{mutant:?} is one of no machine that is compared"));
+    (family.name, (*machine).to_owned())
 }
 
 #[test]
 fn no_reachable_pair_differs() {
-    let compared: Vec<Compared> = pieces().iter().map(explore).collect();
-    let machines: BTreeSet<&str> = compared.iter().map(|c| c.machine.as_str()).collect();
-    let families = peer::FAMILIES.iter();
-    let known = families.flat_map(|family| family.machines.iter().chain(family.systems));
+    let pieces = pieces();
+    let compared: Vec<Compared> = pieces.iter().map(explore).collect();
+    let known = peer::FAMILIES.iter().flat_map(|family| {
+        let names = family.machines.iter().chain(family.systems);
+        names.map(|(machine, _)| (family.name, (*machine).to_owned()))
+    });
     assert_eq!(
-        machines,
-        known.map(|(name, _)| *name).collect(),
+        pieces.iter().map(name).collect::<BTreeSet<_>>(),
+        known.collect(),
         "everything that has a monitor"
     );
     for one in &compared {
@@ -91,11 +113,13 @@ fn no_reachable_pair_differs() {
 #[test]
 fn every_wrong_monitor_is_found_by_exploration() {
     let pairings = pieces();
-    assert!(Mutant::all().count() >= 17);
+    let names: BTreeSet<&str> = Mutant::all().map(Mutant::name).collect();
+    assert_eq!(names.len(), Mutant::all().count(), "a name is given once");
+    assert!(names.len() >= 17);
     let mut survivors = Vec::new();
     for mutant in Mutant::all() {
         let machine = machine(mutant);
-        let mut concerned = pairings.iter().filter(|p| p.machine == machine);
+        let mut concerned = pairings.iter().filter(|p| name(p) == machine);
         let options = Options {
             witnesses: false,
             stop_when_decided: true,
@@ -127,7 +151,7 @@ fn differs(pairings: &[Pairing], mutant: Mutant) -> bool {
     let machine = machine(mutant);
     let concerned: Vec<Pairing> = pairings
         .iter()
-        .filter(|p| p.machine == machine)
+        .filter(|p| name(p) == machine)
         .cloned()
         .collect();
     let found = sample(&concerned, Some(mutant), 400_000, 3, 0, &|_, _| ())
@@ -174,7 +198,7 @@ fn runs_described_by_bytes_find_a_wrong_monitor() {
     let pairings = all();
     let pairing = pairings
         .iter()
-        .find(|p| p.machine == "stop")
+        .find(|p| name(p) == ("sinumerik-840d", "stop".to_owned()))
         .expect("the machine");
     let mut random = Random::new(5);
     let strings: Vec<Vec<u8>> = (0..400)

@@ -3,4 +3,5 @@
 //! A function returns `None` when the choices are outside the domain. States are chosen before inputs, so that an
 //! enumeration leaves an impossible state at once.
 
+pub mod heidenhain;
 pub mod sinumerik;

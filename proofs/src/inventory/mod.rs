@@ -109,9 +109,10 @@ macro_rules! kani_harness {
     (contract $id:ident on $family:ident::$monitor:ident { $($rest:tt)* }) => {
         #[kani::proof_for_contract(stillpoint_monitors::$family::$monitor::next)]
         fn $id() {
-            use stillpoint_monitors::$family::$monitor::{Step, cover_premises, next};
+            use stillpoint_monitors::$family::$monitor::{State, Step, cover_premises, next};
             let mut source = Symbolic::default();
             if let Some((before, config, inputs)) = crate::arbitrary::$family::$monitor(&mut source) {
+                assert!(State::INITIAL.invariant(&config));
                 let (after, outputs) = next(before, &config, &inputs);
                 cover_premises(Step { before, config, inputs, after, outputs });
             }
@@ -149,11 +150,13 @@ macro_rules! inventory {
     };
 }
 
+mod heidenhain;
 mod sinumerik;
 
 /// Every harness.
 pub fn all() -> impl Iterator<Item = &'static Entry> {
-    sinumerik::ENTRIES.into_iter().flatten()
+    let families = sinumerik::ENTRIES.into_iter().chain(heidenhain::ENTRIES);
+    families.flatten()
 }
 
 /// A domain for properties that read no wide value.

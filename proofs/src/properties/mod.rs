@@ -4,7 +4,7 @@
 /// property (`contracts`), and its clauses as texts (`clauses`).
 ///
 /// A contract as a property: from any consistent state, under any accepted configuration and any inputs, one step satisfies
-/// every clause. The invariant is one of the clauses, so the facts are inductive.
+/// every clause. The invariant is one of the clauses, and the initial state satisfies it, so the facts are inductive.
 macro_rules! monitors {
     ($family:ident: $($(#[$doc:meta])+ $monitor:ident)+) => {
         /// The step functions under test: the production ones, or some replaced by mutants.
@@ -28,11 +28,14 @@ macro_rules! monitors {
                 source: &mut S,
                 subject: &super::Subject,
             ) -> $crate::source::Verdict {
-                use stillpoint_monitors::$family::$monitor::{CLAUSES, Step, evaluate};
+                use stillpoint_monitors::$family::$monitor::{CLAUSES, State, Step, evaluate};
                 use $crate::source::Verdict;
                 let Some((before, config, inputs)) = $crate::arbitrary::$family::$monitor(source) else {
                     return Verdict::Discarded;
                 };
+                if !State::INITIAL.invariant(&config) {
+                    return Verdict::Broken("initial_state_satisfies_the_invariant");
+                }
                 let (after, outputs) = (subject.$monitor)(before, &config, &inputs);
                 let result = evaluate(Step { before, config, inputs, after, outputs });
                 for index in 0..CLAUSES.len() {
@@ -63,11 +66,14 @@ macro_rules! monitors {
     };
 }
 
+pub mod heidenhain;
 pub mod sinumerik;
 
 /// The step functions under test of every family.
 #[derive(Clone, Copy, Debug)]
 pub struct Subject {
+    /// HEIDENHAIN Functional Safety.
+    pub heidenhain: heidenhain::Subject,
     /// SINUMERIK 840D.
     pub sinumerik: sinumerik::Subject,
 }
@@ -75,6 +81,7 @@ pub struct Subject {
 impl Subject {
     /// The production monitors.
     pub const PRODUCTION: Self = Self {
+        heidenhain: heidenhain::Subject::PRODUCTION,
         sinumerik: sinumerik::Subject::PRODUCTION,
     };
 }

@@ -1,6 +1,7 @@
 //! The production monitors as peers of the tables: the same ports, in the numbers of the specification.
 
 mod adapter;
+mod heidenhain;
 mod numbers;
 mod sinumerik;
 
@@ -46,7 +47,7 @@ pub struct Family {
 }
 
 /// The families with monitors.
-pub static FAMILIES: [&Family; 1] = [&sinumerik::FAMILY];
+pub static FAMILIES: [&Family; 2] = [&sinumerik::FAMILY, &heidenhain::FAMILY];
 
 /// The family with monitors that a machine, a system or a file of its tables belongs to, by its full name.
 pub fn family(name: &str) -> Option<&'static Family> {
@@ -54,33 +55,53 @@ pub fn family(name: &str) -> Option<&'static Family> {
     FAMILIES.into_iter().find(|family| family.name == folder)
 }
 
-/// A deliberately wrong monitor.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Mutant {
-    /// Of the SINUMERIK 840D.
-    Sinumerik(stillpoint_monitors::sinumerik::mutant::Mutant),
+/// Declares [`Mutant`] from the families, each with its module of mutants.
+macro_rules! families {
+    ($($(#[$doc:meta])+ $family:ident: $module:ident)+) => {
+        /// A deliberately wrong monitor.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum Mutant {$(
+            $(#[$doc])+
+            $family(stillpoint_monitors::$module::mutant::Mutant),
+        )+}
+
+        impl Mutant {
+            /// Every one.
+            pub fn all() -> impl Iterator<Item = Self> {
+                std::iter::empty()$(
+                    .chain(stillpoint_monitors::$module::mutant::Mutant::ALL.iter().copied().map(Self::$family))
+                )+
+            }
+
+            /// The name for command lines: the monitor first.
+            pub fn name(self) -> &'static str {
+                match self {
+                    $(Self::$family(mutant) => mutant.name(),)+
+                }
+            }
+
+            /// The module of the monitor it is a variant of.
+            pub fn monitor(self) -> &'static str {
+                match self {
+                    $(Self::$family(mutant) => mutant.monitor(),)+
+                }
+            }
+
+            /// The family of its monitor.
+            pub fn family(self) -> &'static Family {
+                match self {
+                    $(Self::$family(_) => &$module::FAMILY,)+
+                }
+            }
+        }
+    };
 }
 
-impl Mutant {
-    /// Every one.
-    pub fn all() -> impl Iterator<Item = Self> {
-        use stillpoint_monitors::sinumerik::mutant::Mutant as Sinumerik;
-        Sinumerik::ALL.iter().copied().map(Self::Sinumerik)
-    }
-
-    /// The name for command lines: the monitor first.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Sinumerik(mutant) => mutant.name(),
-        }
-    }
-
-    /// The family of its monitor.
-    pub fn family(self) -> &'static Family {
-        match self {
-            Self::Sinumerik(_) => &sinumerik::FAMILY,
-        }
-    }
+families! {
+    /// Of the SINUMERIK 840D.
+    Sinumerik: sinumerik
+    /// Of HEIDENHAIN Functional Safety.
+    Heidenhain: heidenhain
 }
 
 /// A name that is no mutant's.

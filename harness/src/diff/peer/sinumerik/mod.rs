@@ -44,7 +44,10 @@ pub(super) static FAMILY: Family = Family {
 };
 
 fn make(machine: &str, params: &Params, mutant: Option<super::Mutant>) -> Made {
-    let mutant = mutant.map(|super::Mutant::Sinumerik(mutant)| mutant);
+    let mutant = mutant.and_then(|mutant| match mutant {
+        super::Mutant::Sinumerik(mutant) => Some(mutant),
+        super::Mutant::Heidenhain(_) => None,
+    });
     for make in [
         stops::make,
         axis::make,

@@ -1,0 +1,234 @@
+//! Stop and monitoring state of an axis group.
+
+use stillpoint_monitors::heidenhain::mutant::Mutant;
+use stillpoint_monitors::heidenhain::{axis_release, group, judge, startup, stop as stops};
+
+use super::numbers::{self, *};
+use crate::diff::peer::adapter::Adapter;
+use crate::diff::peer::{Made, Params, Refusable};
+
+/// The monitor of a machine of this topic.
+pub(super) fn make(machine: &str, p: &Params, mutant: Option<Mutant>) -> Made {
+    Ok(Some(match machine {
+        "stop" => stops(p, mutant)?,
+        "judge" => judge(p, mutant)?,
+        "group" => group(p, mutant)?,
+        "startup" => startup(p, mutant)?,
+        "axis" => axis_release(p, mutant)?,
+        _ => return Ok(None),
+    }))
+}
+
+fn stops(p: &Params, mutant: Option<Mutant>) -> Refusable {
+    let (t_ss1, t_ss2, t_brake) = (p.time("t_ss1"), p.time("t_ss2"), p.time("t_brake"));
+    let config = stops::Config::new(p.is("cc"), t_ss1, t_ss2, t_brake)?;
+    let next = mutant.map_or(stops::next as stops::Next, Mutant::stop);
+    let longest = p.value("t_ss1").max(p.value("t_ss2"));
+    Ok(Adapter::new(
+        &[
+            "main_switch",
+            "demand",
+            "wide_cause",
+            "still",
+            "listed_still",
+            "peer_off",
+            "restart",
+        ],
+        &[
+            "level",
+            "phase",
+            "wide",
+            "torque_off",
+            "brake_closed",
+            "on_contour",
+            "emergency_ramp",
+            "brake_listed",
+            "needs_switch",
+            "ss2_ended",
+            "restarted",
+            "keeps_enable",
+        ],
+        vec![
+            upto(5),
+            upto(6),
+            upto(longest),
+            upto(p.value("t_brake")),
+            truth(),
+            truth(),
+        ],
+        stops::State::INITIAL,
+        move |state, i, o| {
+            let inputs = stops::Inputs {
+                main_switch: i[0] != 0,
+                demand: stop(i[1]),
+                wide_cause: i[2] != 0,
+                still: i[3] != 0,
+                listed_still: i[4] != 0,
+                peer_off: i[5] != 0,
+                restart: i[6] != 0,
+            };
+            let (after, out) = next(state, &config, &inputs);
+            o.extend([
+                stop_rank(out.level),
+                rank(&Phase::ALL, out.phase),
+                bit(out.wide),
+                bit(out.torque_off),
+                bit(out.brake_closed),
+                bit(out.on_contour),
+                bit(out.emergency_ramp),
+                bit(out.brake_listed),
+                bit(out.needs_switch),
+                bit(out.ss2_ended),
+                bit(out.restarted),
+                bit(out.keeps_enable),
+            ]);
+            after
+        },
+    ))
+}
+
+fn judge(p: &Params, mutant: Option<Mutant>) -> Refusable {
+    let config = judge::Config::new(kind(p.value("kind")), p.is("som_4"))?;
+    let next = mutant.map_or(judge::next as judge::Next, Mutant::judge);
+    Ok(Adapter::new(
+        &[
+            "main_switch",
+            "request",
+            "stop_request",
+            "bad_code",
+            "state",
+            "moving",
+            "unit",
+            "permissive",
+            "idle",
+            "gen_safe",
+            "untested",
+        ],
+        &[
+            "asks_ss1f",
+            "asks_ss1",
+            "asks_ss1d",
+            "asks_ss2",
+            "stops_axes",
+            "demand",
+        ],
+        vec![upto(2), upto(2)],
+        judge::State::INITIAL,
+        move |state, i, o| {
+            let inputs = judge::Inputs {
+                main_switch: i[0] != 0,
+                request: numbers::state(i[1]),
+                stop_request: stop(i[2]),
+                bad_code: i[3] != 0,
+                state: numbers::state(i[4]),
+                moving: i[5] != 0,
+                unit: unit(i[6]),
+                permissive: i[7] != 0,
+                idle: i[8] != 0,
+                gen_safe: i[9] != 0,
+                untested: i[10] != 0,
+            };
+            let (after, out) = next(state, &config, &inputs);
+            o.extend([
+                bit(out.asks_ss1f),
+                bit(out.asks_ss1),
+                bit(out.asks_ss1d),
+                bit(out.asks_ss2),
+                bit(out.stops_axes),
+                stop_rank(out.demand),
+            ]);
+            after
+        },
+    ))
+}
+
+fn group(p: &Params, mutant: Option<Mutant>) -> Refusable {
+    let config = group::Config::new(kind(p.value("kind")))?;
+    let next = mutant.map_or(group::next as group::Next, Mutant::group);
+    Ok(Adapter::new(
+        &[
+            "main_switch",
+            "request",
+            "activate",
+            "moving",
+            "gen_safe",
+            "demand",
+            "phase",
+            "soft",
+            "ss2_ended",
+            "switch_on",
+            "spindle_stop",
+        ],
+        &["state", "both", "may_move"],
+        vec![upto(7), truth()],
+        group::State::INITIAL,
+        move |state, i, o| {
+            let inputs = group::Inputs {
+                main_switch: i[0] != 0,
+                request: numbers::state(i[1]),
+                activate: i[2] != 0,
+                moving: i[3] != 0,
+                gen_safe: i[4] != 0,
+                demand: stop(i[5]),
+                phase: phase(i[6]),
+                soft: i[7] != 0,
+                ss2_ended: i[8] != 0,
+                switch_on: i[9] != 0,
+                spindle_stop: i[10] != 0,
+            };
+            let (after, out) = next(state, &config, &inputs);
+            o.extend([state_rank(out.state), bit(out.both), bit(out.may_move)]);
+            after
+        },
+    ))
+}
+
+fn startup(p: &Params, mutant: Option<Mutant>) -> Refusable {
+    let config = startup::Config::new(p.time("t_idle"))?;
+    let next = mutant.map_or(startup::next as startup::Next, Mutant::startup);
+    Ok(Adapter::new(
+        &["limited", "moving", "unit", "permissive"],
+        &["idle"],
+        vec![upto(p.value("t_idle"))],
+        startup::State::INITIAL,
+        move |state, i, o| {
+            let inputs = startup::Inputs {
+                limited: i[0] != 0,
+                moving: i[1] != 0,
+                unit: unit(i[2]),
+                permissive: i[3] != 0,
+            };
+            let (after, out) = next(state, &config, &inputs);
+            o.push(bit(out.idle));
+            after
+        },
+    ))
+}
+
+fn axis_release(p: &Params, mutant: Option<Mutant>) -> Refusable {
+    let config = axis_release::Config::new(p.time("t_ss2"))?;
+    let next = mutant.map_or(
+        axis_release::next as axis_release::Next,
+        Mutant::axis_release,
+    );
+    Ok(Adapter::new(
+        &["group_released", "feed", "moving"],
+        &["mode", "asks_ss1", "stands"],
+        vec![upto(2), upto(p.value("t_ss2"))],
+        axis_release::State::INITIAL,
+        move |state, i, o| {
+            let inputs = axis_release::Inputs {
+                group_released: i[0] != 0,
+                feed: i[1] != 0,
+                moving: i[2] != 0,
+            };
+            let (after, out) = next(state, &config, &inputs);
+            o.extend([
+                rank(&axis_release::Mode::ALL, out.mode),
+                bit(out.asks_ss1),
+                bit(out.stands),
+            ]);
+            after
+        },
+    ))
+}

@@ -1,0 +1,72 @@
+//! The monitors of HEIDENHAIN Functional Safety as peers of its tables.
+
+mod cells;
+mod checks;
+mod groups;
+mod interface;
+mod machine;
+mod numbers;
+mod service;
+mod watching;
+
+use stillpoint_monitors::heidenhain::mutant::Mutant;
+
+use super::{Family, Made, Params};
+
+pub(super) static FAMILY: Family = Family {
+    name: "heidenhain-fs",
+    machines: &[
+        ("gate", "gate"),
+        ("both_channels", "both_channels"),
+        ("stop", "stop"),
+        ("judge", "judge"),
+        ("group", "group"),
+        ("startup", "startup"),
+        ("axis", "axis_release"),
+        ("som", "som"),
+        ("button", "button"),
+        ("switch_on", "switch_on"),
+        ("output_enable", "output_enable"),
+        ("speed", "speed"),
+        ("operating_stop", "operating_stop"),
+        ("stop_path", "stop_path"),
+        ("position_limit", "position_limit"),
+        ("revolutions", "revolutions"),
+        ("comparison", "comparison"),
+        ("deceleration", "deceleration"),
+        ("axis_count", "axis_count"),
+        ("reference", "reference"),
+        ("agreement", "agreement"),
+        ("brakes", "brakes"),
+        ("tool_holder", "tool_holder"),
+        ("acceptance", "acceptance"),
+        ("self_test", "self_test"),
+        ("status_bits", "status_bits"),
+        ("sampling", "sampling"),
+        ("self_checks", "self_checks"),
+        ("start_checks", "start_checks"),
+    ],
+    systems: &[],
+    fixed: &[],
+    make,
+};
+
+fn make(machine: &str, params: &Params, mutant: Option<super::Mutant>) -> Made {
+    let mutant: Option<Mutant> = mutant.and_then(|mutant| match mutant {
+        super::Mutant::Heidenhain(mutant) => Some(mutant),
+        super::Mutant::Sinumerik(_) => None,
+    });
+    for make in [
+        interface::make,
+        groups::make,
+        machine::make,
+        watching::make,
+        service::make,
+        checks::make,
+    ] {
+        if let Some(adapter) = make(machine, params, mutant)? {
+            return Ok(Some(adapter));
+        }
+    }
+    Ok(None)
+}

@@ -1,0 +1,298 @@
+//! Referencing, outputs, self-test.
+
+use stillpoint_monitors::heidenhain::mutant::Mutant;
+use stillpoint_monitors::heidenhain::reference::AxisRef;
+use stillpoint_monitors::heidenhain::{
+    acceptance, agreement, brakes, reference, self_test, tool_holder,
+};
+
+use super::numbers::*;
+use crate::diff::peer::adapter::{Adapter, cells};
+use crate::diff::peer::{Made, Params, Refusable};
+
+/// The monitor of a machine of this topic.
+pub(super) fn make(machine: &str, p: &Params, mutant: Option<Mutant>) -> Made {
+    Ok(Some(match machine {
+        "reference" => reference(p, mutant)?,
+        "agreement" => agreement(p, mutant)?,
+        "brakes" => brakes(mutant),
+        "tool_holder" => tool_holder(mutant),
+        "acceptance" => acceptance(p, mutant)?,
+        "self_test" => self_test(p, mutant)?,
+        _ => return Ok(None),
+    }))
+}
+
+const AXES: [AxisRef; 4] = [
+    AxisRef::NotHomed,
+    AxisRef::Homed,
+    AxisRef::NotChecked,
+    AxisRef::Checked,
+];
+const ACCEPTANCE: [acceptance::Phase; 4] = [
+    acceptance::Phase::Valid,
+    acceptance::Phase::Changed,
+    acceptance::Phase::Confirming,
+    acceptance::Phase::Interrupted,
+];
+const STEPS: [self_test::Phase; 14] = [
+    self_test::Phase::Configuration,
+    self_test::Phase::Internal,
+    self_test::Phase::Chain,
+    self_test::Phase::EsCircuit,
+    self_test::Phase::VoltageOff,
+    self_test::Phase::VoltageOn,
+    self_test::Phase::Keys,
+    self_test::Phase::Doors,
+    self_test::Phase::BrakeControl,
+    self_test::Phase::CutOut,
+    self_test::Phase::HoldingBrakes,
+    self_test::Phase::DrivesOff,
+    self_test::Phase::Passed,
+    self_test::Phase::Failed,
+];
+
+fn count(cell: i32) -> u16 {
+    u16::try_from(cell).unwrap_or(0)
+}
+
+cells! {
+    reference::State, 2 {
+        axis = |c| value(&AXES, c), |a| ordinal(&AXES, a);
+        saved = truthy, i32::from;
+    }
+    agreement::State, 1 {
+        cycles = cycles, cell;
+    }
+    tool_holder::State, 2 {
+        open = truthy, i32::from;
+        asked = truthy, i32::from;
+    }
+    acceptance::State, 2 {
+        phase = |c| value(&ACCEPTANCE, c), |p| ordinal(&ACCEPTANCE, p);
+        open = count, i32::from;
+    }
+    self_test::State, 3 {
+        phase = |c| value(&STEPS, c), |p| ordinal(&STEPS, p);
+        repeated = truthy, i32::from;
+        rest = cycles, cell;
+    }
+}
+
+fn reference(p: &Params, mutant: Option<Mutant>) -> Refusable {
+    let config = reference::Config::new(p.is("safe_axis"))?;
+    let next = mutant.map_or(reference::next as reference::Next, Mutant::reference);
+    Ok(Adapter::new(
+        &[
+            "power_on",
+            "check_cause",
+            "homed",
+            "own_matches",
+            "peer_matches",
+            "own_at_mark",
+            "peer_at_mark",
+            "confirm",
+            "som",
+            "unit",
+            "door_open",
+            "moving",
+            "peer_checked",
+        ],
+        &["ax_safe", "checked", "may_move", "untested", "ref"],
+        vec![upto(3), truth()],
+        reference::State::INITIAL,
+        move |state, i, o| {
+            let inputs = reference::Inputs {
+                power_on: i[0] != 0,
+                check_cause: i[1] != 0,
+                homed: i[2] != 0,
+                own_matches: i[3] != 0,
+                peer_matches: i[4] != 0,
+                own_at_mark: i[5] != 0,
+                peer_at_mark: i[6] != 0,
+                confirm: i[7] != 0,
+                som: som(i[8]),
+                unit: unit(i[9]),
+                door_open: i[10] != 0,
+                moving: i[11] != 0,
+                peer_checked: i[12] != 0,
+            };
+            let (after, out) = next(state, &config, &inputs);
+            o.extend([
+                bit(out.ax_safe),
+                bit(out.checked),
+                bit(out.may_move),
+                bit(out.untested),
+                rank(&AXES, after.axis),
+            ]);
+            after
+        },
+    )
+    .kept(1, "saved"))
+}
+
+fn agreement(p: &Params, mutant: Option<Mutant>) -> Refusable {
+    let config = agreement::Config::new(p.time("window"))?;
+    let next = mutant.map_or(agreement::next as agreement::Next, Mutant::agreement);
+    Ok(Adapter::new(
+        &["differ"],
+        &["fault"],
+        vec![upto(p.value("window"))],
+        agreement::State::INITIAL,
+        move |state, i, o| {
+            let inputs = agreement::Inputs { differ: i[0] != 0 };
+            let (after, out) = next(state, &config, &inputs);
+            o.push(bit(out.fault));
+            after
+        },
+    ))
+}
+
+fn brakes(mutant: Option<Mutant>) -> Adapter {
+    let next = mutant.map_or(brakes::next as brakes::Next, Mutant::brakes);
+    Adapter::stateless(
+        &[
+            "test",
+            "release_1",
+            "release_2",
+            "release_3",
+            "drive_1",
+            "drive_2",
+            "drive_3",
+        ],
+        &["own", "collected"],
+        move |i, o| {
+            let axis = |k: usize| brakes::Axis {
+                release: i[k] != 0,
+                drive: i[k + 3] != 0,
+            };
+            let inputs = brakes::Inputs {
+                test: i[0] != 0,
+                own: axis(1),
+                shared: [axis(2), axis(3)],
+            };
+            let (_, out) = next(brakes::State::INITIAL, &brakes::Config, &inputs);
+            o.extend([bit(out.own), bit(out.collected)]);
+        },
+    )
+}
+
+fn tool_holder(mutant: Option<Mutant>) -> Adapter {
+    let next = mutant.map_or(tool_holder::next as tool_holder::Next, Mutant::tool_holder);
+    Adapter::new(
+        &["request", "door_open", "moving", "state"],
+        &["open", "no_torque"],
+        vec![truth(), truth()],
+        tool_holder::State::INITIAL,
+        move |before, i, o| {
+            let inputs = tool_holder::Inputs {
+                request: i[0] != 0,
+                door_open: i[1] != 0,
+                moving: i[2] != 0,
+                state: state(i[3]),
+            };
+            let (after, out) = next(before, &tool_holder::Config, &inputs);
+            o.extend([bit(out.open), bit(out.no_torque)]);
+            after
+        },
+    )
+}
+
+fn acceptance(p: &Params, mutant: Option<Mutant>) -> Refusable {
+    let config = acceptance::Config::new(count(p.value("most")))?;
+    let next = mutant.map_or(acceptance::next as acceptance::Next, Mutant::acceptance);
+    Ok(Adapter::new(
+        &[
+            "boot",
+            "matches",
+            "changes",
+            "password",
+            "cancel",
+            "permissive",
+        ],
+        &["in_service", "demand", "accepted"],
+        vec![upto(3), upto(p.value("most"))],
+        acceptance::State::INITIAL,
+        move |state, i, o| {
+            let inputs = acceptance::Inputs {
+                boot: i[0] != 0,
+                matches: i[1] != 0,
+                changes: count(i[2]),
+                password: i[3] != 0,
+                cancel: i[4] != 0,
+                permissive: i[5] != 0,
+            };
+            let (after, out) = next(state, &config, &inputs);
+            o.extend([
+                bit(out.in_service),
+                stop_rank(out.demand),
+                rank(&ACCEPTANCE, after.phase),
+            ]);
+            after
+        },
+    ))
+}
+
+fn self_test(p: &Params, mutant: Option<Mutant>) -> Refusable {
+    let config = self_test::Config::new(
+        p.time("interval"),
+        p.is("doors_free"),
+        p.is("no_control"),
+        p.is("cc"),
+    )?;
+    let next = mutant.map_or(self_test::next as self_test::Next, Mutant::self_test);
+    Ok(Adapter::new(
+        &[
+            "power_on",
+            "start",
+            "configured",
+            "done",
+            "fault",
+            "es_closed",
+            "cvo",
+            "keys_free",
+            "doors_shut",
+            "omitted",
+            "brake_good",
+        ],
+        &[
+            "gen_safe",
+            "running",
+            "brake_test",
+            "path_only",
+            "ask_voltage",
+            "cut_out_done",
+            "demand",
+            "step",
+        ],
+        vec![upto(13), truth(), upto(p.value("interval"))],
+        self_test::State::INITIAL,
+        move |state, i, o| {
+            let inputs = self_test::Inputs {
+                power_on: i[0] != 0,
+                start: i[1] != 0,
+                configured: i[2] != 0,
+                done: i[3] != 0,
+                fault: i[4] != 0,
+                es_closed: i[5] != 0,
+                cvo: i[6] != 0,
+                keys_free: i[7] != 0,
+                doors_shut: i[8] != 0,
+                omitted: i[9] != 0,
+                brake_good: i[10] != 0,
+            };
+            let (after, out) = next(state, &config, &inputs);
+            o.extend([
+                bit(out.gen_safe),
+                bit(out.running),
+                bit(out.brake_test),
+                bit(out.path_only),
+                bit(out.ask_voltage),
+                bit(out.cut_out_done),
+                stop_rank(out.demand),
+                rank(&STEPS, after.phase),
+            ]);
+            after
+        },
+    ))
+}

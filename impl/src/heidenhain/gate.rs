@@ -1,0 +1,124 @@
+//! What the kernel of one channel takes over from its safe PLC for one axis group: every field is checked against the codes
+//! of the interface, none is trusted.
+//!
+//! A code that does not exist, and restricted spindle operation for a group without spindle, is answered by SS1F; the field
+//! counts as the strictest value there is, and the whole request neither activates nor counts as permissive.
+
+pub use crate::contract::Stateless as State;
+use crate::heidenhain::types::{GroupState, Kind, Som, Stop};
+use crate::kernel::ConfigError;
+
+/// What the group consists of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Config {
+    kind: Kind,
+}
+
+impl Config {
+    /// `kind`: what the group consists of (MP100).
+    ///
+    /// # Errors
+    /// None; a result like that of the other monitors.
+    pub const fn new(kind: Kind) -> Result<Self, ConfigError> {
+        Ok(Self { kind })
+    }
+
+    /// What the group consists of.
+    pub const fn kind(&self) -> Kind {
+        self.kind
+    }
+}
+
+/// The fields of one cycle as the safe PLC has set them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Inputs {
+    /// `PP_AxGrpStateReq`: see [`GroupState::from_code`].
+    pub state_code: u8,
+    /// `PP_AxGrpStopReq`: see [`Stop::from_code`].
+    pub stop_code: u8,
+    /// `PP_GenSOM`: see [`Som::from_code`].
+    pub som_code: u8,
+    /// `PP_AxGrpActivate`: an event permits motion of the group.
+    pub activate: bool,
+    /// `PP_AxGrpPB`: a permissive button or key is pressed for the group.
+    pub permissive: bool,
+}
+
+/// What the kernel goes on with.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Outputs {
+    /// The requested monitoring state; the strictest where the request is illegal.
+    pub request: GroupState,
+    /// The requested stop; SS1F where any field is illegal.
+    pub stop: Stop,
+    /// The selected mode; SOM_1 where it is illegal.
+    pub som: Som,
+    /// The group is activated.
+    pub starts: bool,
+    /// A permissive is valid for the group.
+    pub held: bool,
+}
+
+contract! {
+    /// A legal request is taken over as it is.
+    legal_request_is_taken_over ["HFS-API-001", "HFS-API-018", "HFS-API-031"]:
+        when |s| legal(&s.config, &s.inputs)
+            => s.outputs.request.code() == s.inputs.state_code
+                && Stop::from_code(s.inputs.stop_code) == Some(s.outputs.stop)
+                && Som::from_code(s.inputs.som_code) == Some(s.outputs.som)
+                && s.outputs.starts == s.inputs.activate && s.outputs.held == s.inputs.permissive;
+
+    /// A field outside its enumeration, the missing code of SS0 among them, leads to SS1F, and nothing is activated.
+    illegal_field_stops ["HFS-FAULT-001", "HFS-FAULT-006", "HFS-SS0-002"]:
+        when |s| GroupState::from_code(s.inputs.state_code).is_none()
+            || Stop::from_code(s.inputs.stop_code).is_none()
+            || Som::from_code(s.inputs.som_code).is_none()
+            => s.outputs.stop == Stop::Ss1F && !s.outputs.starts && !s.outputs.held;
+
+    /// A state that does not exist is the strictest one.
+    unknown_state_is_the_strictest ["HFS-FAULT-006", "HFS-STOP-006"]:
+        when |s| GroupState::from_code(s.inputs.state_code).is_none()
+            => s.outputs.request == GroupState::Sto;
+
+    /// A group without spindle that asks for restricted spindle operation gets SS1F, not the state.
+    spindle_mode_needs_a_spindle ["HFS-FAULT-008", "HFS-P-39"]:
+        when |s| s.inputs.state_code == GroupState::SlsS.code() && s.config.kind != Kind::Spindle
+            => s.outputs.stop == Stop::Ss1F && s.outputs.request == GroupState::Sto && !s.outputs.starts;
+
+    /// A mode that does not exist is SOM_1.
+    unknown_mode_is_som_1 ["HFS-FAULT-006"]:
+        when |s| Som::from_code(s.inputs.som_code).is_none()
+            => s.outputs.som == Som::Som1;
+}
+
+/// Whether every field is a code of the interface that a group of this kind may ask for.
+#[cfg_attr(creusot, creusot_contracts::macros::logic)]
+fn legal(config: &Config, inputs: &Inputs) -> bool {
+    requested(config, inputs).is_some()
+        && Stop::from_code(inputs.stop_code).is_some()
+        && Som::from_code(inputs.som_code).is_some()
+}
+
+/// The requested state, if a group of this kind may ask for it.
+fn requested(config: &Config, inputs: &Inputs) -> Option<GroupState> {
+    match GroupState::from_code(inputs.state_code) {
+        Some(GroupState::SlsS) if config.kind != Kind::Spindle => None,
+        state => state,
+    }
+}
+
+pub(crate) fn transition(_: State, config: &Config, inputs: &Inputs) -> (State, Outputs) {
+    let legal = legal(config, inputs);
+    let stop = match Stop::from_code(inputs.stop_code) {
+        Some(stop) if legal => stop,
+        _ => Stop::Ss1F,
+    };
+    let outputs = Outputs {
+        request: requested(config, inputs).unwrap_or(GroupState::Sto),
+        stop,
+        som: Som::from_code(inputs.som_code).unwrap_or(Som::Som1),
+        starts: inputs.activate && legal,
+        held: inputs.permissive && legal,
+    };
+    (State, outputs)
+}

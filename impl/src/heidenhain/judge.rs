@@ -1,0 +1,243 @@
+//! The stop that the requests of the safe PLC, the machine operating mode and the permissive demand for one axis group.
+//!
+//! A request is never trusted: a code that does not exist, a mode entered without SOM_1 between, a stricter state asked for
+//! in motion, or a spindle without its permissive is answered by a stop, whatever the safe PLC asks for itself.
+//!
+//! Recommended readings of the manual implemented here: AMB-08 SKERN and AMB-67 SS2_THEN_SS1 (the kernel itself stops the
+//! spindle, after the axes), AMB-28 (a program goes on without permissive unless the safe PLC stops it), AMB-72 SS1.
+
+use crate::heidenhain::types::{GroupState, Kind, Stop, Unit};
+use crate::kernel::ConfigError;
+
+mod laws;
+
+pub use laws::*;
+
+/// What is judged.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Config {
+    kind: Kind,
+    som_4: bool,
+}
+
+impl Config {
+    /// `kind`: what the group consists of. `som_4`: SMP560 bit 0, SOM_4 is enabled.
+    ///
+    /// # Errors
+    /// None; a result like that of the other monitors.
+    pub const fn new(kind: Kind, som_4: bool) -> Result<Self, ConfigError> {
+        Ok(Self { kind, som_4 })
+    }
+
+    /// What the group consists of.
+    pub const fn kind(&self) -> Kind {
+        self.kind
+    }
+
+    /// SOM_4 is enabled.
+    pub const fn som_4(&self) -> bool {
+        self.som_4
+    }
+}
+
+/// The modes with limited speed between which SOM_1 must come.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Modes {
+    /// None requested since SOS or AUTO.
+    #[default]
+    None,
+    /// SOM_2 or SOM_3.
+    Low,
+    /// SOM_4.
+    High,
+}
+
+impl Modes {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::None, Self::Low, Self::High];
+}
+
+/// Where the machine is operated: a change of it stops the groups.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Place {
+    /// At the operating panel, by hand or by program.
+    #[default]
+    Panel,
+    /// At the handwheel.
+    Handwheel,
+    /// Homing and testing of axes.
+    Reference,
+}
+
+impl Place {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Panel, Self::Handwheel, Self::Reference];
+
+    /// Where the machine is operated in a machine operating mode.
+    pub const fn of(unit: Unit) -> Self {
+        match unit {
+            Unit::Panel | Unit::Program => Self::Panel,
+            Unit::Handwheel => Self::Handwheel,
+            Unit::Reference => Self::Reference,
+        }
+    }
+}
+
+/// The state between two cycles.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct State {
+    /// The last mode requested since SOS or AUTO.
+    pub modes: Modes,
+    /// Where the machine was operated in the cycle before.
+    pub place: Place,
+}
+
+impl State {
+    /// No mode yet, at the operating panel.
+    pub const INITIAL: Self = Self {
+        modes: Modes::None,
+        place: Place::Panel,
+    };
+
+    /// Every state is consistent.
+    #[cfg_attr(creusot, creusot_contracts::macros::logic)]
+    pub const fn invariant(&self, _config: &Config) -> bool {
+        true
+    }
+}
+
+/// The inputs of one cycle.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Inputs {
+    /// Main switch off and on.
+    pub main_switch: bool,
+    /// The requested monitoring state (`PP_AxGrpStateReq`).
+    pub request: GroupState,
+    /// The requested stop (`PP_AxGrpStopReq`).
+    pub stop_request: Stop,
+    /// One of the two is no code of the interface.
+    pub bad_code: bool,
+    /// The monitoring state at the start of the cycle.
+    pub state: GroupState,
+    /// An axis of the group moves (`NN_AxGrpInMotion`).
+    pub moving: bool,
+    /// The machine operating mode.
+    pub unit: Unit,
+    /// A permissive is valid for the group (`PP_AxGrpPB`).
+    pub permissive: bool,
+    /// The protection against unexpected start-up responds.
+    pub idle: bool,
+    /// `NN_GenSafe`: the self-test has passed and is not overdue.
+    pub gen_safe: bool,
+    /// An axis that is not checked moves with the door open outside the reference mode.
+    pub untested: bool,
+}
+
+/// The outputs of one cycle: which causes there are, and the highest of them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Outputs {
+    /// A fault of the request: SS1F.
+    pub asks_ss1f: bool,
+    /// Found by the kernel: SS1.
+    pub asks_ss1: bool,
+    /// SS1 of the spindle after the SS2 of the axes.
+    pub asks_ss1d: bool,
+    /// SS2 of the group.
+    pub asks_ss2: bool,
+    /// SS2 of the axis groups of the working space.
+    pub stops_axes: bool,
+    /// The highest cause.
+    pub demand: Stop,
+}
+
+impl Inputs {
+    /// The request makes the group stricter than its state by taking the release away.
+    const fn ends_release(&self) -> bool {
+        match self.request {
+            GroupState::Sos => self.state.is_released(),
+            GroupState::StoO | GroupState::Sto => !matches!(self.state, GroupState::Sto),
+            _ => false,
+        }
+    }
+
+    /// The door has just been opened: a limit is requested of a group at full speed.
+    const fn door_opens(&self) -> bool {
+        matches!(self.state, GroupState::Auto) && self.request.is_limited()
+    }
+
+    /// A spindle in this situation needs its permissive to go on: as the door opens, and then in all but SOM_4 at the panel
+    /// and restricted operation.
+    const fn needs_permissive(&self) -> bool {
+        match self.state {
+            GroupState::Sls2 | GroupState::Sls3 => true,
+            GroupState::Sls4 => matches!(self.unit, Unit::Handwheel),
+            GroupState::Auto => {
+                self.request.is_limited() && !matches!(self.request, GroupState::SlsS)
+            }
+            _ => false,
+        }
+    }
+}
+
+/// The mode that a request belongs to; none for one that belongs to no mode and changes nothing.
+const fn modes(before: Modes, request: GroupState) -> Modes {
+    match request {
+        GroupState::Auto | GroupState::Sos => Modes::None,
+        GroupState::Sls2 | GroupState::Sls3 => Modes::Low,
+        GroupState::Sls4 => Modes::High,
+        GroupState::SlsS | GroupState::StoO | GroupState::Sto => before,
+    }
+}
+
+pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (State, Outputs) {
+    let before = if inputs.main_switch {
+        State::INITIAL
+    } else {
+        state
+    };
+    let spindle = config.kind == Kind::Spindle;
+    let after = State {
+        modes: modes(before.modes, inputs.request),
+        place: Place::of(inputs.unit),
+    };
+    let crossed =
+        before.modes != Modes::None && after.modes != Modes::None && after.modes != before.modes;
+    let limited = inputs.state.is_limited();
+    let lost = inputs.moving && !inputs.permissive;
+    let asks_ss1f = inputs.bad_code
+        || crossed
+        || (inputs.request == GroupState::SlsS && !spindle)
+        || inputs.stop_request >= Stop::Ss1F;
+    let asks_ss1 = (inputs.moving && inputs.ends_release())
+        || (inputs.request == GroupState::Sls4 && !config.som_4);
+    let asks_ss1d = spindle && lost && inputs.needs_permissive();
+    let asks_ss2 = (!spindle && lost && limited && inputs.unit == Unit::Handwheel)
+        || after.place != before.place
+        || (inputs.idle && !inputs.permissive)
+        || (!inputs.gen_safe && (limited || inputs.door_opens()))
+        || inputs.untested;
+    let demand = if asks_ss1f {
+        Stop::Ss1F
+    } else if asks_ss1 {
+        Stop::Ss1
+    } else if asks_ss1d {
+        Stop::Ss1D
+    } else if asks_ss2 {
+        Stop::Ss2
+    } else {
+        Stop::None
+    };
+    let outputs = Outputs {
+        asks_ss1f,
+        asks_ss1,
+        asks_ss1d,
+        asks_ss2,
+        stops_axes: asks_ss1d,
+        demand: demand.max(if asks_ss1f {
+            Stop::Ss1F
+        } else {
+            inputs.stop_request
+        }),
+    };
+    (after, outputs)
+}

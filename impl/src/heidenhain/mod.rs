@@ -1,0 +1,83 @@
+//! Monitors of HEIDENHAIN Functional Safety (iTNC 530 HSCI, NC software 606 42x).
+//!
+//! One module is one safety function of one channel: channel A runs on the main computer (MC), channel B on the controller
+//! computer (CC). In each channel a safety kernel (SKERN) executes and monitors; a safe PLC program (SPLC) of the machine
+//! builder tells it by the fields `PP_...` what is wanted, and reads the fields `NN_...`.
+//!
+//! | module | safety function | steps after |
+//! | --- | --- | --- |
+//! | [`som`] | safe operating mode from the keylock inputs (safe PLC) | - |
+//! | [`button`] | validity of a permissive button or key (safe PLC) | - |
+//! | [`gate`] | what the kernel takes over from its safe PLC for one axis group | - |
+//! | [`both_channels`] | the stricter of what the two channels were asked for | `gate` of both channels |
+//! | [`startup`] | protection against unexpected start-up | `group` of the cycle before |
+//! | [`judge`] | stops that requests, machine operating mode and permissive demand | `both_channels`, `startup` |
+//! | [`axis_release`] | feed enable of one axis in a released group, with an SS2 of its own | `group` of the cycle before |
+//! | [`stop`] | stop reaction of one axis group: SS2, SS1D, SS1, SS1F, SS0 with their timers | `judge`, all monitors |
+//! | [`group`] | monitoring state of one axis group | `stop` |
+//! | [`switch_on`] | control voltage on: edge, chain of contacts, -STO.A.G | `stop` of every group |
+//! | [`output_enable`] | `NN_GenOutputEnable` | `stop` of every group |
+//! | [`speed`] | limited speed (SLS) of an axis or spindle | `group` of the cycle before |
+//! | [`operating_stop`] | operating stop (SOS): speed and path of a standing axis | `group` of the cycle before |
+//! | [`stop_path`] | path of an axis during SS2 | `stop` of the cycle before |
+//! | [`position_limit`] | limited position (SLP) with its return lock | `reference` |
+//! | [`revolutions`] | two revolutions of restricted spindle operation | `group` of the cycle before |
+//! | [`comparison`] | nominal with actual value: position or speed | `group` of the cycle before |
+//! | [`deceleration`] | dv/dt on the emergency ramp | `stop` of the cycle before |
+//! | [`axis_count`] | how many axes move at a time with the door open | `group` of the cycle before |
+//! | [`reference`] | referencing of an axis up to "axis checked" | - |
+//! | [`agreement`] | one item compared between the channels, with its window | both channels |
+//! | [`brakes`] | brake outputs of a safe PLC | `stop` |
+//! | [`tool_holder`] | opening of the tool holder by a safe PLC | `group` of the cycle before |
+//! | [`acceptance`] | acceptance of changed safe machine parameters | - |
+//! | [`self_test`] | order of the self-test, its interval | - |
+//! | [`status_bits`] | reactions to the safe status bits of a telegram | - |
+//! | [`sampling`] | forced dynamic sampling of a pair of inputs | - |
+//! | [`self_checks`] | reactions to faults that the kernel finds in itself | - |
+//! | [`start_checks`] | configuration while the control boots | - |
+//! | [`parameters`] | safe machine parameters, checked and converted: no step | - |
+//! | [`types`] | stops, monitoring states, modes in their priority: no step | - |
+//!
+//! Conventions common to the modules of this family:
+//!
+//! * One call is one HSCI cycle of 3 ms, the same for all monitors. Durations are [`Cycles`](crate::kernel::Cycles).
+//! * Monitors judge with the monitoring state valid at the start of the cycle; of all causes of a cycle the highest stop
+//!   wins; a stop beats a release, a stricter request beats a laxer one (HFS-STOP-009).
+//! * A timer started with t expires t cycles after the cycle of its start; t = 0 expires in the cycle of the start.
+//! * `main_switch` and `power_on` (main switch off and on) first set everything volatile to its initial value; then the
+//!   cycle is evaluated with its other inputs.
+//! * A signal that is missing must be the one that stops: an output that permits is `true` only when it was worked out.
+
+pub mod acceptance;
+pub mod agreement;
+pub mod axis_count;
+pub mod axis_release;
+pub mod both_channels;
+pub mod brakes;
+pub mod button;
+pub mod comparison;
+pub mod deceleration;
+pub mod gate;
+pub mod group;
+pub mod judge;
+#[cfg(feature = "mutants")]
+pub mod mutant;
+pub mod operating_stop;
+pub mod output_enable;
+pub mod parameters;
+pub mod position_limit;
+pub mod reference;
+pub mod revolutions;
+pub mod sampling;
+pub mod self_checks;
+pub mod self_test;
+pub mod som;
+pub mod speed;
+pub mod start_checks;
+pub mod startup;
+pub mod status_bits;
+pub mod stop;
+pub mod stop_path;
+pub mod switch_on;
+pub mod tool_holder;
+pub mod types;

@@ -1,0 +1,251 @@
+//! Deliberately wrong step functions: see [`crate::mutant`].
+
+/// Declares step functions: each a wrong variant of the one of its monitor.
+macro_rules! variants {
+    ($($name:ident: $monitor:ident |$state:ident, $config:ident, $inputs:ident| $body:block)+) => {$(
+        pub(super) fn $name(
+            $state: $monitor::State,
+            $config: &$monitor::Config,
+            $inputs: &$monitor::Inputs,
+        ) -> ($monitor::State, $monitor::Outputs) $body
+    )+};
+}
+
+mod groups;
+mod interface;
+mod machine;
+mod service;
+mod stops;
+mod watching;
+
+mutants! { heidenhain:
+    /// The take-over of requests with this mutant in it.
+    fn gate {
+        /// A request with an illegal field still activates.
+        GateActivatesIllegal "gate-activates-illegal" => interface::gate_activates_illegal;
+        /// A code that does not exist raises no stop.
+        GateTrustsCodes "gate-trusts-codes" => interface::gate_trusts_codes;
+        /// Restricted spindle operation is granted to a group without spindle.
+        GateGrantsSpindleMode "gate-grants-spindle-mode" => interface::gate_grants_spindle_mode;
+    }
+    /// The joining of the requests with this mutant in it.
+    fn both_channels {
+        /// The request of channel A counts alone.
+        BothChannelsTrustsA "both-channels-trusts-a" => interface::both_channels_trusts_a;
+        /// A permissive of one channel is enough.
+        BothChannelsOnePermissive "both-channels-one-permissive" => interface::both_channels_one_permissive;
+    }
+    /// The stop reaction with this mutant in it.
+    fn stop {
+        /// An SS1F that comes during the ramp loads the timer anew.
+        StopReloadsTimer "stop-reloads-timer" => stops::stop_reloads_timer;
+        /// An SS1D ends the braking along the contour.
+        StopLeavesContour "stop-leaves-contour" => stops::stop_leaves_contour;
+        /// The operator's edge restarts after SS1F as well.
+        StopRestartsHard "stop-restarts-hard" => stops::stop_restarts_hard;
+        /// Channel B takes the torque together with closing the brakes.
+        StopDropsTheLoad "stop-drops-the-load" => stops::stop_drops_the_load;
+    }
+    /// The judgement with this mutant in it.
+    fn judge {
+        /// SOM_4 may follow SOM_2 directly.
+        JudgeTrustsModeChanges "judge-trusts-mode-changes" => groups::judge_trusts_mode_changes;
+        /// A turning spindle goes on without permissive as its door is opened.
+        JudgeMissesTheOpenDoor "judge-misses-the-open-door" => groups::judge_misses_the_open_door;
+        /// Standstill asked for in motion is no stop.
+        JudgeMovingStandstill "judge-moving-standstill" => groups::judge_moving_standstill;
+    }
+    /// The monitoring state with this mutant in it.
+    fn group {
+        /// Closing the door activates.
+        GroupDoorStarts "group-door-starts" => groups::group_door_starts;
+        /// A change between SOM_2 and SOM_3 in motion drops the old limit.
+        GroupLoosens "group-loosens" => groups::group_loosens;
+        /// An SS1D makes STO of STO_O.
+        GroupSoftLiftsSto "group-soft-lifts-sto" => groups::group_soft_lifts_sto;
+    }
+    /// The start-up protection with this mutant in it.
+    fn startup {
+        /// A permissive begins the count anew.
+        StartupForgetsByPermissive "startup-forgets-by-permissive" => groups::startup_forgets_by_permissive;
+        /// It responds only in the cycle in which the count ends.
+        StartupLate "startup-late" => groups::startup_late;
+    }
+    /// The release of an axis with this mutant in it.
+    fn axis_release {
+        /// The enable that comes back breaks the braking off.
+        AxisReleaseBreaksOff "axis-release-breaks-off" => groups::axis_release_breaks_off;
+        /// Braking may last for ever.
+        AxisReleaseWithoutEnd "axis-release-without-end" => groups::axis_release_without_end;
+    }
+    /// The selection of the mode with this mutant in it.
+    fn som {
+        /// A refused mode is taken one cycle later.
+        SomOneCycleLock "som-one-cycle-lock" => machine::som_one_cycle_lock;
+        /// The key of SOM_4 does not count beside another one.
+        SomFirstKeyWins "som-first-key-wins" => machine::som_first_key_wins;
+    }
+    /// The permissive with this mutant in it.
+    fn button {
+        /// A button held at power-up counts.
+        ButtonHeldAtPowerUp "button-held-at-power-up" => machine::button_held_at_power_up;
+        /// One contact is enough.
+        ButtonOneContact "button-one-contact" => machine::button_one_contact;
+    }
+    /// The control voltage with this mutant in it.
+    fn switch_on {
+        /// A control voltage that is on needs no edge.
+        SwitchOnByLevel "switch-on-by-level" => machine::switch_on_by_level;
+        /// A chain that stays open raises no stop.
+        SwitchOnForgivesTheChain "switch-on-forgives-the-chain" => machine::switch_on_forgives_the_chain;
+    }
+    /// The permission of the outputs with this mutant in it.
+    fn output_enable {
+        /// Every SS1 takes it.
+        OutputEnableAnySs1 "output-enable-any-ss1" => machine::output_enable_any_ss1;
+        /// There is no deadline.
+        OutputEnableNoDeadline "output-enable-no-deadline" => machine::output_enable_no_deadline;
+    }
+    /// The limited speed with this mutant in it.
+    fn speed {
+        /// One increment more than the limit plus 5 % is permitted.
+        SpeedMarginTooWide "speed-margin-too-wide" => watching::speed_margin_too_wide;
+        /// Between SLS_2 and SLS_3 in motion the new limit counts at once, also a higher one.
+        SpeedHigherOfTwo "speed-higher-of-two" => watching::speed_higher_of_two;
+        /// A limit that is not set is not shown.
+        SpeedZeroIsNoFault "speed-zero-is-no-fault" => watching::speed_zero_is_no_fault;
+    }
+    /// The operating stop with this mutant in it.
+    fn operating_stop {
+        /// The reference follows the axis.
+        OperatingStopFollows "operating-stop-follows" => watching::operating_stop_follows;
+        /// A creeping axis is braked instead of losing its torque.
+        OperatingStopBrakesCreeping "operating-stop-brakes-creeping" => watching::operating_stop_brakes_creeping;
+        /// An axis as fast as the limit counts as standing.
+        OperatingStopLimitStands "operating-stop-limit-stands" => watching::operating_stop_limit_stands;
+    }
+    /// The path of an SS2 with this mutant in it.
+    fn stop_path {
+        /// The path is limited with the door closed too.
+        StopPathEveryDoor "stop-path-every-door" => watching::stop_path_every_door;
+        /// The path counts from each cycle anew.
+        StopPathRestarts "stop-path-restarts" => watching::stop_path_restarts;
+    }
+    /// The limited position with this mutant in it.
+    fn position_limit {
+        /// Driving further out does not lock the axis.
+        PositionLimitNeverLocks "position-limit-never-locks" => watching::position_limit_never_locks;
+        /// A locked axis is free again inside its limits.
+        PositionLimitUnlocksInside "position-limit-unlocks-inside" => watching::position_limit_unlocks_inside;
+        /// The way back is stopped like the way out.
+        PositionLimitStopsTheWayBack "position-limit-stops-the-way-back" => watching::position_limit_stops_the_way_back;
+        /// What the axis overruns while it is stopped locks it.
+        PositionLimitLocksOverrun "position-limit-locks-overrun" => watching::position_limit_locks_overrun;
+    }
+    /// The two revolutions with this mutant in them.
+    fn revolutions {
+        /// What the spindle turns back adds up.
+        RevolutionsAddUp "revolutions-add-up" => watching::revolutions_add_up;
+        /// The angle is kept to the next restricted operation.
+        RevolutionsNeverStartAnew "revolutions-never-start-anew" => watching::revolutions_never_start_anew;
+    }
+    /// The comparison of nominal and actual value with this mutant in it.
+    fn comparison {
+        /// Nothing is compared in the operating stop.
+        ComparisonNotInStandstill "comparison-not-in-standstill" => watching::comparison_not_in_standstill;
+        /// The window does not start again within the tolerance.
+        ComparisonWindowAddsUp "comparison-window-adds-up" => watching::comparison_window_adds_up;
+    }
+    /// The dv/dt monitoring with this mutant in it.
+    fn deceleration {
+        /// There is no waiting time.
+        DecelerationNoWait "deceleration-no-wait" => watching::deceleration_no_wait;
+        /// A spindle that keeps its speed counts as braking.
+        DecelerationConstantIsRight "deceleration-constant-is-right" => watching::deceleration_constant_is_right;
+    }
+    /// The number of moving axes with this mutant in it.
+    fn axis_count {
+        /// By handwheel several axes may move.
+        AxisCountFreeHandwheel "axis-count-free-handwheel" => watching::axis_count_free_handwheel;
+        /// Homing several axes is stopped with the door closed too.
+        AxisCountClosedDoor "axis-count-closed-door" => watching::axis_count_closed_door;
+    }
+    /// The referencing with this mutant in it.
+    fn reference {
+        /// A saved position counts whether it was checked or not.
+        ReferencePositionOnly "reference-position-only" => service::reference_position_only;
+        /// The confirmation is accepted in SOM_1.
+        ReferenceInSom1 "reference-in-som-1" => service::reference_in_som_1;
+        /// The other channel is not asked.
+        ReferenceOneChannel "reference-one-channel" => service::reference_one_channel;
+        /// A cause for a check counts only if the axis was checked when the power went: a second power-on forgets it.
+        ReferenceForgetsTheCause "reference-forgets-the-cause" => service::reference_forgets_the_cause;
+    }
+    /// The comparison of the channels with this mutant in it.
+    fn agreement {
+        /// The window is one cycle short.
+        AgreementEarly "agreement-early" => service::agreement_early;
+        /// The window is not whole again when the channels agree.
+        AgreementAddsUp "agreement-adds-up" => service::agreement_adds_up;
+    }
+    /// The brake outputs with this mutant in them.
+    fn brakes {
+        /// In operation one request opens a shared output.
+        BrakesAnyRequest "brakes-any-request" => service::brakes_any_request;
+        /// In the test a shared output needs all requests.
+        BrakesTestOverlooked "brakes-test-overlooked" => service::brakes_test_overlooked;
+    }
+    /// The tool holder with this mutant in it.
+    fn tool_holder {
+        /// The holder opens in the cycle in which torque off is asked for.
+        ToolHolderAtOnce "tool-holder-at-once" => service::tool_holder_at_once;
+        /// An open door counts as closed.
+        ToolHolderDoorOverlooked "tool-holder-door-overlooked" => service::tool_holder_door_overlooked;
+        /// Torque off is asked for while the spindle turns.
+        ToolHolderCutsOffTurning "tool-holder-cuts-off-turning" => service::tool_holder_cuts_off_turning;
+    }
+    /// The acceptance with this mutant in it.
+    fn acceptance {
+        /// The list begins without the password.
+        AcceptanceWithoutPassword "acceptance-without-password" => service::acceptance_without_password;
+        /// One press confirms the whole list.
+        AcceptanceOnePress "acceptance-one-press" => service::acceptance_one_press;
+    }
+    /// The self-test with this mutant in it.
+    fn self_test {
+        /// The test goes on with open doors.
+        SelfTestDoorsOverlooked "self-test-doors-overlooked" => service::self_test_doors_overlooked;
+        /// A brake that does not hold passes.
+        SelfTestBadBrakePasses "self-test-bad-brake-passes" => service::self_test_bad_brake_passes;
+        /// A passed test is good for ever.
+        SelfTestNeverOverdue "self-test-never-overdue" => service::self_test_never_overdue;
+    }
+    /// The forced dynamic sampling with this mutant in it.
+    fn sampling {
+        /// During a pulse neither channel sees an open contact.
+        SamplingBlindInThePulse "sampling-blind-in-the-pulse" => service::sampling_blind_in_the_pulse;
+        /// A short circuit of channel B is not found.
+        SamplingBUntested "sampling-b-untested" => service::sampling_b_untested;
+    }
+    /// The status bits with this mutant in them.
+    fn status_bits {
+        /// The mask of the PLC also hides -N0.
+        StatusBitsMaskTooWide "status-bits-mask-too-wide" => service::status_bits_mask_too_wide;
+        /// The MC serves its watchdogs without DC-link voltage.
+        StatusBitsMcServesOn "status-bits-mc-serves-on" => service::status_bits_mc_serves_on;
+    }
+    /// The checks of the kernel with this mutant in them.
+    fn self_checks {
+        /// A slow fan is not seen.
+        SelfChecksFanOverlooked "self-checks-fan-overlooked" => service::self_checks_fan_overlooked;
+        /// The request of the safe PLC's run-time system is SS1 only.
+        SelfChecksRuntimeIsSs1 "self-checks-runtime-is-ss1" => service::self_checks_runtime_is_ss1;
+    }
+    /// The checks while booting with this mutant in them.
+    fn start_checks {
+        /// Any motor speed is plausible.
+        StartChecksAnySpeed "start-checks-any-speed" => service::start_checks_any_speed;
+        /// A refused control tries again by itself.
+        StartChecksTriesAgain "start-checks-tries-again" => service::start_checks_tries_again;
+    }
+}

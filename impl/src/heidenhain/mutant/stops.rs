@@ -1,0 +1,55 @@
+//! Wrong variants of the stop reaction.
+
+use crate::heidenhain::stop;
+use crate::heidenhain::types::{Phase, Stop};
+
+pub(super) fn stop_reloads_timer(
+    state: stop::State,
+    config: &stop::Config,
+    inputs: &stop::Inputs,
+) -> (stop::State, stop::Outputs) {
+    let (mut after, outputs) = stop::transition(state, config, inputs);
+    if inputs.demand == Stop::Ss1F
+        && after.level == Stop::Ss1F
+        && state.level != Stop::Ss1F
+        && matches!(after.phase, Phase::EmergencyBrake | Phase::BrakeCloses)
+    {
+        after.timer = config.t_ss1();
+    }
+    (after, outputs)
+}
+
+pub(super) fn stop_leaves_contour(
+    state: stop::State,
+    config: &stop::Config,
+    inputs: &stop::Inputs,
+) -> (stop::State, stop::Outputs) {
+    let (mut after, mut outputs) = stop::transition(state, config, inputs);
+    if after.phase == Phase::Ss1DWait {
+        after.contour = false;
+        outputs.on_contour = false;
+    }
+    (after, outputs)
+}
+
+pub(super) fn stop_restarts_hard(
+    state: stop::State,
+    config: &stop::Config,
+    inputs: &stop::Inputs,
+) -> (stop::State, stop::Outputs) {
+    let mut state = state;
+    if state.phase == Phase::TorqueOff && state.level == Stop::Ss1F {
+        state.level = Stop::Ss1;
+    }
+    stop::transition(state, config, inputs)
+}
+
+pub(super) fn stop_drops_the_load(
+    state: stop::State,
+    config: &stop::Config,
+    inputs: &stop::Inputs,
+) -> (stop::State, stop::Outputs) {
+    let (after, mut outputs) = stop::transition(state, config, inputs);
+    outputs.torque_off |= outputs.brake_closed;
+    (after, outputs)
+}

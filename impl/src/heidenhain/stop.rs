@@ -1,0 +1,374 @@
+//! The stop reaction of one axis group in one channel: SS2, SS1D, SS1, SS1F and SS0 with their timers, up to torque off and
+//! the restart.
+//!
+//! SS2 brakes along the contour and leaves the group under control. SS1 brakes along the emergency ramp; channel B closes the
+//! brakes at standstill and takes the torque after their overlap time, channel A follows its report. SS1D is an SS1 that
+//! waits until the groups listed in SMP610 stand still. A stop that lasts longer than its time becomes the next higher one,
+//! in each channel alone.
+//!
+//! Only a higher stop displaces a running one, and no stop ends because its cause does (HFS-STOP-002, HFS-STOP-003). Further
+//! readings of the manual implemented here: AMB-02 MACHINE (an SS1 after a failed SS2 is found by the kernel), AMB-06 BOTH
+//! (SS2 waits as well), AMB-07 STO_O, AMB-44 EDGE (the restart is a fresh edge, found outside), AMB-73 FROM_REQUEST.
+//!
+//! The standstill of a group that is asked for an SS2 ends it in the same cycle. An SS2 that comes to stand in the very
+//! cycle in which its time is up has ended in time; so has an SS1 whose torque is off in that cycle.
+
+use crate::heidenhain::types::{Phase, Stop};
+use crate::kernel::{ConfigError, Cycles};
+
+mod laws;
+
+pub use laws::*;
+
+/// The times of a group, equal in both channels, and which channel it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Config {
+    cc: bool,
+    t_ss1: Cycles,
+    t_ss2: Cycles,
+    t_brake: Cycles,
+}
+
+impl Config {
+    /// The longest of SMP525 to SMP528: 10 s in cycles of 3 ms, rounded up.
+    pub const LONGEST: Cycles = Cycles::new(3334);
+
+    /// `cc`: channel B, which brakes the drives. `t_ss1`: time of an SS1 until torque off (SMP525, SMP526). `t_ss2`: time of
+    /// an SS2 until standstill (SMP527, SMP528). `t_brake`: overlap of the brake (MP2308).
+    ///
+    /// # Errors
+    /// [`ConfigError::DelayTooLong`] when one of them is above [`Config::LONGEST`].
+    pub fn new(
+        cc: bool,
+        t_ss1: Cycles,
+        t_ss2: Cycles,
+        t_brake: Cycles,
+    ) -> Result<Self, ConfigError> {
+        Ok(Self {
+            cc,
+            t_ss1: t_ss1.at_most(Self::LONGEST)?,
+            t_ss2: t_ss2.at_most(Self::LONGEST)?,
+            t_brake: t_brake.at_most(Self::LONGEST)?,
+        })
+    }
+
+    /// Channel B.
+    pub const fn is_cc(&self) -> bool {
+        self.cc
+    }
+
+    /// Time of an SS1 until torque off.
+    pub const fn t_ss1(&self) -> Cycles {
+        self.t_ss1
+    }
+
+    /// Time of an SS2 until standstill.
+    pub const fn t_ss2(&self) -> Cycles {
+        self.t_ss2
+    }
+
+    /// Overlap of the brake.
+    pub const fn t_brake(&self) -> Cycles {
+        self.t_brake
+    }
+}
+
+/// The state between two cycles.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct State {
+    /// The stop in force.
+    pub level: Stop,
+    /// What it is doing.
+    pub phase: Phase,
+    /// What is left of the time of the SS2 or SS1 that runs, else 0.
+    pub timer: Cycles,
+    /// What is left of the overlap of the brake while it closes, else 0.
+    pub brake: Cycles,
+    /// The SS1 concerns the whole machine.
+    pub wide: bool,
+    /// An SS1D waits while the SS2 before it goes on braking.
+    pub contour: bool,
+}
+
+impl State {
+    /// No stop.
+    pub const INITIAL: Self = Self {
+        level: Stop::None,
+        phase: Phase::Run,
+        timer: Cycles::ZERO,
+        brake: Cycles::ZERO,
+        wide: false,
+        contour: false,
+    };
+
+    /// Level, phase and timers belong together.
+    #[cfg_attr(creusot, creusot_contracts::macros::logic)]
+    pub fn invariant(&self, config: &Config) -> bool {
+        let timed = !self.timer.is_zero();
+        let fits = match self.phase {
+            Phase::Run => self.level == Stop::None && !timed,
+            Phase::Ss2Wait | Phase::Ss2Brake => {
+                self.level == Stop::Ss2 && timed && self.timer <= config.t_ss2
+            }
+            // Its own wait has no time; that of an SS2 before it runs on.
+            Phase::Ss1DWait => self.level == Stop::Ss1D && self.timer <= config.t_ss2,
+            Phase::EmergencyBrake | Phase::BrakeCloses => {
+                matches!(self.level, Stop::Ss1D | Stop::Ss1 | Stop::Ss1F)
+                    && timed
+                    && self.timer <= config.t_ss1
+            }
+            Phase::TorqueOff => self.level >= Stop::Ss1D && !timed,
+        };
+        let closes = matches!(self.phase, Phase::BrakeCloses);
+        fits && closes != self.brake.is_zero()
+            && self.brake <= config.t_brake
+            && (config.cc || !closes)
+            && (!self.wide || self.level >= Stop::Ss1)
+            && (!self.contour || matches!(self.phase, Phase::Ss1DWait))
+    }
+}
+
+/// The inputs of one cycle.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Inputs {
+    /// Main switch off and on.
+    pub main_switch: bool,
+    /// The highest cause of this cycle for this group, in this channel or told by the other.
+    pub demand: Stop,
+    /// An SS1 among the causes concerns the whole machine: emergency stop, or found by the safety kernel.
+    pub wide_cause: bool,
+    /// All drives of the group are below 50 mm/min or 10 rpm.
+    pub still: bool,
+    /// The groups that SMP610 lists for this one stand still, or none is listed.
+    pub listed_still: bool,
+    /// The other channel has reported torque off.
+    pub peer_off: bool,
+    /// The operator switches the drives on: a fresh edge after torque off, the contact chain closed.
+    pub restart: bool,
+}
+
+/// The outputs of one cycle.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Outputs {
+    /// The stop in force.
+    pub level: Stop,
+    /// What it is doing.
+    pub phase: Phase,
+    /// The SS1 concerns the whole machine.
+    pub wide: bool,
+    /// -STO.A.x or -STO.B.x is 0.
+    pub torque_off: bool,
+    /// Safe brake control: the brakes of the group are closed by this channel.
+    pub brake_closed: bool,
+    /// The NC brakes the group along the contour.
+    pub on_contour: bool,
+    /// The drives brake along the emergency ramp.
+    pub emergency_ramp: bool,
+    /// The groups that SMP610 lists get an SS2.
+    pub brake_listed: bool,
+    /// Only the main switch allows a restart.
+    pub needs_switch: bool,
+    /// An SS2 has ended in this cycle, or was asked of a group that stands.
+    pub ss2_ended: bool,
+    /// The drives are switched on again.
+    pub restarted: bool,
+    /// The torque is off at the end of an SS1D, which needs no drive-on.
+    pub keeps_enable: bool,
+}
+
+pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (State, Outputs) {
+    let held = if inputs.main_switch {
+        State::INITIAL
+    } else {
+        state
+    };
+    let restarted = restarts(held, inputs);
+    let before = if restarted { State::INITIAL } else { held };
+    let asked = rise(before, config, inputs);
+    let mut after = advance(before, asked, config, inputs);
+    after.wide |= inputs.wide_cause && inputs.demand >= Stop::Ss1 && after.level >= Stop::Ss1;
+    let ss2_ended = after.level == Stop::None && asked.level == Stop::Ss2;
+    (after, outputs(after, ss2_ended, restarted))
+}
+
+/// The operator's restart counts after an ended SS1 or SS1D, and while nothing of that rank is asked for.
+fn restarts(state: State, inputs: &Inputs) -> bool {
+    inputs.restart
+        && state.phase == Phase::TorqueOff
+        && state.level < Stop::Ss1F
+        && inputs.demand < Stop::Ss1D
+}
+
+/// The stop that counts now, with the timers of one that has just been asked for.
+fn rise(before: State, config: &Config, inputs: &Inputs) -> State {
+    if inputs.demand <= before.level {
+        return before;
+    }
+    let demand = inputs.demand;
+    let level = State {
+        level: demand,
+        ..before
+    };
+    match demand {
+        Stop::None => before,
+        Stop::Ss2 => State {
+            phase: Phase::Ss2Wait,
+            timer: config.t_ss2,
+            ..level
+        },
+        Stop::Ss1D => State {
+            phase: Phase::Ss1DWait,
+            contour: before.phase == Phase::Ss2Brake,
+            ..level
+        },
+        Stop::Ss1 | Stop::Ss1F => match before.phase {
+            // The ramp and its timers go on; torque that is off stays off.
+            Phase::EmergencyBrake | Phase::BrakeCloses | Phase::TorqueOff => level,
+            _ => emergency(level, config),
+        },
+        Stop::Ss0 => torque_off(level),
+    }
+}
+
+/// What the stop does in this cycle: `before` is the state of the cycle before, `asked` has the stop that counts now.
+fn advance(before: State, asked: State, config: &Config, inputs: &Inputs) -> State {
+    match asked.phase {
+        Phase::Run | Phase::TorqueOff => asked,
+        Phase::Ss2Wait | Phase::Ss2Brake => {
+            let phase = if inputs.listed_still || asked.phase == Phase::Ss2Brake {
+                Phase::Ss2Brake
+            } else {
+                Phase::Ss2Wait
+            };
+            let timer = run(before.level == asked.level, asked.timer);
+            if phase == Phase::Ss2Brake && inputs.still {
+                State::INITIAL
+            } else if timer.is_zero() {
+                failed_ss2(asked, config)
+            } else {
+                State {
+                    phase,
+                    timer,
+                    ..asked
+                }
+            }
+        }
+        Phase::Ss1DWait => {
+            let timed = !asked.timer.is_zero();
+            let timer = asked.timer.tick();
+            if inputs.listed_still {
+                emergency(asked, config)
+            } else if timed && timer.is_zero() {
+                failed_ss2(asked, config)
+            } else {
+                State { timer, ..asked }
+            }
+        }
+        Phase::EmergencyBrake | Phase::BrakeCloses => {
+            // A ramp that has just begun keeps its whole time.
+            if before.phase == asked.phase {
+                brake(asked, config, inputs)
+            } else {
+                asked
+            }
+        }
+    }
+}
+
+/// A timer that runs already is one cycle shorter; one that has just been started keeps its time.
+const fn run(running: bool, timer: Cycles) -> Cycles {
+    if running { timer.tick() } else { timer }
+}
+
+/// The emergency ramp begins; without any time for it the torque goes at once, by SS0.
+fn emergency(state: State, config: &Config) -> State {
+    let ramp = State {
+        phase: Phase::EmergencyBrake,
+        timer: config.t_ss1,
+        contour: false,
+        ..state
+    };
+    if config.t_ss1.is_zero() {
+        torque_off(State {
+            level: Stop::Ss0,
+            ..ramp
+        })
+    } else {
+        ramp
+    }
+}
+
+/// An SS2 that has not come to stand in its time is an SS1, found by the kernel: of the whole machine.
+fn failed_ss2(state: State, config: &Config) -> State {
+    emergency(
+        State {
+            level: Stop::Ss1,
+            wide: true,
+            ..state
+        },
+        config,
+    )
+}
+
+/// One cycle of an SS1: the brake closes at standstill (channel B) or the other channel reports (channel A), and its time
+/// runs.
+fn brake(state: State, config: &Config, inputs: &Inputs) -> State {
+    let timer = state.timer.tick();
+    let closing = state.phase == Phase::BrakeCloses;
+    let left = if closing {
+        state.brake.tick()
+    } else {
+        config.t_brake
+    };
+    let done = if config.cc {
+        (closing || inputs.still) && left.is_zero()
+    } else {
+        inputs.peer_off
+    };
+    if done {
+        torque_off(state)
+    } else if timer.is_zero() {
+        torque_off(State {
+            level: Stop::Ss0,
+            ..state
+        })
+    } else if config.cc && (closing || inputs.still) {
+        State {
+            phase: Phase::BrakeCloses,
+            timer,
+            brake: left,
+            ..state
+        }
+    } else {
+        State { timer, ..state }
+    }
+}
+
+/// Torque off, at the end of a stop or at once.
+fn torque_off(state: State) -> State {
+    State {
+        phase: Phase::TorqueOff,
+        timer: Cycles::ZERO,
+        brake: Cycles::ZERO,
+        contour: false,
+        ..state
+    }
+}
+
+fn outputs(state: State, ss2_ended: bool, restarted: bool) -> Outputs {
+    let off = state.phase == Phase::TorqueOff;
+    Outputs {
+        level: state.level,
+        phase: state.phase,
+        wide: state.wide,
+        torque_off: off,
+        brake_closed: off || state.phase == Phase::BrakeCloses,
+        on_contour: state.phase == Phase::Ss2Brake || state.contour,
+        emergency_ramp: state.phase == Phase::EmergencyBrake,
+        brake_listed: matches!(state.phase, Phase::Ss2Wait | Phase::Ss1DWait),
+        needs_switch: state.level >= Stop::Ss1F,
+        ss2_ended,
+        restarted,
+        keeps_enable: off && state.level == Stop::Ss1D,
+    }
+}

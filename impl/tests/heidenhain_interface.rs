@@ -1,0 +1,81 @@
+//! Requests of the safe PLC as the kernel of HEIDENHAIN Functional Safety takes them over.
+
+use stillpoint_monitors::heidenhain::types::{GroupState, Kind, Som, Stop};
+use stillpoint_monitors::heidenhain::{both_channels, gate};
+
+fn take(kind: Kind, inputs: gate::Inputs) -> gate::Outputs {
+    gate::Monitor::new(gate::Config::new(kind).expect("plausible")).step(&inputs)
+}
+
+fn set_up() -> gate::Inputs {
+    gate::Inputs {
+        state_code: GroupState::Sls2.code(),
+        som_code: 1,
+        activate: true,
+        permissive: true,
+        ..Default::default()
+    }
+}
+
+/// HFS-API-001: set-up with the door open, as the safe PLC of a milling machine asks for it.
+#[test]
+fn a_legal_request_is_taken_over() {
+    let out = take(Kind::NcAxes, set_up());
+    assert_eq!((out.request, out.stop), (GroupState::Sls2, Stop::None));
+    assert_eq!(out.som, Som::Som2);
+    assert!(out.starts && out.held);
+}
+
+/// HFS-FAULT-001, HFS-FAULT-006: each field in turn.
+#[test]
+fn an_unknown_code_is_a_fatal_fault() {
+    for broken in [
+        gate::Inputs {
+            state_code: 8,
+            ..set_up()
+        },
+        gate::Inputs {
+            stop_code: 5,
+            ..set_up()
+        },
+        gate::Inputs {
+            som_code: 200,
+            ..set_up()
+        },
+    ] {
+        let out = take(Kind::NcAxes, broken);
+        assert_eq!(out.stop, Stop::Ss1F, "{broken:?}");
+        assert!(!out.starts && !out.held, "{broken:?}");
+    }
+}
+
+/// HFS-FAULT-008: restricted spindle operation for a spindle only.
+#[test]
+fn restricted_operation_is_for_spindles() {
+    let inputs = gate::Inputs {
+        state_code: GroupState::SlsS.code(),
+        ..set_up()
+    };
+    assert_eq!(take(Kind::Spindle, inputs).stop, Stop::None);
+    for kind in [Kind::NcAxes, Kind::Auxiliary] {
+        assert_eq!(take(kind, inputs).stop, Stop::Ss1F);
+    }
+}
+
+/// HFS-KDV-005: the door opens, and the program of channel A sees it first.
+#[test]
+fn the_stricter_channel_counts_until_both_agree() {
+    let mut both = both_channels::Monitor::new(both_channels::Config);
+    let mut inputs = both_channels::Inputs {
+        request_mc: GroupState::Sos,
+        request_cc: GroupState::Auto,
+        starts_mc: false,
+        starts_cc: true,
+        ..Default::default()
+    };
+    let out = both.step(&inputs);
+    assert_eq!((out.request, out.stop), (GroupState::Sos, Stop::None));
+    assert!(out.differ && !out.starts);
+    inputs.late = true;
+    assert_eq!(both.step(&inputs).stop, Stop::Ss1);
+}

@@ -1,0 +1,174 @@
+//! Stop and monitoring state of an axis group.
+
+use stillpoint_monitors::heidenhain::types::{GroupState, Phase, Stop, Unit};
+use stillpoint_monitors::heidenhain::{axis_release, group, judge, startup, stop};
+
+use super::kind;
+use crate::source::Source;
+
+/// Any times, either channel.
+pub fn stop_config<S: Source>(source: &mut S) -> Option<stop::Config> {
+    let t_ss1 = source.any_delay(stop::Config::LONGEST);
+    let t_ss2 = source.any_delay(stop::Config::LONGEST);
+    let t_brake = source.any_delay(stop::Config::LONGEST);
+    stop::Config::new(source.any_bool(), t_ss1, t_ss2, t_brake).ok()
+}
+
+/// Any consistent state of the stop.
+pub fn stop_state<S: Source>(source: &mut S, config: &stop::Config) -> Option<stop::State> {
+    let phase = source.any_of(&Phase::ALL);
+    let mut state = stop::State {
+        phase,
+        ..stop::State::INITIAL
+    };
+    match phase {
+        Phase::Run => {}
+        Phase::Ss2Wait | Phase::Ss2Brake => {
+            state.level = Stop::Ss2;
+            state.timer = source.any_cycles(config.t_ss2());
+        }
+        Phase::Ss1DWait => {
+            state.level = Stop::Ss1D;
+            state.timer = source.any_cycles(config.t_ss2());
+            state.contour = source.any_bool();
+        }
+        Phase::EmergencyBrake | Phase::BrakeCloses => {
+            state.level = source.any_of(&[Stop::Ss1D, Stop::Ss1, Stop::Ss1F]);
+            state.timer = source.any_cycles(config.t_ss1());
+            if phase == Phase::BrakeCloses {
+                state.brake = source.any_cycles(config.t_brake());
+            }
+        }
+        Phase::TorqueOff => {
+            state.level = source.any_of(&[Stop::Ss1D, Stop::Ss1, Stop::Ss1F, Stop::Ss0]);
+        }
+    }
+    state.wide = state.level >= Stop::Ss1 && source.any_bool();
+    state.invariant(config).then_some(state)
+}
+
+/// Any inputs of the stop.
+pub fn stop_inputs<S: Source>(source: &mut S) -> stop::Inputs {
+    stop::Inputs {
+        main_switch: source.any_bool(),
+        demand: source.any_of(&Stop::ALL),
+        wide_cause: source.any_bool(),
+        still: source.any_bool(),
+        listed_still: source.any_bool(),
+        peer_off: source.any_bool(),
+        restart: source.any_bool(),
+    }
+}
+
+/// Any step of the stop.
+pub fn stop<S: Source>(source: &mut S) -> Option<(stop::State, stop::Config, stop::Inputs)> {
+    let config = stop_config(source)?;
+    let state = stop_state(source, &config)?;
+    Some((state, config, stop_inputs(source)))
+}
+
+/// Any inputs of the judgement.
+pub fn judge_inputs<S: Source>(source: &mut S) -> judge::Inputs {
+    judge::Inputs {
+        main_switch: source.any_bool(),
+        request: source.any_of(&GroupState::ALL),
+        stop_request: source.any_of(&Stop::ALL),
+        bad_code: source.any_bool(),
+        state: source.any_of(&GroupState::ALL),
+        moving: source.any_bool(),
+        unit: source.any_of(&Unit::ALL),
+        permissive: source.any_bool(),
+        idle: source.any_bool(),
+        gen_safe: source.any_bool(),
+        untested: source.any_bool(),
+    }
+}
+
+/// Any state of the judgement.
+pub fn judge_state<S: Source>(source: &mut S) -> judge::State {
+    judge::State {
+        modes: source.any_of(&judge::Modes::ALL),
+        place: source.any_of(&judge::Place::ALL),
+    }
+}
+
+/// Any step of the judgement.
+pub fn judge<S: Source>(source: &mut S) -> Option<(judge::State, judge::Config, judge::Inputs)> {
+    let config = judge::Config::new(kind(source), source.any_bool()).ok()?;
+    Some((judge_state(source), config, judge_inputs(source)))
+}
+
+/// Any consistent monitoring state.
+pub fn group_state<S: Source>(source: &mut S, config: &group::Config) -> Option<group::State> {
+    let state = source.any_of(&GroupState::ALL);
+    let both = matches!(state, GroupState::Sls2 | GroupState::Sls3) && source.any_bool();
+    let state = group::State { state, both };
+    state.invariant(config).then_some(state)
+}
+
+/// Any inputs of the monitoring state.
+pub fn group_inputs<S: Source>(source: &mut S) -> group::Inputs {
+    group::Inputs {
+        main_switch: source.any_bool(),
+        request: source.any_of(&GroupState::ALL),
+        activate: source.any_bool(),
+        moving: source.any_bool(),
+        gen_safe: source.any_bool(),
+        demand: source.any_of(&Stop::ALL),
+        phase: source.any_of(&Phase::ALL),
+        soft: source.any_bool(),
+        ss2_ended: source.any_bool(),
+        switch_on: source.any_bool(),
+        spindle_stop: source.any_bool(),
+    }
+}
+
+/// Any step of the monitoring state.
+pub fn group<S: Source>(source: &mut S) -> Option<(group::State, group::Config, group::Inputs)> {
+    let config = group::Config::new(kind(source)).ok()?;
+    let state = group_state(source, &config)?;
+    Some((state, config, group_inputs(source)))
+}
+
+/// Any step of the start-up protection.
+pub fn startup<S: Source>(
+    source: &mut S,
+) -> Option<(startup::State, startup::Config, startup::Inputs)> {
+    let config = startup::Config::new(source.any_delay(startup::Config::LONGEST)).ok()?;
+    let state = startup::State {
+        timer: source.any_cycles(config.t_idle()),
+    };
+    let inputs = startup::Inputs {
+        limited: source.any_bool(),
+        moving: source.any_bool(),
+        unit: source.any_of(&Unit::ALL),
+        permissive: source.any_bool(),
+    };
+    Some((state, config, inputs))
+}
+
+/// Any step of the release of an axis.
+pub fn axis_release<S: Source>(
+    source: &mut S,
+) -> Option<(
+    axis_release::State,
+    axis_release::Config,
+    axis_release::Inputs,
+)> {
+    use axis_release::Mode;
+    let config = axis_release::Config::new(source.any_delay(stop::Config::LONGEST)).ok()?;
+    let mode = source.any_of(&Mode::ALL);
+    let mut state = axis_release::State {
+        mode,
+        ..axis_release::State::INITIAL
+    };
+    if mode == Mode::Ss2 {
+        state.timer = source.any_cycles(config.t_ss2());
+    }
+    let inputs = axis_release::Inputs {
+        group_released: source.any_bool(),
+        feed: source.any_bool(),
+        moving: source.any_bool(),
+    };
+    Some((state, config, inputs))
+}

@@ -1,0 +1,22 @@
+//! Monitors of HEIDENHAIN Functional Safety.
+
+mod groups;
+mod interface;
+mod machine;
+mod service;
+mod watching;
+
+pub use groups::*;
+pub use interface::*;
+pub use machine::*;
+pub use service::*;
+pub use watching::*;
+
+use stillpoint_monitors::heidenhain::types::Kind;
+
+use crate::source::Source;
+
+/// Any kind of group.
+pub fn kind<S: Source>(source: &mut S) -> Kind {
+    source.any_of(&Kind::ALL)
+}

@@ -1,0 +1,76 @@
+//! Referencing, outputs, self-test and checks.
+
+use crate::enumeration::Domain;
+use crate::inventory::NARROW;
+
+inventory! {
+    [contract hfs_reference_contract on heidenhain::reference {
+        property: "every clause of the referencing's contract: comparison, person at the mark, permission to move",
+        domain: NARROW,
+        domain_text: "complete: every configuration, consistent state and input",
+        caveat: "the subtraction of the positions is outside",
+    }]
+    [contract hfs_agreement_contract on heidenhain::agreement {
+        property: "every clause of the contract of the comparison between the channels: window, fault beyond it",
+        domain: Domain { delays: &[1, 2, 4], highest_speed: 0 },
+        domain_text: "windows of 1, 2 and 4 cycles; every state and input",
+        caveat: "which value counts in the meantime is decided elsewhere",
+    }]
+    [contract hfs_brakes_contract on heidenhain::brakes {
+        property: "every clause of the brake outputs' contract: copy, all, one in the test",
+        domain: NARROW,
+        domain_text: "complete: every input",
+        caveat: "that no request comes without a drive is the kernel's promise",
+    }]
+    [contract hfs_tool_holder_contract on heidenhain::tool_holder {
+        property: "every clause of the tool holder's contract: order of the conditions, no torque while open",
+        domain: NARROW,
+        domain_text: "complete: every state and input",
+        caveat: "the SS2 before is the program's business",
+    }]
+    [contract hfs_acceptance_contract on heidenhain::acceptance {
+        property: "every clause of the acceptance's contract: no service without password and every confirmation",
+        domain: NARROW,
+        domain_text: "lists of 1 to 3 changes and the longest; every consistent state and input",
+        caveat: "the checksum itself is outside",
+    }]
+    [contract hfs_self_test_contract on heidenhain::self_test {
+        property: "every clause of the self-test's contract: order, waiting, faults, interval",
+        domain: Domain { delays: &[2], highest_speed: 0 },
+        domain_text: "interval of 2 cycles; every consistent state and input",
+        caveat: "what a step tests is outside",
+    }]
+    [contract hfs_status_bits_contract on heidenhain::status_bits {
+        property: "every clause of the status bits' contract: the reaction table of MC and CC",
+        domain: NARROW,
+        domain_text: "complete: every input",
+        caveat: "none",
+    }]
+    [contract hfs_sampling_contract on heidenhain::sampling {
+        property: "every clause of the forced dynamic sampling's contract: order of the pulses, open contacts, short circuits",
+        domain: Domain { delays: &[1, 3], highest_speed: 0 },
+        domain_text: "pulses of 1 and 3 cycles; every consistent state and input",
+        caveat: "the length of a pulse is not published",
+    }]
+    [contract hfs_self_checks_contract on heidenhain::self_checks {
+        property: "every clause of the contract of the kernel's checks: the fault tables",
+        domain: NARROW,
+        domain_text: "complete: every configuration and input",
+        caveat: "how a fault is found is outside",
+    }]
+    [contract hfs_start_checks_contract on heidenhain::start_checks {
+        property: "every clause of the contract of the checks while booting: refusal until the main switch",
+        domain: NARROW,
+        domain_text: "motor speeds -1 to 1, 99 to 101, rated speeds -1 to 1, and the ends of 32 bits; every state and signal",
+        caveat: "none",
+    }]
+    [run(4) hfs_units on heidenhain::"parameters" by units::values_round_to_the_earlier_reaction {
+        property: "a safe machine parameter in its printed range becomes the exact value rounded to the earlier reaction; any other is refused",
+        requirements: ["HFS-PARAM-010", "HFS-TIMING-001"],
+        covers: ["accepted", "refused", "rounded down", "rounded up"],
+        domain: NARROW,
+        domain_text: "11 parameters; values 0 to 40, those around both ends of each range, and the highest number",
+        bound: "none",
+        caveat: "absolute positions and the bits of SMP560 are tested by examples",
+    }]
+}
