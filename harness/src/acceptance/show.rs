@@ -355,10 +355,10 @@ fn simulated(ran: &[Ran], tests: &[&Test]) -> (Block, Block) {
                 text: id.to_owned(),
                 to: format!("#{}", anchor(id)),
             };
-            vec![vec![link], vec![text(reason)]]
+            vec![vec![link], vec![Inline::text(reason)]]
         });
-        let heads = columns(&["Test", "Not simulated, because"]);
-        blocks.push(table("", heads, rows.collect()));
+        let heads = ["Test", "Not simulated, because"];
+        blocks.push(Block::table(&heads, rows));
     }
     let verdict = Block::Verdict {
         tone,
