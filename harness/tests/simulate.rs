@@ -97,6 +97,25 @@ fn each_stop_brakes_with_its_ramp() {
     assert!((12.5..12.51).contains(&a), "{a}");
 }
 
+/// With a dead time the axis goes further by the way of these cycles: 2 cycles of 12 ms at 100 mm/s.
+#[test]
+fn a_dead_time_adds_its_way() {
+    let folder = Folder::new("simulate-dead");
+    let way = |mechanics: &str| -> f64 {
+        let scenario = format!(
+            "[axis.X]\n{mechanics}\n[[motion]]\nat = \"0 s\"\naxis = \"X\"\nspeed = \"6000 mm/min\"\n\
+             [[stop]]\nat = \"0.5 s\"\naxis = \"X\"\nstop = \"C\"\n"
+        );
+        let out = stdout(&run(&folder, &scenario));
+        let mut lines = out.lines();
+        let line = lines.find(|l| l.starts_with("X STOP C")).expect("a stop");
+        let (_, way) = line.rsplit_once("after ").expect("a way");
+        way.trim_end_matches(" mm").parse().expect("a number")
+    };
+    let (direct, late) = (way(""), way("dead_time = \"20 ms\"\nfollowing = \"30 ms\""));
+    assert!((late - direct - 2.4).abs() < 0.005, "{direct} {late}");
+}
+
 /// A STOP C of X reaches Y, which interpolates with it, and not the spindle.
 #[test]
 fn a_stop_reaches_the_axes_of_its_group() {
@@ -391,6 +410,11 @@ fn mistakes_are_refused() {
             "[[motion]]\nat = \"0.1 s\"\naxis = \"X\"\nspeed = \"120 % of SG5\"\n",
             ":5:9",
             "no share of a speed limit",
+        ),
+        (
+            "[axis.X]\ndead_time = \"2 s\"\n",
+            ":3:13",
+            "too long for a drive",
         ),
         ("[[moton]]\nat = \"0 s\"\n", ":2:3", "unknown field `moton`"),
     ] {

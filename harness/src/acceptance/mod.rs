@@ -1,5 +1,6 @@
 //! `acceptance`: the protocol of the acceptance test of a machine, and what of it has to be repeated after a change.
 
+mod results;
 mod run;
 mod show;
 mod since;

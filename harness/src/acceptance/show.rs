@@ -5,7 +5,8 @@ use stillpoint_spec::machine::acceptance::{Protocol, Test};
 use stillpoint_spec::machine::units::Dimension;
 use stillpoint_spec::machine::{Machine, Shown};
 
-use super::{Checksums, Ran, Since, expected, latest, on_the_machine, selected};
+use super::results::results;
+use super::{Checksums, Ran, Since, expected, latest, selected};
 
 /// The protocol of a machine; with `since` only what has to be repeated.
 pub fn document(
@@ -20,7 +21,7 @@ pub fn document(
     if let Some(since) = since {
         blocks.extend(changed(protocol, since));
     }
-    let simulated = ran.map(|ran| simulated(ran, &tests));
+    let simulated = ran.map(|ran| results(ran, &tests));
     let (verdict, results) = simulated.unzip();
     blocks.extend(verdict);
     blocks.push(identity(machine, protocol, checksums));
@@ -192,7 +193,7 @@ fn list(tests: &[&Test]) -> Block {
     }
 }
 
-fn anchor(id: &str) -> String {
+pub(super) fn anchor(id: &str) -> String {
     let plain = |c: char| match c {
         '+' => "plus".to_owned(),
         c if c.is_ascii_alphanumeric() || c == '-' => c.to_ascii_lowercase().to_string(),
@@ -289,94 +290,6 @@ fn one(machine: &Machine, test: &Test) -> Block {
         anchor: anchor(&test.id),
         blocks,
     }
-}
-
-/// What the tests gave on the simulated axis: the result, and the section with the details.
-fn simulated(ran: &[Ran], tests: &[&Test]) -> (Block, Block) {
-    let bad = ran.iter().filter(|r| !r.holds).count();
-    let (tone, head) = match bad {
-        0 => (
-            Tone::Good,
-            "Every simulated test gives what is expected".to_owned(),
-        ),
-        1 => (
-            Tone::Bad,
-            "1 simulated test does not give what is expected".to_owned(),
-        ),
-        n => (
-            Tone::Bad,
-            format!("{n} simulated tests do not give what is expected"),
-        ),
-    };
-    let not = on_the_machine(tests);
-    let about = format!(
-        "{} of {} tests were run on the production monitors of both channels with a simple axis; {} only the real machine can show. This shows that configuration and monitors fit the test; it is no test of the machine. ",
-        ran.len(),
-        tests.len(),
-        not.len()
-    );
-    let mut rows = Vec::new();
-    let mut pictures = Vec::new();
-    for r in ran {
-        let (tone, word) = match r.holds {
-            true => (Tone::Good, "as expected"),
-            false => (Tone::Bad, "not as expected"),
-        };
-        let seen = r
-            .judged
-            .iter()
-            .map(|(expected, holds, cycle)| match (holds, cycle) {
-                (true, Some(cycle)) => format!("{expected} (cycle {cycle})"),
-                (true, None) => expected.clone(),
-                (false, _) => format!("{expected}: does not hold"),
-            });
-        let seen: Vec<String> = seen.collect();
-        rows.push(vec![
-            vec![Inline::Link {
-                text: r.id.clone(),
-                to: format!("#{}", anchor(&r.id)),
-            }],
-            vec![Inline::Badge(tone, word.to_owned())],
-            vec![Inline::Text(seen.join("; "))],
-            vec![Inline::Text(r.stops.join("; "))],
-        ]);
-        // The diagrams of all tests would bury the protocol.
-        if !r.holds {
-            pictures.push(Block::Paragraph(vec![Inline::Strong(r.id.clone())]));
-            pictures.push(Block::Timing(Box::new(r.diagram.clone())));
-        }
-    }
-    let heads = ["Test", "Result", "Expected", "Stops"];
-    let mut blocks = vec![Block::table(&heads, rows)];
-    blocks.extend(pictures);
-    if !not.is_empty() {
-        let rows = not.into_iter().map(|(id, reason)| {
-            let link = Inline::Link {
-                text: id.to_owned(),
-                to: format!("#{}", anchor(id)),
-            };
-            vec![vec![link], vec![Inline::text(reason)]]
-        });
-        let heads = ["Test", "Not simulated, because"];
-        blocks.push(Block::table(&heads, rows));
-    }
-    let verdict = Block::Verdict {
-        tone,
-        head,
-        text: vec![
-            Inline::Text(about),
-            Inline::Link {
-                text: "Results".to_owned(),
-                to: "#simulated".to_owned(),
-            },
-        ],
-    };
-    let section = Block::Section {
-        title: "On the simulated axis".to_owned(),
-        anchor: "simulated".to_owned(),
-        blocks,
-    };
-    (verdict, section)
 }
 
 fn signatures(protocol: &Protocol) -> Block {

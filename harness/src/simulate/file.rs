@@ -55,6 +55,8 @@ pub(super) struct Axis {
     pub friction: Option<Text>,
     pub sag: Option<Text>,
     pub brake_time: Option<Text>,
+    pub dead_time: Option<Text>,
+    pub following: Option<Text>,
 }
 
 /// One name or several; a text may name several, too: `"X, Y"`.

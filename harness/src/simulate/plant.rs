@@ -4,6 +4,11 @@
 //! increment (nm, or millionths of a degree), speeds in these per cycle, accelerations in these per cycle and cycle. In
 //! each cycle first the speed changes. A setpoint is reached in steps of whole cycles; an axis that brakes, coasts or sags moves
 //! under constant acceleration, its way rounded away from where it was: over-travel is never told too small.
+//!
+//! What the control and the monitors ask for reaches the drive after its dead time; only the pulses go off at once. The
+//! position control lets the axis lag behind its setpoint by the speed times the following time.
+
+use std::collections::VecDeque;
 
 /// The mechanics of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -20,6 +25,10 @@ pub struct Mechanics {
     pub sag: i64,
     /// Cycles from the loss of torque until the holding brake has closed; none without such a brake.
     pub brake_time: Option<u32>,
+    /// Cycles until the drive does what it is asked for; pulses are cancelled at once.
+    pub dead_time: u32,
+    /// Cycles by which the axis lags behind its setpoint: the reciprocal of the position controller's gain.
+    pub following: u32,
 }
 
 /// What the control asks for.
@@ -56,8 +65,16 @@ impl Drive {
     }
 }
 
-/// An axis in motion.
+/// What the drive was asked for in a cycle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Command {
+    drive: Drive,
+    setpoint: Setpoint,
+    limit: Option<i64>,
+}
+
+/// An axis in motion.
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Plant {
     mechanics: Mechanics,
     /// Where it is.
@@ -69,11 +86,15 @@ pub struct Plant {
     /// The greatest speed that the control lets its setpoint have; none: any.
     pub limit: Option<i64>,
     without_torque: u32,
+    /// What it was asked for in the last cycles and has not done yet.
+    underway: VecDeque<Command>,
+    /// Where the axis would be, and how fast, if it did not lag.
+    ideal: (i64, i64),
 }
 
 impl Plant {
     /// An axis at rest.
-    pub const fn new(mechanics: Mechanics, position: i64) -> Self {
+    pub fn new(mechanics: Mechanics, position: i64) -> Self {
         Self {
             mechanics,
             position,
@@ -84,16 +105,23 @@ impl Plant {
             },
             limit: None,
             without_torque: 0,
+            underway: VecDeque::new(),
+            ideal: (position, 0),
         }
     }
 
     /// The setpoint of the speed in this cycle.
     pub fn wanted(&self) -> i64 {
-        let most = self.limit.unwrap_or(i64::MAX);
-        let Some(target) = self.setpoint.target else {
-            return self.setpoint.speed.clamp(-most, most);
+        self.asked(self.setpoint, self.limit)
+    }
+
+    /// The speed that a setpoint asks for.
+    fn asked(&self, setpoint: Setpoint, limit: Option<i64>) -> i64 {
+        let most = limit.unwrap_or(i64::MAX);
+        let Some(target) = setpoint.target else {
+            return setpoint.speed.clamp(-most, most);
         };
-        let way = target - self.position;
+        let way = target - self.ideal.0;
         let rate = self.mechanics.acceleration;
         let rate = i128::from(rate);
         // The greatest speed from which the steps v, v - rate, v - 2 rate ... are not longer than the way: after q whole
@@ -102,22 +130,31 @@ impl Plant {
         let whole = ((1 + 8 * size / rate).isqrt() - 1) / 2;
         let limit = (size + rate * whole * (whole + 1) / 2) / (whole + 1);
         let speed = i64::try_from(limit).unwrap_or(i64::MAX);
-        speed.min(self.setpoint.speed.abs()).min(most) * way.signum()
+        speed.min(setpoint.speed.abs()).min(most) * way.signum()
     }
 
     /// One cycle.
     pub fn advance(&mut self, drive: Drive) {
         let m = self.mechanics;
+        let Command {
+            drive,
+            setpoint,
+            limit,
+        } = self.acting(drive);
         self.without_torque = match drive {
             Drive::Coast => self.without_torque.saturating_add(1),
             _ => 0,
         };
+        if drive == Drive::Follow {
+            self.follow(self.asked(setpoint, limit));
+            return;
+        }
         let before = self.speed;
         let closed = m.brake_time.is_some_and(|time| self.without_torque > time);
         let towards =
             |speed: i64, wanted: i64, rate: i64| speed + (wanted - speed).clamp(-rate, rate);
         self.speed = match drive {
-            Drive::Follow => towards(self.speed, self.wanted(), m.acceleration),
+            Drive::Follow => self.speed,
             Drive::Path => towards(self.speed, 0, m.path_braking),
             Drive::CurrentLimit => towards(self.speed, 0, m.braking),
             Drive::Coast if closed => towards(self.speed, 0, m.braking),
@@ -127,12 +164,59 @@ impl Plant {
             Drive::Coast => towards(self.speed, 0, m.friction),
         };
         self.position += match drive {
-            Drive::Follow => self.speed,
+            Drive::Follow => 0,
             Drive::Path => way(before, self.speed, m.path_braking),
             Drive::CurrentLimit => way(before, self.speed, m.braking),
             Drive::Coast if closed => way(before, self.speed, m.braking),
             Drive::Coast => way(before, self.speed, m.friction),
         };
+        self.ideal = (self.position, self.speed);
+    }
+
+    /// What the drive does in this cycle.
+    fn acting(&mut self, drive: Drive) -> Command {
+        let now = Command {
+            drive,
+            setpoint: self.setpoint,
+            limit: self.limit,
+        };
+        if drive == Drive::Coast {
+            self.underway.clear();
+            return now;
+        }
+        self.underway.push_back(now);
+        let dead = self.mechanics.dead_time as usize;
+        match self.underway.len() > dead {
+            true => self.underway.pop_front().unwrap_or(now),
+            // At first nothing was asked for: the axis does what it did, with torque.
+            false => Command {
+                drive: Drive::Follow,
+                setpoint: Setpoint::default(),
+                limit: None,
+            },
+        }
+    }
+
+    /// A cycle of the position control, with this speed asked for.
+    fn follow(&mut self, wanted: i64) {
+        let m = self.mechanics;
+        let (position, speed) = self.ideal;
+        let speed = speed + (wanted - speed).clamp(-m.acceleration, m.acceleration);
+        self.ideal = (position + speed, speed);
+        let error = self.ideal.0 - self.position;
+        let lag = i64::from(m.following) + 1;
+        // The last bit at once: a part of it would be nothing.
+        self.speed = match error.abs() < lag {
+            true => error,
+            false => error / lag,
+        };
+        self.position += self.speed;
+    }
+
+    /// Somebody moves it by hand, at once.
+    pub fn shift(&mut self, by: i64) {
+        self.position += by;
+        self.ideal.0 += by;
     }
 
     /// Whether it stands.
@@ -168,11 +252,14 @@ mod tests {
         friction: 10,
         sag: 0,
         brake_time: None,
+        dead_time: 0,
+        following: 0,
     };
 
     fn moving(mechanics: Mechanics, speed: i64) -> Plant {
         Plant {
             speed,
+            ideal: (0, speed),
             ..Plant::new(mechanics, 0)
         }
     }
@@ -248,6 +335,51 @@ mod tests {
             assert!(plant.position.abs() >= exact.abs(), "{speed}");
             assert_eq!(plant.position, way, "{speed}");
         }
+    }
+
+    /// Asked to brake, it goes on for the dead time, and is further by exactly the way of these cycles.
+    #[test]
+    fn a_dead_time_delays_everything_but_the_pulses() {
+        let slow = Mechanics { dead_time: 3, ..M };
+        let way = |mechanics: Mechanics, drive: Drive| {
+            let mut plant = Plant::new(mechanics, 0);
+            plant.setpoint.speed = 900;
+            (0..20).for_each(|_| plant.advance(Drive::Follow));
+            assert_eq!(plant.speed, 900);
+            let from = plant.position;
+            plant.setpoint = Setpoint::default();
+            for _ in 0..200 {
+                plant.advance(drive);
+            }
+            assert!(plant.stands());
+            plant.position - from
+        };
+        assert_eq!(way(M, Drive::CurrentLimit), 1_350);
+        assert_eq!(way(slow, Drive::CurrentLimit), 1_350 + 3 * 900);
+        assert_eq!(way(slow, Drive::Coast), way(M, Drive::Coast));
+    }
+
+    /// At a steady speed it lags by the following time, and reaches its target all the same without passing it.
+    #[test]
+    fn an_axis_lags_behind_its_setpoint() {
+        let lagging = Mechanics { following: 4, ..M };
+        let mut plant = Plant::new(lagging, 0);
+        plant.setpoint.speed = 500;
+        (0..100).for_each(|_| plant.advance(Drive::Follow));
+        assert_eq!(
+            (plant.speed, plant.ideal.0 - plant.position),
+            (500, 4 * 500)
+        );
+        plant.setpoint = Setpoint {
+            speed: 500,
+            target: Some(plant.position + 20_000),
+        };
+        let target = plant.position + 20_000;
+        for _ in 0..1_000 {
+            plant.advance(Drive::Follow);
+            assert!(plant.position <= target);
+        }
+        assert_eq!((plant.position, plant.speed), (target, 0));
     }
 
     #[test]

@@ -153,7 +153,7 @@ impl<'a> Simulator<'a> {
                     pulse.withdraw = !*give;
                     pulse.key = *key;
                 }
-                What::Moved(by) => axis.plant.position += by,
+                What::Moved(by) => axis.plant.shift(*by),
                 What::Reference => {
                     axis.referenced = true;
                     axis.refpos = axis.position();

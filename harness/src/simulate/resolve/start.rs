@@ -8,6 +8,9 @@ use crate::simulate::file::{self, File, Text};
 use crate::simulate::plant::Mechanics;
 use crate::simulate::scenario::Start;
 
+/// The longest delay that a drive is given, in microseconds: a slip of the pen beyond.
+const MOST_LAG_US: u64 = 1_000_000;
+
 impl Resolver<'_> {
     pub(super) fn starts(&mut self, file: &File) -> Vec<Start> {
         for name in file.axis.keys() {
@@ -55,6 +58,8 @@ impl Resolver<'_> {
                     .brake_time
                     .as_ref()
                     .and_then(|t| self.span_of_time(t, "brake_time", Round::Up)),
+                dead_time: self.lag(&given.dead_time, "dead_time"),
+                following: self.lag(&given.following, "following"),
             };
             out.push(Start {
                 position,
@@ -62,6 +67,24 @@ impl Resolver<'_> {
             });
         }
         out
+    }
+
+    /// A delay of the drive in cycles, rounded up; none without a text.
+    fn lag(&mut self, text: &Option<Text>, key: &str) -> u32 {
+        let Some(text) = text else {
+            return 0;
+        };
+        let cycles = self.span_of_time(text, key, Round::Up).unwrap_or(0);
+        let most = u32::try_from(MOST_LAG_US / self.cycle_us()).unwrap_or(u32::MAX);
+        if cycles > most {
+            self.add(
+                text.span(),
+                format!("\"{}\" is too long for a drive", text.get_ref()),
+                "too long",
+                format!("allowed: 0 s to {}", super::time(MOST_LAG_US)),
+            );
+        }
+        cycles.min(most)
     }
 
     /// A position in thousandths of an increment.
