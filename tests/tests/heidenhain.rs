@@ -90,6 +90,31 @@ fn logic_and_kernel() {
 }
 
 #[test]
-fn tests_of_switching_off_and_of_brakes() {
+fn tests_of_chain_channels_outputs_and_brakes() {
     holds("cutout.toml");
+}
+
+#[test]
+fn safe_inputs_and_general_fields() {
+    holds("fields.toml");
+}
+
+#[test]
+fn operation_by_the_operator() {
+    holds("operation.toml");
+}
+
+#[test]
+fn response_times() {
+    holds("response.toml");
+}
+
+#[test]
+fn both_channels_of_a_group() {
+    holds("channels.toml");
+}
+
+#[test]
+fn single_faults_in_two_channels() {
+    holds("faults-two-channels.toml");
 }
