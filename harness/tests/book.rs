@@ -118,7 +118,7 @@ fn replay(sessions: &[Session], folder: &Path, chosen: impl Fn(&str) -> bool) ->
 fn the_tutorial_says_what_happens() {
     let tutorial = page("tutorial.md");
     let sessions = sessions(&tutorial);
-    // The milling machine is checked by a test of its own, with these figures; see `tests/tests/milling.rs`.
+    // The milling machine is checked by a test of its own, with these figures; see `tests/tests/machines.rs`.
     let quick = |command: &str| {
         !command.contains("barrier.toml") && !command.starts_with("check spec/machines/")
     };

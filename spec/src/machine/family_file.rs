@@ -125,6 +125,9 @@ const OF_AXIS: [&str; 6] = [
     "monitoring_cycle",
 ];
 
+/// A list of groups is one cell.
+const MOST_GROUPS: usize = 62;
+
 /// The names of the families under `root`, sorted: folders with a `family.toml`.
 pub(super) fn families(root: &Path) -> Vec<String> {
     let mut names: Vec<String> = std::fs::read_dir(root)
@@ -185,6 +188,11 @@ impl Check {
                 "",
                 "give the folder the name of the family",
             );
+        }
+        if data.max_groups > MOST_GROUPS {
+            let message = format!("max_groups is {}", data.max_groups);
+            let help = format!("at most {MOST_GROUPS}: a list of groups has a bit for each");
+            self.findings.add(None, message, "", help);
         }
         let control = self.params(data.control);
         let axis = self.params(data.axis);

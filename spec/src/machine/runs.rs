@@ -37,8 +37,9 @@ pub(super) fn plan(
 ) -> Result<Plan> {
     let coupled = coupled(family, parts.axes, judged)?;
     let mut planned: Vec<Planned> = Vec::new();
+    let mut files = BTreeMap::new();
     for explore in explored {
-        let scaled = is_scaled(family, explore)?;
+        let scaled = is_scaled(family, explore, &mut files)?;
         for subject in subjects(family, explore, parts, &coupled, judged)? {
             // A group whose members differ is explored with the values of each.
             for of in 0..subject.members.len() {
@@ -189,28 +190,36 @@ fn coupled(family: &Family, axes: &[Axis], judged: &Judged) -> Result<Vec<Vec<us
     Ok(groups.into_values().filter(|g| g.len() > 1).collect())
 }
 
-/// Whether the specification file declares the system with scaled timers.
+/// Whether the specification file declares the system with scaled timers; `files` keeps what was read.
 ///
 /// # Errors
 /// The file or the system does not exist.
-fn is_scaled(family: &Family, explore: &Explore) -> Result<bool> {
+fn is_scaled<'e>(
+    family: &Family,
+    explore: &'e Explore,
+    files: &mut BTreeMap<&'e str, toml::Table>,
+) -> Result<bool> {
     let fault = |message: String| -> Diagnostics {
         Diagnostic::new(&family.file, &family.source, None, message)
             .help("this is an error of the family's data, not of the machine file")
             .into()
     };
     let path = family.folder.join(&explore.file);
-    let text = std::fs::read_to_string(&path)
-        .map_err(|e| fault(format!("cannot read {}: {e}", path.display())))?;
-    let file: toml::Table = toml::from_str(&text).map_err(|e| {
-        fault(format!(
-            "{} is not valid TOML: {}",
-            path.display(),
-            e.message()
-        ))
-    })?;
-    let system = file
-        .get("system")
+    if !files.contains_key(explore.file.as_str()) {
+        let text = std::fs::read_to_string(&path)
+            .map_err(|e| fault(format!("cannot read {}: {e}", path.display())))?;
+        let table = toml::from_str(&text).map_err(|e| {
+            fault(format!(
+                "{} is not valid TOML: {}",
+                path.display(),
+                e.message()
+            ))
+        })?;
+        files.insert(&explore.file, table);
+    }
+    let system = files
+        .get(explore.file.as_str())
+        .and_then(|file| file.get("system"))
         .and_then(|s| s.get(&explore.system))
         .ok_or_else(|| {
             fault(format!(

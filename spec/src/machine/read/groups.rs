@@ -31,6 +31,7 @@ impl Reader<'_> {
             let help = "describe each control in a file of its own";
             self.findings
                 .add(value.span(), message, "too many groups", help);
+            return Vec::new();
         }
         self.names("group", table);
         let mut groups: Vec<Group> = Vec::new();
@@ -146,10 +147,11 @@ impl Reader<'_> {
         let mut waits: Vec<i64> = self.groups.iter().map(|n| cell(n).unwrap_or(0)).collect();
         let has = |bits: i64, k: usize| bits.checked_shr(k as u32).is_some_and(|b| b & 1 == 1);
         for _ in 0..waits.len() {
-            for k in 0..waits.len() {
-                let before = (0..waits.len()).filter(|j| has(waits[k], *j));
-                waits[k] = before.fold(waits[k], |bits, j| bits | waits[j]);
-            }
+            let with_theirs = |bits: &i64| {
+                let before = (0..waits.len()).filter(|j| has(*bits, *j));
+                before.fold(*bits, |bits, j| bits | waits[j])
+            };
+            waits = waits.iter().map(with_theirs).collect();
         }
         for k in 0..waits.len() {
             let circle: Vec<usize> = (0..waits.len())
