@@ -11,7 +11,7 @@ use stillpoint_monitors::kernel::{Percent, Position};
 
 use super::numbers::*;
 use crate::diff::peer::adapter::{Adapter, cells};
-use crate::diff::peer::{Made, Params, Refusable, Refusal};
+use crate::diff::peer::{Made, Params, Refusable};
 
 /// The monitor of a machine of this topic.
 pub(super) fn make(machine: &str, p: &Params, mutant: Option<Mutant>) -> Made {
