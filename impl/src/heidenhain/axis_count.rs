@@ -29,10 +29,15 @@ impl Inputs {
     pub const fn one_only(&self) -> bool {
         match self.state {
             GroupState::Sls2 => true,
-            GroupState::Sls3 | GroupState::Sls4 | GroupState::SlsS => {
+            GroupState::Sls3 | GroupState::Sls4 => {
                 matches!(self.unit, Unit::Handwheel | Unit::Reference)
             }
-            GroupState::Auto | GroupState::Sos | GroupState::StoO | GroupState::Sto => false,
+            // Restricted operation is of spindles only.
+            GroupState::Auto
+            | GroupState::SlsS
+            | GroupState::Sos
+            | GroupState::StoO
+            | GroupState::Sto => false,
         }
     }
 }
@@ -62,7 +67,8 @@ contract! {
     /// it is the operating stop that answers motion.
     one_axis_when_homing ["HFS-REF-003", "HFS-REF-014"]:
         when |s| s.inputs.unit == Unit::Reference && s.inputs.moving > 1
-            => (s.outputs.demand == Stop::Ss2) == s.inputs.state.is_limited();
+            => (s.outputs.demand == Stop::Ss2)
+                == (s.inputs.state.is_limited() && s.inputs.state != GroupState::SlsS);
 
     /// At the panel SOM_3 and SOM_4 let several axes move.
     several_axes_at_the_panel ["HFS-MON-009", "HFS-MODE-005", "HFS-MODE-006"]:

@@ -78,7 +78,7 @@ pub struct Outputs {
 contract! {
     /// After the waiting time an axis that becomes faster loses its torque in the same cycle.
     faster_axis_loses_its_torque ["HFS-DVDT-001", "HFS-SS1-008"]:
-        when |s| !s.config.spindle && s.inputs.braking && s.before.on && s.before.timer.tick().is_zero()
+        when |s| !s.config.spindle && s.inputs.braking && s.before.on && s.before.timer.is_zero()
             && s.inputs.speed > s.before.last
             => s.outputs.demand == Stop::Ss0;
 
@@ -90,7 +90,7 @@ contract! {
     /// After the waiting time a turning spindle that does not become slower loses its torque.
     spindle_must_become_slower ["HFS-DVDT-002", "HFS-SS1-008"]:
         when |s| s.config.spindle && !s.config.off && s.inputs.braking && s.before.on
-            && s.before.timer.tick().is_zero() && s.inputs.speed >= s.before.last && s.inputs.speed > Speed(0)
+            && s.before.timer.is_zero() && s.inputs.speed >= s.before.last && s.inputs.speed > Speed(0)
             => s.outputs.demand == Stop::Ss0;
 
     /// A spindle that becomes slower, or stands, is left alone.
@@ -105,7 +105,7 @@ contract! {
 
     /// Nothing is raised before the waiting time is over, nor in the first cycle, which has no speed to compare with.
     nothing_while_waiting ["HFS-DVDT-001", "HFS-DVDT-005"]:
-        when |s| !s.before.on || !s.before.timer.tick().is_zero()
+        when |s| !s.before.on || !s.before.timer.is_zero()
             => s.outputs.demand == Stop::None;
 
     /// The waiting time starts with the braking and runs to its end.
@@ -143,7 +143,8 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
     } else {
         speed > state.last
     };
-    let demand = if config.watches() && state.on && timer.is_zero() && wrong {
+    // What happened before the end of the waiting time is not compared.
+    let demand = if config.watches() && state.on && state.timer.is_zero() && wrong {
         Stop::Ss0
     } else {
         Stop::None

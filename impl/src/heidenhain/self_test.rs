@@ -193,6 +193,7 @@ contract! {
     /// The interval runs in operation and during a repeated test.
     interval_runs ["HFS-TEST-001", "HFS-TEST-030"]:
         when |s| !s.inputs.power_on && s.after.phase != Phase::Failed
+            && (s.before.phase != Phase::HoldingBrakes || s.inputs.brake_good || !s.inputs.done)
             && (s.before.phase == Phase::Passed || s.after.phase != Phase::Passed)
             => s.after.rest == s.before.rest.tick();
 
