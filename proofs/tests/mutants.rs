@@ -34,7 +34,7 @@ family! { sinumerik:
 }
 
 family! { heidenhain:
-    gate both_channels stop judge group startup axis_release som button switch_on output_enable
+    gate both_channels stop judge group startup axis_release som button switch_on output_enable channel
 }
 
 /// The lines of the table for a mutant of `monitor`, whose step function `subject` has.

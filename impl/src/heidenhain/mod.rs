@@ -17,6 +17,7 @@
 //! | [`group`] | monitoring state of one axis group | `stop` |
 //! | [`switch_on`] | control voltage on: edge, chain of contacts, -STO.A.G | `stop` of every group |
 //! | [`output_enable`] | `NN_GenOutputEnable` | `stop` of every group |
+//! | [`channel`] | the monitors of one axis group in one channel, wired to each other | - |
 //! | [`types`] | stops, monitoring states, modes in their priority: no step | - |
 //!
 //! Conventions common to the modules of this family:
@@ -24,14 +25,15 @@
 //! * One call is one HSCI cycle of 3 ms, the same for all monitors. Durations are [`Cycles`](crate::kernel::Cycles).
 //! * Monitors judge with the monitoring state valid at the start of the cycle; of all causes of a cycle the highest stop
 //!   wins; a stop beats a release, a stricter request beats a laxer one (HFS-STOP-009).
-//! * A timer started with t expires t cycles after the cycle of its start; t = 0 expires in the cycle of the start.
-//! * `main_switch` and `power_on` (main switch off and on) first set everything volatile to its initial value; then the
-//!   cycle is evaluated with its other inputs.
+//! * A timer started with t expires t cycles after the cycle of its start; it runs for one cycle at least, also with t = 0.
+//! * `main_switch` and `power_on` (main switch off and on) set everything volatile to its initial value; their cycle does
+//!   nothing else, what its other inputs ask for counts from the next one on.
 //! * A signal that is missing must be the one that stops: an output that permits is `true` only when it was worked out.
 
 pub mod axis_release;
 pub mod both_channels;
 pub mod button;
+pub mod channel;
 pub mod gate;
 pub mod group;
 pub mod judge;

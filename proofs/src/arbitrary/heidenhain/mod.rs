@@ -1,9 +1,11 @@
 //! Monitors of HEIDENHAIN Functional Safety.
 
+mod composing;
 mod groups;
 mod interface;
 mod machine;
 
+pub use composing::*;
 pub use groups::*;
 pub use interface::*;
 pub use machine::*;

@@ -24,4 +24,6 @@ monitors! { heidenhain:
     switch_on
     /// Permission of the outputs.
     output_enable
+    /// The channel.
+    channel
 }
