@@ -46,10 +46,11 @@ contract! {
         when |s| !s.inputs.main_switch && (own(&s).stop == Stop::Ss1F || s.inputs.peer.stop == Stop::Ss1F)
             => s.outputs.stop.level >= Stop::Ss1F && s.outputs.stop.needs_switch;
 
-    /// The group is at least as strict as either channel was asked for, or a stop brakes it.
+    /// The group is at least as strict as either channel was asked for, or stands in a stop, or one of rank SS1 brakes it.
     state_is_as_strict_as_requested ["HFS-P-08", "HFS-P-09", "HFS-P-10", "HFS-API-001"]:
         when |s| s.outputs.group.state.is_released()
-            => hard(&s) || (s.outputs.group.state.strictness() >= own(&s).request.strictness()
+            => hard(&s) || (s.outputs.stop.level != Stop::None && !s.inputs.moving)
+                || (s.outputs.group.state.strictness() >= own(&s).request.strictness()
                 && s.outputs.group.state.strictness() >= s.inputs.peer.request.strictness());
 
     /// A group is released only when both channels activate it in a cycle without any cause.
@@ -82,10 +83,11 @@ contract! {
             => s.inputs.voltage && (s.inputs.permit && !s.before.permitted || s.before.fresh)
                 && !s.inputs.main_switch && s.outputs.demand < Stop::Ss1D && s.before.stop.level < Stop::Ss1F;
 
-    /// A permission that merely stays on restarts nothing.
+    /// A permission that merely stays on restarts nothing; an SS1D ends by itself, and leaves the group in STO_O.
     level_restarts_nothing ["HFS-P-06", "HFS-ACK-005"]:
         when |s| s.before.permitted && !s.before.fresh
-            => !s.outputs.stop.restarted && (held(&s) != GroupState::Sto || s.outputs.group.state == GroupState::Sto);
+            => (!s.outputs.stop.restarted || (s.before.stop.level == Stop::Ss1D && s.inputs.peer_off))
+                && (held(&s) != GroupState::Sto || s.outputs.group.state == GroupState::Sto);
 
     /// With an open door nothing is released while the self-test is not in force.
     self_test_gates_the_release ["HFS-P-51", "HFS-TEST-031"]:
