@@ -20,6 +20,14 @@ pub struct Budget {
     pub interpreted: u64,
 }
 
+impl Budget {
+    /// Every reachable cycle.
+    pub const UNLIMITED: Self = Self {
+        generated: u64::MAX,
+        interpreted: u64::MAX,
+    };
+}
+
 /// The control states of each machine of a system that has any: the name of the instance, and its states.
 ///
 /// A control state is a combination of values of the machine's variables that have an enum as type; where these are too
@@ -64,11 +72,7 @@ pub fn control_states_of(
         };
         name == instance && chosen
     });
-    let budget = Budget {
-        generated: u64::MAX,
-        interpreted: u64::MAX,
-    };
-    let found = graphs(bound, &machines, budget, options)?;
+    let found = graphs(bound, &machines, Budget::UNLIMITED, options)?;
     Ok(found
         .and_then(|graphs| graphs.into_iter().next())
         .map(|(_, graph)| graph))

@@ -23,7 +23,7 @@
 //!   finds the least predecessors.
 //! * `symmetry`, `narrow`: a system up to a group of permutations, and a part of a system; both systems again.
 //! * `distributed` (a cargo feature): the same search over several processes.
-//! * `twin`, `control`: two runs side by side; views of the reachable states. `cycles`: those of one state, to walk by hand.
+//! * `twin`: two runs side by side; `reachable`: the reachable states in order. `cycles`: those of one state, to walk by hand.
 //!
 //! A cycle whose evaluation meets a fault has no successor and is reported. A fault in a property's atom makes that atom
 //! FALSE there and is reported too: verdicts stand on their own only in a report without faults.
@@ -32,7 +32,6 @@
 mod bitmap;
 mod checkpoint;
 mod choices;
-mod control;
 mod crew;
 mod cursor;
 mod cycles;
@@ -48,6 +47,7 @@ mod pack;
 mod parts;
 mod process;
 mod property;
+mod reachable;
 mod report;
 mod response;
 mod search;
@@ -61,7 +61,6 @@ mod trace;
 mod twin;
 
 pub use choices::Replay;
-pub use control::{ControlGraph, control_graph, reachable};
 pub use cycles::{Cycle, Held, cycles, initials};
 #[cfg(feature = "distributed")]
 pub use distributed::{Cluster, ClusterError, digest, explore_together};
@@ -69,6 +68,7 @@ pub use explore::explore;
 pub use narrow::{Narrow, NarrowWork, Part};
 pub use parts::Component;
 pub use property::{Form, Property};
+pub use reachable::reachable;
 pub use report::{
     Checkpoint, Error, FaultReport, Judgement, Limits, Options, Progress, Report, Step, Storage,
     Trace, Verdict,

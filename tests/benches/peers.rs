@@ -155,11 +155,24 @@ fn main() {
     let task = tasks.nth(number);
     let task = task.unwrap_or_else(|| panic!("{file} has no such run of {name}"));
     println!("\n{name}, run {} of {file}: threads", number + 1);
-    print(&compete(
+    let twice = || {
+        std::thread::scope(|scope| {
+            for _ in 0..2 {
+                scope.spawn(|| explore(task, 1, false));
+            }
+        });
+    };
+    let times = compete(
         rounds,
         &[
             ("1 thread", &|| explore(task, 1, false)),
             ("2 threads", &|| explore(task, 2, false)),
+            ("twice with 1 thread, side by side", &twice),
         ],
-    ));
+    );
+    print(&times);
+    println!(
+        "  two explorations side by side, which share nothing, get {:.2} times as much done as one: what a second thread can give at most on this machine",
+        2.0 * times[0].median() / times[2].median()
+    );
 }

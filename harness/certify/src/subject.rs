@@ -187,6 +187,6 @@ fn source(path: &Path) -> Result<Source, Failure> {
             .unwrap_or_default()
             .to_string_lossy()
             .into(),
-        sha256: digits.iter().map(|byte| format!("{byte:02x}")).collect(),
+        sha256: format!("{digits:x}"),
     })
 }

@@ -52,13 +52,9 @@ pub fn checksums(path: &Path, machine: &Machine) -> io::Result<Checksums> {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     Ok(Checksums {
         file: name.into_owned(),
-        machine: hex(&Sha256::digest(std::fs::read(path)?)),
-        family: hex(&all.finalize()),
+        machine: format!("{:x}", Sha256::digest(std::fs::read(path)?)),
+        family: format!("{:x}", all.finalize()),
     })
-}
-
-fn hex(bytes: &[u8]) -> String {
-    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 /// The tests that are to be carried out: all, or those to be repeated.

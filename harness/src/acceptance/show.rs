@@ -1,6 +1,6 @@
 //! The protocol as a document to be printed, filled in and signed.
 
-use stillpoint_show::document::{Block, Column, Document, Inline, Table, Tone};
+use stillpoint_show::document::{Block, Document, Inline, Tone};
 use stillpoint_spec::machine::acceptance::{Protocol, Test};
 use stillpoint_spec::machine::units::Dimension;
 use stillpoint_spec::machine::{Machine, Shown};
@@ -34,7 +34,7 @@ pub fn document(
         }
         let mut inner = Vec::new();
         if !part.text.is_empty() {
-            inner.push(Block::Paragraph(vec![text(&part.text)]));
+            inner.push(Block::Paragraph(vec![Inline::text(&part.text)]));
         }
         inner.extend(of.iter().map(|test| one(machine, test)));
         blocks.push(Block::Section {
@@ -57,45 +57,22 @@ pub fn document(
     }
 }
 
-fn text(words: &str) -> Inline {
-    Inline::Text(words.to_owned())
-}
-
-fn column(title: &str, number: bool) -> Column {
-    Column {
-        title: title.to_owned(),
-        number,
-    }
-}
-
-fn columns(titles: &[&str]) -> Vec<Column> {
-    titles.iter().map(|t| column(t, false)).collect()
-}
-
-fn table(caption: &str, columns: Vec<Column>, rows: Vec<Vec<Vec<Inline>>>) -> Block {
-    Block::Table(Table {
-        caption: caption.to_owned(),
-        columns,
-        rows,
-    })
-}
-
 /// Points with a place for a tick.
 fn points(title: &str, anchor: &str, list: &[String]) -> Block {
     let rows = list
         .iter()
-        .map(|p| vec![vec![text(p)], vec![Inline::Blank(6)]]);
+        .map(|p| vec![vec![Inline::text(p)], vec![Inline::Blank(6)]]);
     Block::Section {
         title: title.to_owned(),
         anchor: anchor.to_owned(),
-        blocks: vec![table("", columns(&["What", "Done"]), rows.collect())],
+        blocks: vec![Block::table(&["What", "Done"], rows)],
     }
 }
 
 fn identity(machine: &Machine, protocol: &Protocol, checksums: &Checksums) -> Block {
-    let row = |name: &str, value: Inline| vec![vec![text(name)], vec![value]];
+    let row = |name: &str, value: Inline| vec![vec![Inline::text(name)], vec![value]];
     let mut rows = vec![
-        row("Machine", text(&machine.name)),
+        row("Machine", Inline::text(&machine.name)),
         row("Configuration", Inline::Code(checksums.file.clone())),
         row(
             "SHA-256 of the configuration",
@@ -107,13 +84,13 @@ fn identity(machine: &Machine, protocol: &Protocol, checksums: &Checksums) -> Bl
         ),
         row(
             "Made by",
-            text(concat!("Stillpoint ", env!("CARGO_PKG_VERSION"))),
+            Inline::text(concat!("Stillpoint ", env!("CARGO_PKG_VERSION"))),
         ),
         row(
             "Monitoring cycle",
             Inline::Text(time(machine.monitoring_cycle)),
         ),
-        row("Follows", text(&protocol.source)),
+        row("Follows", Inline::text(&protocol.source)),
     ];
     for record in &protocol.records {
         rows.push(row(record, Inline::Blank(24)));
@@ -122,10 +99,10 @@ fn identity(machine: &Machine, protocol: &Protocol, checksums: &Checksums) -> Bl
         title: "Machine".to_owned(),
         anchor: "machine".to_owned(),
         blocks: vec![
-            Block::Paragraph(vec![text(
+            Block::Paragraph(vec![Inline::text(
                 "This protocol belongs to exactly this configuration: a changed file has another checksum and needs a new protocol. It is a template, not a certificate; an authorised person carries out and judges the tests.",
             )]),
-            table("", columns(&["Item", "Value"]), rows),
+            Block::table(&["Item", "Value"], rows),
         ],
     }
 }
@@ -142,7 +119,7 @@ fn configuration(machine: &Machine, protocol: &Protocol) -> Block {
         };
         let mut row = vec![
             vec![Inline::Strong(axis.name.clone())],
-            vec![text(&axis.title)],
+            vec![Inline::text(&axis.title)],
             vec![Inline::Text(functions)],
         ];
         row.extend(
@@ -153,9 +130,9 @@ fn configuration(machine: &Machine, protocol: &Protocol) -> Block {
         );
         rows.push(row);
     }
-    let mut heads = columns(&["Axis", "What it is", "Functions"]);
-    heads.extend(protocol.axis_records.iter().map(|r| column(r, false)));
-    let mut blocks = vec![table("", heads, rows)];
+    let mut heads = vec!["Axis", "What it is", "Functions"];
+    heads.extend(protocol.axis_records.iter().map(String::as_str));
+    let mut blocks = vec![Block::table(&heads, rows)];
     blocks.push(details("Control", &machine.control_shown()));
     for axis in &machine.axes {
         blocks.push(details(
@@ -180,16 +157,16 @@ fn details(title: &str, values: &[Shown]) -> Block {
     let rows = values.iter().map(|v| {
         vec![
             vec![Inline::Code(v.name.clone())],
-            vec![text(&v.value)],
-            vec![text(if v.given { "" } else { "default" })],
-            vec![text(&v.text)],
-            vec![text(&v.manual)],
+            vec![Inline::text(&v.value)],
+            vec![Inline::text(if v.given { "" } else { "default" })],
+            vec![Inline::text(&v.text)],
+            vec![Inline::text(&v.manual)],
         ]
     });
-    let heads = columns(&["Parameter", "Value", "", "What it is", "Machine data"]);
+    let heads = ["Parameter", "Value", "", "What it is", "Machine data"];
     Block::Details {
-        summary: vec![text(&format!("{title}: all values"))],
-        blocks: vec![table("", heads, rows.collect())],
+        summary: vec![Inline::text(format!("{title}: all values"))],
+        blocks: vec![Block::table(&heads, rows)],
     }
 }
 
@@ -200,7 +177,7 @@ fn list(tests: &[&Test]) -> Block {
                 text: test.id.clone(),
                 to: format!("#{}", anchor(&test.id)),
             }],
-            vec![text(&test.title)],
+            vec![Inline::text(&test.title)],
             vec![Inline::Blank(6)],
             vec![Inline::Blank(10)],
         ]
@@ -208,10 +185,9 @@ fn list(tests: &[&Test]) -> Block {
     Block::Section {
         title: format!("{} tests", tests.len()),
         anchor: "tests".to_owned(),
-        blocks: vec![table(
-            "",
-            columns(&["Test", "What is tested", "Passed", "Date, initials"]),
-            rows.collect(),
+        blocks: vec![Block::table(
+            &["Test", "What is tested", "Passed", "Date, initials"],
+            rows,
         )],
     }
 }
@@ -228,7 +204,8 @@ fn anchor(id: &str) -> String {
 
 fn one(machine: &Machine, test: &Test) -> Block {
     let cycle = machine.monitoring_cycle;
-    let bullets = |list: &[String]| Block::List(list.iter().map(|t| vec![text(t)]).collect());
+    let bullets =
+        |list: &[String]| Block::List(list.iter().map(|t| vec![Inline::text(t)]).collect());
     let mut blocks = Vec::new();
     if !test.requires.is_empty() {
         blocks.push(Block::Paragraph(vec![Inline::Strong("Before".to_owned())]));
@@ -236,21 +213,21 @@ fn one(machine: &Machine, test: &Test) -> Block {
     }
     let steps = test.steps.iter().enumerate().map(|(k, step)| {
         let number = Inline::Text((k + 1).to_string());
-        vec![vec![number], vec![text(step)], vec![Inline::Blank(5)]]
+        vec![
+            vec![number],
+            vec![Inline::text(step)],
+            vec![Inline::Blank(5)],
+        ]
     });
-    let heads = vec![
-        column("", true),
-        column("Step", false),
-        column("Done", false),
-    ];
-    blocks.push(table("", heads, steps.collect()));
+    let heads = ["#", "Step", "Done"];
+    blocks.push(Block::table(&heads, steps));
     let rows = test.expect.iter().map(|e| {
         let (time, cycles) = match latest(e, cycle) {
             Some((us, cycles)) => (self::time(us), cycles.to_string()),
             None => (String::new(), String::new()),
         };
         vec![
-            vec![text(&e.text)],
+            vec![Inline::text(&e.text)],
             vec![Inline::Text(time)],
             vec![Inline::Text(cycles)],
             vec![Inline::Text(
@@ -260,18 +237,20 @@ fn one(machine: &Machine, test: &Test) -> Block {
             vec![Inline::Blank(5)],
         ]
     });
-    let heads = vec![
-        column("Expected", false),
-        column("At the latest after", true),
-        column("Cycles", true),
-        column("of them tolerance", true),
-        column("Measured", false),
-        column("OK", false),
+    let heads = [
+        "Expected",
+        "#At the latest after",
+        "#Cycles",
+        "#of them tolerance",
+        "Measured",
+        "OK",
     ];
-    blocks.push(table("", heads, rows.collect()));
+    blocks.push(Block::table(&heads, rows));
     if let Some(diagram) = expected(test, cycle) {
         blocks.push(Block::Details {
-            summary: vec![text("Expected trace, each change at the latest cycle")],
+            summary: vec![Inline::text(
+                "Expected trace, each change at the latest cycle",
+            )],
             blocks: vec![Block::Timing(Box::new(diagram))],
         });
     }
@@ -283,22 +262,22 @@ fn one(machine: &Machine, test: &Test) -> Block {
                 &m.limit
             };
             vec![
-                vec![text(&m.text)],
-                vec![text(limit)],
+                vec![Inline::text(&m.text)],
+                vec![Inline::text(limit)],
                 vec![Inline::Blank(12), Inline::Text(format!(" {}", m.unit))],
                 vec![Inline::Blank(5)],
             ]
         });
-        let heads = columns(&["To be measured", "Limit", "Value", "OK"]);
-        blocks.push(table("", heads, rows.collect()));
+        let heads = ["To be measured", "Limit", "Value", "OK"];
+        blocks.push(Block::table(&heads, rows));
     }
     let mut end = vec![
         Inline::Strong("Passed".to_owned()),
-        text(" "),
+        Inline::text(" "),
         Inline::Blank(5),
-        text("  Alarms "),
+        Inline::text("  Alarms "),
         Inline::Blank(24),
-        text("  Date, initials "),
+        Inline::text("  Date, initials "),
         Inline::Blank(14),
     ];
     if !test.req.is_empty() {
@@ -364,8 +343,8 @@ fn simulated(ran: &[Ran], tests: usize) -> (Block, Block) {
             pictures.push(Block::Timing(Box::new(r.diagram.clone())));
         }
     }
-    let heads = columns(&["Test", "Result", "Expected", "Stops"]);
-    let mut blocks = vec![table("", heads, rows)];
+    let heads = ["Test", "Result", "Expected", "Stops"];
+    let mut blocks = vec![Block::table(&heads, rows)];
     blocks.extend(pictures);
     let verdict = Block::Verdict {
         tone,
@@ -389,7 +368,7 @@ fn simulated(ran: &[Ran], tests: usize) -> (Block, Block) {
 fn signatures(protocol: &Protocol) -> Block {
     let rows = protocol.signatures.iter().map(|who| {
         vec![
-            vec![text(who)],
+            vec![Inline::text(who)],
             vec![Inline::Blank(20)],
             vec![Inline::Blank(12)],
             vec![Inline::Blank(20)],
@@ -398,24 +377,18 @@ fn signatures(protocol: &Protocol) -> Block {
     Block::Section {
         title: "Signatures".to_owned(),
         anchor: "signatures".to_owned(),
-        blocks: vec![table(
-            "",
-            columns(&["Who", "Name", "Date", "Signature"]),
-            rows.collect(),
-        )],
+        blocks: vec![Block::table(&["Who", "Name", "Date", "Signature"], rows)],
     }
 }
 
 fn measures(protocol: &Protocol) -> Block {
     let mut rows = protocol.measures.iter();
-    let heads: Vec<Column> = rows.next().map_or_else(Vec::new, |heads| {
-        heads.iter().map(|h| column(h, false)).collect()
-    });
-    let rows = rows.map(|row| row.iter().map(|cell| vec![text(cell)]).collect());
+    let heads = rows.next().cloned().unwrap_or_default();
+    let rows = rows.map(|row| row.iter().map(|cell| vec![Inline::text(cell)]).collect());
     Block::Section {
         title: "After a later change".to_owned(),
         anchor: "measures".to_owned(),
-        blocks: vec![table("", heads, rows.collect())],
+        blocks: vec![Block::table(&heads, rows)],
     }
 }
 
@@ -433,20 +406,20 @@ fn changed(protocol: &Protocol, since: &Since) -> Vec<Block> {
     );
     let rows = since.changes.iter().map(|c| {
         let mut row = vec![
-            vec![text(&c.of)],
+            vec![Inline::text(&c.of)],
             vec![Inline::Code(c.name.clone())],
-            vec![text(&c.old)],
-            vec![text(&c.new)],
+            vec![Inline::text(&c.old)],
+            vec![Inline::text(&c.new)],
         ];
         if !since.untested.is_empty() {
             let why = since.untested.iter().find(|(u, _)| u == c);
-            row.push(vec![text(why.map_or("", |(_, why)| why))]);
+            row.push(vec![Inline::text(why.map_or("", |(_, why)| why))]);
         }
         row
     });
-    let mut heads = columns(&["Of", "What", "Before", "Now"]);
+    let mut heads = vec!["Of", "What", "Before", "Now"];
     if !since.untested.is_empty() {
-        heads.push(column("No test, because", false));
+        heads.push("No test, because");
     }
     let mut blocks = vec![
         Block::Verdict {
@@ -457,7 +430,7 @@ fn changed(protocol: &Protocol, since: &Since) -> Vec<Block> {
         Block::Section {
             title: "What changed".to_owned(),
             anchor: "changes".to_owned(),
-            blocks: vec![table("", heads, rows.collect())],
+            blocks: vec![Block::table(&heads, rows)],
         },
     ];
     let rows = since.repeat.iter().map(|r| {
@@ -469,7 +442,7 @@ fn changed(protocol: &Protocol, since: &Since) -> Vec<Block> {
             vec![Inline::Text(r.reasons.join("; "))],
         ]
     });
-    let mut inner = vec![table("", columns(&["Test", "Reason"]), rows.collect())];
+    let mut inner = vec![Block::table(&["Test", "Reason"], rows)];
     if !since.gone.is_empty() {
         let gone = format!("No longer there: {}.", since.gone.join(", "));
         inner.push(Block::Paragraph(vec![Inline::Text(gone)]));

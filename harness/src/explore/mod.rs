@@ -102,6 +102,7 @@ pub fn identity(bound: &Bound) -> String {
     for value in &bound.initial {
         number(value.unwrap_or(i32::MIN));
     }
-    let digits = digest.finalize();
-    digits.iter().take(8).map(|b| format!("{b:02x}")).collect()
+    let mut digits = format!("{:x}", digest.finalize());
+    digits.truncate(16);
+    digits
 }

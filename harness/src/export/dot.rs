@@ -1,103 +1,56 @@
-//! The control-state graph of each machine of a system, for Graphviz.
+//! The control states of each machine of a system, for Graphviz: the pictures of the reports without their limit.
 //!
-//! A node is a combination of values of the machine's enum-typed state variables that occurs in a reachable state; an edge
-//! is labelled with the number of transitions (input combinations over all reachable states) that lead from the one to the
-//! other. Transitions that stay in a node are not drawn. A machine without such variables has no graph.
+//! A node is a combination of values of the machine's variables that have an enum as type; an edge names the rules that lead
+//! from the one to the other in some reachable cycle. Cycles that stay in a node are not drawn. A machine without such
+//! variables has no graph.
 
 use std::fmt::Write;
 
-use stillpoint_model::table::{Generated, Interpreted};
-use stillpoint_model::{ControlGraph, Error, Options, control_graph};
+use stillpoint_model::{Error, Options};
+use stillpoint_show::graph::Graph;
 use stillpoint_spec::bind::Bound;
-use stillpoint_spec::ir::{Instance, Ty};
 
-use crate::report::grouped;
+use crate::states::{Budget, control_states};
 
 /// The graphs of all machines of a system as one Graphviz digraph.
 ///
 /// # Errors
 /// A system that cannot be explored.
 pub fn dot(bound: &Bound, title: &str, options: &Options) -> Result<String, Error> {
-    let system = &bound.system;
     let mut out = String::new();
     let _ = writeln!(out, "// {}", title.replace('\n', " "));
-    let _ = writeln!(
-        out,
-        "// Edges are labelled with numbers of transitions; those that stay in a node are not drawn."
-    );
-    let _ = writeln!(out, "digraph {} {{", quoted(&system.name));
+    let _ = writeln!(out, "digraph {} {{", quoted(&bound.system.name));
     out.push_str("  node [shape=box, style=rounded];\n");
-    for (n, instance) in system.instances.iter().enumerate() {
-        let cells: Vec<usize> = (instance.states.start as usize..instance.states.end as usize)
-            .filter(|k| matches!(system.states[*k].var.ty, Ty::Enum(_)))
-            .collect();
-        if cells.is_empty() {
-            let _ = writeln!(out, "  // {} has no enum-typed state.", instance.name);
-            continue;
+    match control_states(bound, Budget::UNLIMITED, options)? {
+        None => out.push_str("  // A limit was reached before every reachable cycle was seen.\n"),
+        Some(graphs) => {
+            for (n, (_, graph)) in graphs.iter().enumerate() {
+                cluster(&mut out, n, graph);
+            }
         }
-        let project = |state: &[i32]| -> Vec<i32> { cells.iter().map(|k| state[*k]).collect() };
-        let graph = match Generated::find(bound) {
-            Some(generated) => control_graph(&generated, options, project)?,
-            None => control_graph(&Interpreted::new(bound), options, project)?,
-        };
-        cluster(&mut out, bound, n, instance, &cells, &graph);
     }
     out.push_str("}\n");
     Ok(out)
 }
 
-fn cluster(
-    out: &mut String,
-    bound: &Bound,
-    n: usize,
-    instance: &Instance,
-    cells: &[usize],
-    graph: &ControlGraph<Vec<i32>>,
-) {
-    let system = &bound.system;
-    let names: Vec<&str> = cells
-        .iter()
-        .map(|k| system.states[*k].var.name.as_str())
-        .collect();
-    let limits = if graph.complete {
-        ""
-    } else {
-        " (INCOMPLETE: a limit was reached)"
-    };
+fn cluster(out: &mut String, n: usize, graph: &Graph) {
     let _ = writeln!(out, "  subgraph cluster_{n} {{");
-    let label = format!("{}: {}{limits}", instance.name, names.join(", "));
-    let _ = writeln!(out, "    label={};", quoted(&label));
-    for node in graph.graph.node_indices() {
-        let values: Vec<String> = cells
-            .iter()
-            .zip(&graph.graph[node])
-            .map(|(k, v)| system.show(system.states[*k].var.ty, i64::from(*v)))
-            .collect();
-        let start = if graph.initial.contains(&node) {
-            ", penwidth=2.5"
-        } else {
-            ""
+    let _ = writeln!(out, "    label={};", quoted(&graph.title));
+    for (k, node) in graph.nodes.iter().enumerate() {
+        let look = match (node.initial, node.reached) {
+            (true, _) => ", penwidth=2.5",
+            (false, true) => "",
+            (false, false) => ", style=\"rounded,dashed\"",
         };
+        let _ = writeln!(out, "    m{n}_{k} [label={}{look}];", quoted(&node.label));
+    }
+    for edge in graph.edges.iter().filter(|e| e.from != e.to) {
+        let rules = quoted(&edge.labels.join("\n"));
         let _ = writeln!(
             out,
-            "    m{n}_{} [label={}{start}];",
-            node.index(),
-            quoted(&values.join("\n"))
+            "    m{n}_{} -> m{n}_{} [label={rules}];",
+            edge.from, edge.to
         );
-    }
-    for edge in graph.graph.edge_indices() {
-        let Some((from, to)) = graph.graph.edge_endpoints(edge) else {
-            continue;
-        };
-        if from != to {
-            let count = quoted(&grouped(graph.graph[edge]));
-            let _ = writeln!(
-                out,
-                "    m{n}_{} -> m{n}_{} [label={count}];",
-                from.index(),
-                to.index()
-            );
-        }
     }
     out.push_str("  }\n");
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use stillpoint_show::document::{Block, Column, Inline, Table};
+use stillpoint_show::document::{Block, Inline, Table};
 use stillpoint_spec::machine::data::Datum;
 use stillpoint_spec::outline::{Function, Machine, Named, Outline, Port, Property, Rule};
 
@@ -13,7 +13,7 @@ pub(super) type Cell = Vec<Inline>;
 pub(super) fn words(text: &str) -> Cell {
     match text {
         "" => Vec::new(),
-        text => vec![Inline::Text(text.to_owned())],
+        text => vec![Inline::text(text)],
     }
 }
 
@@ -22,9 +22,9 @@ pub(super) fn code(text: &str) -> Cell {
     let mut out = Vec::new();
     for line in text.lines().map(str::trim).filter(|l| !l.is_empty()) {
         if !out.is_empty() {
-            out.push(Inline::Text("\n".to_owned()));
+            out.push(Inline::text("\n"));
         }
-        out.push(Inline::Code(line.to_owned()));
+        out.push(Inline::code(line));
     }
     out
 }
@@ -34,34 +34,17 @@ pub(super) fn codes<'a>(names: impl Iterator<Item = &'a str>) -> Cell {
     let mut out = Vec::new();
     for name in names {
         if !out.is_empty() {
-            out.push(Inline::Text(", ".to_owned()));
+            out.push(Inline::text(", "));
         }
-        out.push(Inline::Code(name.to_owned()));
+        out.push(Inline::code(name));
     }
     out
 }
 
 /// A table; columns that are empty in every row are left out, and a table without rows is none.
 pub(super) fn table(heads: &[&str], rows: Vec<Vec<Cell>>) -> Option<Block> {
-    let used: Vec<usize> = (0..heads.len())
-        .filter(|k| {
-            rows.iter()
-                .any(|row| row.get(*k).is_some_and(|c| !c.is_empty()))
-        })
-        .collect();
-    if used.is_empty() {
-        return None;
-    }
-    let columns = used.iter().map(|k| Column {
-        title: heads[*k].to_owned(),
-        number: false,
-    });
-    let chosen = |row: &Vec<Cell>| used.iter().filter_map(|k| row.get(*k).cloned()).collect();
-    Some(Block::Table(Table {
-        caption: String::new(),
-        columns: columns.collect(),
-        rows: rows.iter().map(chosen).collect(),
-    }))
+    let table = Table::new(heads, rows).without_empty_columns();
+    (!table.columns.is_empty()).then(|| table.into())
 }
 
 /// Requirement ids.
@@ -208,7 +191,7 @@ fn statement(property: &Property) -> Cell {
     let mut out = Vec::new();
     for (key, text) in property.written.iter().cloned().chain(bounds) {
         if !out.is_empty() {
-            out.push(Inline::Text("\n".to_owned()));
+            out.push(Inline::text("\n"));
         }
         out.push(Inline::Text(format!("{} ", key.replace('_', " "))));
         out.push(Inline::Code(

@@ -1,6 +1,6 @@
 //! The chains as a document.
 
-use stillpoint_show::document::{Block, Column, Document, Inline, Table, Tone};
+use stillpoint_show::document::{Block, Document, Inline, Table, Tone};
 use stillpoint_spec::machine::Machine;
 
 use super::{Judged, Proof, Result, basis, cycles, time, way};
@@ -30,13 +30,16 @@ pub fn document(
     }
     blocks.push(explored(subject, checked));
     blocks.push(sources(judged));
-    let notes = judged.reactions.notes.iter().map(|n| vec![text(n)]);
+    let notes = judged.reactions.notes.iter().map(|n| vec![Inline::text(n)]);
     blocks.push(Block::Section {
         title: "What these figures are".to_owned(),
         anchor: "notes".to_owned(),
         blocks: vec![
             Block::List(notes.collect()),
-            Block::Paragraph(vec![text(&format!("Manual: {}.", judged.reactions.source))]),
+            Block::Paragraph(vec![Inline::text(format!(
+                "Manual: {}.",
+                judged.reactions.source
+            ))]),
         ],
     });
     Document {
@@ -48,17 +51,6 @@ pub fn document(
             time(machine.monitoring_cycle.into())
         ),
         blocks,
-    }
-}
-
-fn text(words: &str) -> Inline {
-    Inline::Text(words.to_owned())
-}
-
-fn column(title: &str, number: bool) -> Column {
-    Column {
-        title: title.to_owned(),
-        number,
     }
 }
 
@@ -85,21 +77,19 @@ fn verdict(judged: &Judged, checked: &[Checked]) -> Block {
 }
 
 fn overview(judged: &Judged, machine: &Machine) -> Block {
-    let mut columns = vec![
-        column("Axis", false),
-        column("What", false),
-        column("Stop requested after", true),
-    ];
+    let mut columns = ["Axis", "What", "#Stop requested after"]
+        .map(str::to_owned)
+        .to_vec();
     for outcome in &judged.reactions.outcomes {
-        columns.push(column(&outcome.title, true));
-        columns.push(column("over-travel", true));
+        columns.push(format!("#{}", outcome.title));
+        columns.push("#over-travel".to_owned());
     }
-    columns.push(column("Proven", true));
+    columns.push("#Proven".to_owned());
     let rows = judged.results.iter().map(|result| {
         let chain = &result.chain;
         let requested = Judged::until(result, judged.reactions.accelerates);
         let mut row = vec![
-            vec![text(&chain.axis)],
+            vec![Inline::text(&chain.axis)],
             vec![Inline::Link {
                 text: chain.name.clone(),
                 to: format!("#{}", anchor(result)),
@@ -116,16 +106,12 @@ fn overview(judged: &Judged, machine: &Machine) -> Block {
         row.push(vec![Inline::Text(format!("{proven} of {all}"))]);
         row
     });
-    let table = Table {
-        caption: "Longest times from the violation, and the way meanwhile; +: coasting follows, to be measured".to_owned(),
-        columns,
-        rows: rows.collect(),
-    };
+    let table = Table::new(&columns, rows).captioned("Longest times from the violation, and the way meanwhile; +: coasting follows, to be measured");
     let meaning = judged.reactions.outcomes.iter();
     let meaning = meaning.map(|o| {
         vec![
             Inline::Strong(o.title.clone()),
-            text(&format!(": {}.", o.text)),
+            Inline::text(format!(": {}.", o.text)),
         ]
     });
     Block::Section {
@@ -155,7 +141,7 @@ fn chain(judged: &Judged, machine: &Machine, result: &Result) -> Block {
     let mut stage = usize::MAX;
     for (step, proof) in chain.steps.iter().zip(&result.proofs) {
         let title = match judged.reactions.stages.get(step.stage) {
-            Some(title) if step.stage != stage => vec![text(title)],
+            Some(title) if step.stage != stage => vec![Inline::text(title)],
             _ => Vec::new(),
         };
         stage = step.stage;
@@ -174,7 +160,7 @@ fn chain(judged: &Judged, machine: &Machine, result: &Result) -> Block {
         }
         rows.push(vec![
             title,
-            vec![text(&step.text)],
+            vec![Inline::text(&step.text)],
             formula,
             vec![Inline::Text(long)],
             vec![Inline::Text(short)],
@@ -182,14 +168,14 @@ fn chain(judged: &Judged, machine: &Machine, result: &Result) -> Block {
             vec![Inline::Code(step.id.join(" "))],
         ]);
     }
-    let columns = vec![
-        column("Stage", false),
-        column("Summand", false),
-        column("Formula", false),
-        column("At most", true),
-        column("Cycles", true),
-        column("Basis", false),
-        column("Requirement", false),
+    let columns = [
+        "Stage",
+        "Summand",
+        "Formula",
+        "#At most",
+        "#Cycles",
+        "Basis",
+        "Requirement",
     ];
     let mut speed = format!(
         "Over-travel at {} ({})",
@@ -221,11 +207,7 @@ fn chain(judged: &Judged, machine: &Machine, result: &Result) -> Block {
         title: format!("{}: {}", chain.name, chain.title),
         anchor: anchor(result),
         blocks: vec![
-            Block::Table(Table {
-                caption: String::new(),
-                columns,
-                rows,
-            }),
+            Block::table(&columns, rows),
             Block::Paragraph(vec![Inline::Text(format!("{speed}:"))]),
             Block::List(ends.collect()),
         ],
@@ -246,7 +228,7 @@ fn grounds(
     let Some(claim) = claim else {
         return cell;
     };
-    cell.push(text(" "));
+    cell.push(Inline::text(" "));
     cell.push(Inline::Code(claim.id.clone()));
     cell.push(Inline::Text(match proof {
         Proof::Proven(us) if claim.spans > 1 => {
@@ -268,15 +250,11 @@ fn sources(judged: &Judged) -> Block {
     let rows = judged
         .sources
         .iter()
-        .map(|(id, source)| vec![vec![Inline::Code(id.clone())], vec![text(source)]]);
+        .map(|(id, source)| vec![vec![Inline::Code(id.clone())], vec![Inline::text(source)]]);
     Block::Section {
         title: "Places in the manual".to_owned(),
         anchor: "sources".to_owned(),
-        blocks: vec![Block::Table(Table {
-            caption: String::new(),
-            columns: vec![column("Requirement", false), column("Place", false)],
-            rows: rows.collect(),
-        })],
+        blocks: vec![Block::table(&["Requirement", "Place"], rows)],
     }
 }
 
@@ -297,23 +275,22 @@ fn explored(subject: &Subject, checked: &[Checked]) -> Block {
             ]);
         }
     }
-    let columns = vec![
-        column("System", false),
-        column("Axes", false),
-        column("States", true),
-        column("Property", false),
-        column("In words", false),
-        column("Verdict", false),
-        column("Slowest case, cycles of the system", true),
+    let columns = [
+        "System",
+        "Axes",
+        "#States",
+        "Property",
+        "In words",
+        "Verdict",
+        "#Slowest case, cycles of the system",
     ];
     Block::Section {
         title: "What was explored".to_owned(),
         anchor: "explored".to_owned(),
-        blocks: vec![Block::Table(Table {
-            caption: "All reachable states of each system, with the times of the axes named"
-                .to_owned(),
-            columns,
-            rows,
-        })],
+        blocks: vec![
+            Table::new(&columns, rows)
+                .captioned("All reachable states of each system, with the times of the axes named")
+                .into(),
+        ],
     }
 }

@@ -6,12 +6,13 @@ use std::time::{Duration, Instant};
 use stillpoint_certify::format::{Kind, Source};
 use stillpoint_certify::subject as certified;
 use stillpoint_model::{Limits, Options, Verdict};
-use stillpoint_show::document::{Block, Column, Document, Inline, Table, Tone};
+use stillpoint_show::document::{Block, Document, Inline, Table, Tone};
 use stillpoint_show::graph::Graph;
 use stillpoint_spec::ir::Topic;
 
 use super::{
-    configuration, counted, exploration, grouped, inventory, properties, result, verdict_name,
+    configuration, counted, counts, exploration, grouped, inventory, properties, result,
+    verdict_name,
 };
 use crate::check::{Checked, Settings, Summary, Unfired, exit_status, violations};
 use crate::readings::Compared;
@@ -198,40 +199,20 @@ pub(super) fn section(title: &str, anchor: &str, blocks: Vec<Block>) -> Block {
 }
 
 pub(super) fn words(text: impl Into<String>) -> Vec<Inline> {
-    vec![Inline::Text(text.into())]
+    vec![Inline::text(text)]
 }
 
 pub(super) fn code(text: impl Into<String>) -> Vec<Inline> {
-    vec![Inline::Code(text.into())]
+    vec![Inline::code(text)]
 }
 
 pub(super) fn paragraph(text: impl Into<String>) -> Block {
     Block::Paragraph(words(text))
 }
 
-/// A table; a heading that begins with `#` stands over numbers. A column with nothing in it is left out.
+/// A table; the headings as in [`Column::new`](stillpoint_show::document::Column::new). A column with nothing in it is left out.
 pub(super) fn table(heads: &[&str], rows: Vec<Vec<Vec<Inline>>>) -> Block {
-    let empty = |cell: &Vec<Inline>| {
-        cell.iter()
-            .all(|i| matches!(i, Inline::Text(t) | Inline::Code(t) if t.is_empty()))
-    };
-    let used: Vec<bool> = (0..heads.len())
-        .map(|k| rows.iter().any(|row| row.get(k).is_some_and(|c| !empty(c))))
-        .collect();
-    let kept = |k: &usize| used.get(*k).copied().unwrap_or(false);
-    let column = |k: usize| Column {
-        title: heads[k].trim_start_matches('#').to_owned(),
-        number: heads[k].starts_with('#'),
-    };
-    let rows = rows.into_iter().map(|row| {
-        let cells = row.into_iter().enumerate();
-        cells.filter(|(k, _)| kept(k)).map(|(_, c)| c).collect()
-    });
-    Block::Table(Table {
-        caption: String::new(),
-        columns: (0..heads.len()).filter(|k| kept(k)).map(column).collect(),
-        rows: rows.collect(),
-    })
+    Table::new(heads, rows).without_empty_columns().into()
 }
 
 pub(super) fn badge(verdict: Verdict) -> Vec<Inline> {
@@ -251,27 +232,11 @@ fn verdict(subject: &Subject, checked: &[Checked], summaries: &[Summary]) -> Blo
         1 => Tone::Bad,
         _ => Tone::Open,
     };
-    let counts: Vec<String> = [
-        Verdict::Violated,
-        Verdict::Unreachable,
-        Verdict::Inconclusive,
-        Verdict::Holds,
-        Verdict::Reached,
-        Verdict::Vacuous,
-    ]
-    .into_iter()
-    .filter_map(|v| {
-        let n = summaries.iter().filter(|s| s.verdict == v).count();
-        (n > 0).then(|| format!("{n} {}", verdict_name(v)))
-    })
-    .collect();
+    let counts = counts(summaries);
     let mut text = String::new();
     if !counts.is_empty() {
-        let properties = match summaries.len() {
-            1 => "One property".to_owned(),
-            n => format!("{n} properties"),
-        };
-        text = format!("{properties}: {}. ", counts.join(", "));
+        let properties = counted(summaries.len() as u64, "property");
+        text = format!("{properties}: {counts}. ");
     }
     text.push_str(if checked.iter().all(|c| c.outcome.report.complete) {
         "Every reachable state was explored."

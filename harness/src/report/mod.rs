@@ -33,10 +33,30 @@ pub fn verdict_name(verdict: Verdict) -> &'static str {
     }
 }
 
-/// So many of a thing whose plural takes an s: `1 cycle`, `2 cycles`.
+/// So many of a thing: `1 cycle`, `2 cycles`, `2 properties`.
 pub fn counted(n: u64, thing: &str) -> String {
-    let plural = if n == 1 { "" } else { "s" };
-    format!("{n} {thing}{plural}")
+    match thing.strip_suffix('y') {
+        _ if n == 1 => format!("1 {thing}"),
+        Some(stem) => format!("{n} {stem}ies"),
+        None => format!("{n} {thing}s"),
+    }
+}
+
+/// How many properties have which verdict, the ones to be looked at first: `1 violated, 3 holds`.
+fn counts(summaries: &[Summary]) -> String {
+    let order = [
+        Verdict::Violated,
+        Verdict::Unreachable,
+        Verdict::Inconclusive,
+        Verdict::Holds,
+        Verdict::Reached,
+        Verdict::Vacuous,
+    ];
+    let counts = order.into_iter().filter_map(|v| {
+        let n = summaries.iter().filter(|s| s.verdict == v).count();
+        (n > 0).then(|| format!("{n} {}", verdict_name(v)))
+    });
+    counts.collect::<Vec<_>>().join(", ")
 }
 
 /// A number with thin groups of three: `4 024 036`.

@@ -2,11 +2,13 @@
 
 use std::fmt::Write;
 
-use stillpoint_model::{Storage, Verdict};
+use stillpoint_model::Storage;
 use stillpoint_spec::ir::Topic;
 
 use super::properties::rows;
-use super::{counted, diagram, grouped, params, reduced, result, storage_name, verdict_name};
+use super::{
+    counted, counts, diagram, grouped, params, reduced, result, storage_name, verdict_name,
+};
 use crate::check::{Checked, Settings, Summary, Unfired, violations};
 use crate::engine::Evaluator;
 use crate::reduce;
@@ -94,7 +96,6 @@ fn properties(out: &mut String, subject: &Subject, checked: &[Checked]) {
 }
 
 fn headline(out: &mut String, subject: &Subject, checked: &[Checked], summaries: &[Summary]) {
-    let count = |v: Verdict| summaries.iter().filter(|s| s.verdict == v).count();
     let complete = checked.iter().all(|c| c.outcome.report.complete);
     let verdict = result(summaries, checked);
     let states: u128 = checked
@@ -107,26 +108,15 @@ fn headline(out: &mut String, subject: &Subject, checked: &[Checked], summaries:
     if !subject.title.is_empty() {
         let _ = writeln!(out, "{}", subject.title);
     }
-    let list: Vec<String> = [
-        Verdict::Violated,
-        Verdict::Unreachable,
-        Verdict::Inconclusive,
-        Verdict::Holds,
-        Verdict::Reached,
-        Verdict::Vacuous,
-    ]
-    .into_iter()
-    .filter(|v| count(*v) > 0)
-    .map(|v| format!("{} {}", count(v), verdict_name(v)))
-    .collect();
+    let list = counts(summaries);
     let _ = writeln!(
         out,
-        "{} properties{}, {} states, {} transitions, {}, {seconds:.1} s",
-        summaries.len(),
+        "{}{}, {} states, {} transitions, {}, {seconds:.1} s",
+        counted(summaries.len() as u64, "property"),
         if list.is_empty() {
             String::new()
         } else {
-            format!(" ({})", list.join(", "))
+            format!(" ({list})")
         },
         grouped(states),
         grouped(transitions),

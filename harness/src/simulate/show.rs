@@ -151,15 +151,7 @@ impl Simulation {
                 values: actual,
             },
         ];
-        let mut add = |name: &str, role, values: Vec<Option<f64>>| {
-            if values.iter().any(Option::is_some) {
-                curves.push(Curve {
-                    name: name.to_owned(),
-                    role,
-                    values,
-                });
-            }
-        };
+        let mut add = |name, role, values| add(&mut curves, name, role, values);
         if forwards {
             add("SG limit", Role::Upper, limited(1.0));
         }
@@ -208,15 +200,7 @@ impl Simulation {
             both.map(|(v, on)| v.filter(|_| *on).map(|v| v + tolerance))
                 .collect()
         };
-        let mut add = |name: &str, role, values: Vec<Option<f64>>| {
-            if values.iter().any(Option::is_some) {
-                curves.push(Curve {
-                    name: name.to_owned(),
-                    role,
-                    values,
-                });
-            }
-        };
+        let mut add = |name, role, values| add(&mut curves, name, role, values);
         add("SBH upper end", Role::Upper, window(1.0));
         add("SBH lower end", Role::Lower, window(-1.0));
         add(
@@ -385,6 +369,17 @@ impl Simulation {
 }
 
 /// A value as it stands in a lane.
+/// Adds a curve, where it has any value.
+fn add(curves: &mut Vec<Curve>, name: &str, role: Role, values: Vec<Option<f64>>) {
+    if values.iter().any(Option::is_some) {
+        curves.push(Curve {
+            name: name.to_owned(),
+            role,
+            values,
+        });
+    }
+}
+
 fn short(value: &Value) -> String {
     match value {
         Value::Text(text) => {

@@ -1,6 +1,7 @@
 //! Documents: blocks of text, tables and figures, to be written as one HTML page or as Markdown.
 
 mod html;
+mod make;
 mod markdown;
 
 use crate::diagram::Diagram;

@@ -15,29 +15,6 @@ pub(super) trait Cells: Copy + Send + Sync + 'static {
     fn store(self, cells: &mut [i32]);
 }
 
-/// Implements [`Cells`]: the fields of a state in their order, each with its way from a number and back.
-macro_rules! cells {
-    ($($state:ty, $count:literal { $($field:ident = $load:expr, $store:expr;)+ })+) => {$(
-        impl $crate::diff::peer::adapter::Cells for $state {
-            const COUNT: usize = $count;
-
-            fn load(cells: &[i32]) -> Self {
-                let mut cells = cells.iter().copied();
-                let mut next = || cells.next().unwrap_or(0);
-                Self { $($field: ($load)(next()),)+ }
-            }
-
-            fn store(self, cells: &mut [i32]) {
-                for (cell, value) in cells.iter_mut().zip([$(($store)(self.$field)),+]) {
-                    *cell = value;
-                }
-            }
-        }
-    )+};
-}
-
-pub(super) use cells;
-
 /// A monitor with its configuration.
 pub(super) struct Adapter {
     inputs: &'static [&'static str],
@@ -116,6 +93,43 @@ impl Adapter {
         self.kept.push((cell, state, condition));
         self
     }
+}
+
+/// Implements [`Cells`]: the fields of a state in their order, each with its way from a number and back.
+macro_rules! cells {
+    ($($state:ty, $count:literal { $($field:ident = $load:expr, $store:expr;)+ })+) => {$(
+        impl Cells for $state {
+            const COUNT: usize = $count;
+
+            fn load(cells: &[i32]) -> Self {
+                let mut cells = cells.iter().copied();
+                let mut next = || cells.next().unwrap_or(0);
+                Self { $($field: ($load)(next()),)+ }
+            }
+
+            fn store(self, cells: &mut [i32]) {
+                for (cell, value) in cells.iter_mut().zip([$(($store)(self.$field)),+]) {
+                    *cell = value;
+                }
+            }
+        }
+    )+};
+}
+
+pub(super) use cells;
+
+/// The state in the first of the cells; they are then the others.
+pub(super) fn take<S: Cells>(rest: &mut &[i32]) -> S {
+    let (own, others) = rest.split_at(S::COUNT.min(rest.len()));
+    *rest = others;
+    S::load(own)
+}
+
+/// Writes the state to the first of the cells; the others.
+pub(super) fn put<S: Cells>(state: S, cells: &mut [i32]) -> &mut [i32] {
+    let (own, others) = cells.split_at_mut(S::COUNT.min(cells.len()));
+    state.store(own);
+    others
 }
 
 impl Cells for () {

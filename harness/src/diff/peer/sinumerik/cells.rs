@@ -7,11 +7,7 @@ use stillpoint_monitors::sinumerik::{
 };
 
 use super::numbers::*;
-use crate::diff::peer::adapter::{Cells, cells};
-
-fn position(position: Position) -> i32 {
-    position.0
-}
+use crate::diff::peer::adapter::{Cells, cells, put, take};
 
 cells! {
     external::State, 2 {
@@ -122,16 +118,4 @@ impl Cells for channel::State {
         let rest = put(self.stop, rest);
         put(self.pulses, rest);
     }
-}
-
-fn take<S: Cells>(rest: &mut &[i32]) -> S {
-    let (own, others) = rest.split_at(S::COUNT.min(rest.len()));
-    *rest = others;
-    S::load(own)
-}
-
-fn put<S: Cells>(state: S, cells: &mut [i32]) -> &mut [i32] {
-    let (own, others) = cells.split_at_mut(S::COUNT.min(cells.len()));
-    state.store(own);
-    others
 }

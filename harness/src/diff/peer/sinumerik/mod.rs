@@ -8,8 +8,6 @@ mod monitoring;
 mod numbers;
 mod stops;
 
-use stillpoint_monitors::sinumerik::mutant::Mutant;
-
 use super::{Family, Made, Params};
 
 pub(super) static FAMILY: Family = Family {

@@ -1,4 +1,4 @@
-//! The values of the monitors as the numbers of the tables, and back.
+//! The values of these monitors as the numbers of their tables, and back.
 
 use stillpoint_monitors::sinumerik::level::{ExternalStop, InternalStop, Level};
 use stillpoint_monitors::sinumerik::selection::{FactorIndex, Mode, Monitored, Stage};

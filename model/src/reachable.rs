@@ -1,0 +1,76 @@
+//! All reachable states in order.
+
+use crate::crew::Watch;
+use crate::cursor::{Cursor, Leaf};
+use crate::explore::{Job, crew, on_store};
+use crate::process::{Any, Origin};
+use crate::report::{Error, Options, Storage};
+use crate::search::{Model, initial};
+use crate::store::Store;
+use crate::system::System;
+use std::ops::ControlFlow;
+
+/// Calls `each` with every reachable state, by depth and in the order of indices inside a depth. The answer says
+/// whether all reachable states were met.
+///
+/// # Errors
+/// As [`crate::explore`].
+pub fn reachable<S: System>(
+    system: &S,
+    options: &Options,
+    each: &mut dyn FnMut(&[i32]),
+) -> Result<bool, Error> {
+    let watch = Watch::new(options.limits);
+    on_store(
+        Any::new(system),
+        options,
+        &crew(options)?,
+        &watch,
+        Visit { each },
+    )
+}
+
+struct Visit<'a> {
+    each: &'a mut dyn FnMut(&[i32]),
+}
+
+impl Job<Any<'_>> for Visit<'_> {
+    type Output = bool;
+
+    fn run<T: Store>(
+        self,
+        model: &Model<Any, T::Key>,
+        mut store: T,
+        _: Storage,
+    ) -> Result<bool, Error> {
+        let mut state = vec![0; model.origin.domains().len()];
+        let mut workers: Vec<_> = (0..model.crew.size())
+            .map(|_| (Cursor::new(&model.origin), store.local()))
+            .collect();
+        let mut frontier = initial(model, &mut store)?;
+        while frontier > 0 && !model.watch.over(store.bytes()) {
+            for key in store.frontier() {
+                model.packer.unpack(key, &mut state);
+                (self.each)(&state);
+            }
+            let now = &store;
+            model
+                .crew
+                .share(&mut workers, now.pieces(), |(cursor, local), piece| {
+                    if model.watch.over(now.bytes()) {
+                        return;
+                    }
+                    now.each(piece, |key| {
+                        cursor.leaves(&model.packer, key, |_, _, leaf| {
+                            if let Leaf::To(after) = leaf {
+                                now.visit(local, after);
+                            }
+                            ControlFlow::Continue(())
+                        });
+                    });
+                });
+            frontier = store.advance(workers.iter_mut().map(|(_, local)| local).collect());
+        }
+        Ok(model.watch.stopped().is_none())
+    }
+}
