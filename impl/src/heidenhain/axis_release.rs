@@ -21,9 +21,13 @@ impl Config {
         })
     }
 
-    /// The time until standstill.
-    pub const fn t_ss2(&self) -> Cycles {
-        self.t_ss2
+    /// What a timer of this time starts with: one cycle at least.
+    pub const fn started(&self) -> Cycles {
+        if self.t_ss2.is_zero() {
+            Cycles::new(1)
+        } else {
+            self.t_ss2
+        }
     }
 }
 
@@ -63,7 +67,7 @@ impl State {
     /// A timer runs only while the axis brakes.
     #[cfg_attr(creusot, creusot_contracts::macros::logic)]
     pub fn invariant(&self, config: &Config) -> bool {
-        self.timer <= config.t_ss2 && (matches!(self.mode, Mode::Ss2) || self.timer.is_zero())
+        self.timer <= config.started() && (matches!(self.mode, Mode::Ss2) || self.timer.is_zero())
     }
 }
 
@@ -93,8 +97,7 @@ contract! {
     /// Without feed enable a moving axis brakes, in the cycle in which the enable goes, with its whole time.
     lost_enable_brakes ["HFS-P-48", "HFS-AXG-009", "HFS-SS2-011", "HFS-FAULT-023"]:
         when |s| s.inputs.group_released && s.before.mode == Mode::Released && !s.inputs.feed && s.inputs.moving
-            => s.after.mode == Mode::Ss2 && s.after.timer == s.config.t_ss2
-                && s.outputs.asks_ss1 == s.config.t_ss2.is_zero();
+            => s.after.mode == Mode::Ss2 && s.after.timer == s.config.started() && !s.outputs.asks_ss1;
 
     /// An axis that stands without feed enable is monitored for standstill; released it is only by the enable.
     release_needs_the_enable ["HFS-P-48", "HFS-AXG-010"]:
@@ -109,8 +112,8 @@ contract! {
 
     /// Braking ends in the monitoring for standstill, which is reported.
     braking_ends_at_rest ["HFS-AXG-009", "HFS-SS2-001"]:
-        when |s| s.inputs.group_released && s.before.mode != Mode::Sos && s.after.mode == Mode::Sos
-            => !s.inputs.moving && s.outputs.stands;
+        when |s| s.before.mode != Mode::Sos && s.after.mode == Mode::Sos
+            => (!s.inputs.moving || !s.inputs.group_released) && s.outputs.stands;
 
     /// Motion without enable from standstill is a fault.
     motion_without_enable_stops ["HFS-AXG-010", "HFS-SOS-002"]:
@@ -125,7 +128,7 @@ contract! {
     /// In a group that is not released no axis is.
     no_release_without_the_group ["HFS-AXG-009"]:
         when |s| !s.inputs.group_released
-            => s.after == State::INITIAL && s.outputs == Outputs::default();
+            => s.after == State::INITIAL && !s.outputs.asks_ss1;
 
     /// The step keeps the invariant and shows its state.
     state_stays_consistent ["HFS-AXG-009"]:
@@ -135,7 +138,11 @@ contract! {
 
 pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (State, Outputs) {
     if !inputs.group_released {
-        return (State::INITIAL, Outputs::default());
+        let outputs = Outputs {
+            stands: state.mode != Mode::Sos,
+            ..Outputs::default()
+        };
+        return (State::INITIAL, outputs);
     }
     let after = match state.mode {
         Mode::Ss2 if inputs.moving => State {
@@ -149,7 +156,7 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
         },
         Mode::Released if inputs.moving => State {
             mode: Mode::Ss2,
-            timer: config.t_ss2,
+            timer: config.started(),
         },
         Mode::Sos | Mode::Released => State::INITIAL,
     };

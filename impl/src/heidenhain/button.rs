@@ -113,7 +113,7 @@ contract! {
 
     /// An open contact ends the permission at once.
     open_contact_ends_it ["HFS-PB-001", "HFS-PB-006"]:
-        when |s| !s.inputs.pressed()
+        when |s| !s.inputs.pressed() && !s.inputs.power_on
             => s.after.button == Button::Released && !s.outputs.valid && !s.outputs.jammed;
 
     /// A press that is not valid stays so until it is released.
@@ -138,6 +138,11 @@ contract! {
         when |s| s.before.button == Button::Released && s.inputs.pressed() && !s.inputs.power_on && !s.inputs.unit_changes
             => s.outputs.valid && s.after.timer == s.config.t_max;
 
+    /// After power-up the button counts as held until its contacts have told otherwise.
+    power_up_needs_an_edge ["HFS-PB-006", "HFS-PB-001"]:
+        when |s| s.inputs.power_on
+            => s.after == State::INITIAL;
+
     /// No permission lives through a change of the operating unit.
     unit_change_ends_it ["HFS-PB-006", "HFS-HW-001"]:
         when |s| s.inputs.unit_changes
@@ -152,17 +157,14 @@ contract! {
 }
 
 pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (State, Outputs) {
-    let before = if inputs.power_on {
-        State::INITIAL
-    } else {
-        state
-    };
-    let left = match before.button {
+    let left = match state.button {
         Button::Released => config.t_max,
-        Button::Valid => before.timer.tick(),
+        Button::Valid => state.timer.tick(),
         Button::Jammed => Cycles::ZERO,
     };
-    let (button, timer) = if !inputs.pressed() {
+    let (button, timer) = if inputs.power_on {
+        (Button::Jammed, Cycles::ZERO)
+    } else if !inputs.pressed() {
         (Button::Released, Cycles::ZERO)
     } else if left.is_zero() || inputs.unit_changes {
         (Button::Jammed, Cycles::ZERO)

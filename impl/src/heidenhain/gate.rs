@@ -1,8 +1,9 @@
 //! What the kernel of one channel takes over from its safe PLC for one axis group: every field is checked against the codes
 //! of the interface, none is trusted.
 //!
-//! A code that does not exist, and restricted spindle operation for a group without spindle, is answered by SS1F; the field
-//! counts as the strictest value there is, and the whole request neither activates nor counts as permissive.
+//! A code that does not exist, and restricted spindle operation for a group without spindle, is answered by SS1F, and the
+//! whole request neither activates nor counts as permissive. A code that does not exist counts as the strictest value there
+//! is: STO, and SOM_1, in which no permissive counts for the check of an axis.
 
 pub use crate::contract::Stateless as State;
 use crate::heidenhain::types::{GroupState, Kind, Som, Stop};
@@ -47,7 +48,7 @@ pub struct Inputs {
 /// What the kernel goes on with.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Outputs {
-    /// The requested monitoring state; the strictest where the request is illegal.
+    /// The requested monitoring state; the strictest where its code does not exist.
     pub request: GroupState,
     /// The requested stop; SS1F where any field is illegal.
     pub stop: Stop,
@@ -80,10 +81,10 @@ contract! {
         when |s| GroupState::from_code(s.inputs.state_code).is_none()
             => s.outputs.request == GroupState::Sto;
 
-    /// A group without spindle that asks for restricted spindle operation gets SS1F, not the state.
+    /// A group without spindle that asks for restricted spindle operation gets SS1F and is not activated.
     spindle_mode_needs_a_spindle ["HFS-FAULT-008", "HFS-P-39"]:
         when |s| s.inputs.state_code == GroupState::SlsS.code() && s.config.kind != Kind::Spindle
-            => s.outputs.stop == Stop::Ss1F && s.outputs.request == GroupState::Sto && !s.outputs.starts;
+            => s.outputs.stop == Stop::Ss1F && !s.outputs.starts && !s.outputs.held;
 
     /// A mode that does not exist is SOM_1.
     unknown_mode_is_som_1 ["HFS-FAULT-006"]:
@@ -94,17 +95,14 @@ contract! {
 /// Whether every field is a code of the interface that a group of this kind may ask for.
 #[cfg_attr(creusot, creusot_contracts::macros::logic)]
 fn legal(config: &Config, inputs: &Inputs) -> bool {
-    requested(config, inputs).is_some()
+    let state = match GroupState::from_code(inputs.state_code) {
+        Some(GroupState::SlsS) => matches!(config.kind, Kind::Spindle),
+        Some(_) => true,
+        None => false,
+    };
+    state
         && Stop::from_code(inputs.stop_code).is_some()
         && Som::from_code(inputs.som_code).is_some()
-}
-
-/// The requested state, if a group of this kind may ask for it.
-fn requested(config: &Config, inputs: &Inputs) -> Option<GroupState> {
-    match GroupState::from_code(inputs.state_code) {
-        Some(GroupState::SlsS) if config.kind != Kind::Spindle => None,
-        state => state,
-    }
 }
 
 pub(crate) fn transition(_: State, config: &Config, inputs: &Inputs) -> (State, Outputs) {
@@ -114,7 +112,7 @@ pub(crate) fn transition(_: State, config: &Config, inputs: &Inputs) -> (State, 
         _ => Stop::Ss1F,
     };
     let outputs = Outputs {
-        request: requested(config, inputs).unwrap_or(GroupState::Sto),
+        request: GroupState::from_code(inputs.state_code).unwrap_or(GroupState::Sto),
         stop,
         som: Som::from_code(inputs.som_code).unwrap_or(Som::Som1),
         starts: inputs.activate && legal,

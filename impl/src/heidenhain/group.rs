@@ -1,8 +1,8 @@
 //! The monitoring state of one axis group in one channel (`NN_AxGrpState`).
 //!
 //! Steps after the stop of the group. A stricter request takes effect at once, a laxer one only with an activation from
-//! standstill: closing a door never starts a motion. While a stop brakes along the emergency ramp the state stays what it
-//! was, and so do its limits.
+//! standstill: closing a door never starts a motion. While a stop runs the state stays what it was, and so do its limits; a
+//! limit may still be added.
 //!
 //! Recommended readings of the manual implemented here: AMB-07 STO_O, AMB-09, AMB-56 KEEP, AMB-66 KEEP, AMB-72 SS1 (a request
 //! for torque off in motion leaves the state to the stop that follows).
@@ -109,78 +109,105 @@ pub struct Outputs {
     pub state: GroupState,
     /// The limits of SLS_2 and SLS_3 apply together.
     pub both: bool,
-    /// The group is released and no stop brakes it.
+    /// The group is released; a stop may brake it all the same.
     pub may_move: bool,
 }
 
 pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (State, Outputs) {
-    let before = if inputs.main_switch {
-        State::INITIAL
-    } else {
-        state
-    };
+    let before = state.state;
     let next = match inputs.phase {
+        _ if inputs.main_switch => GroupState::Sto,
         // A soft end must not lift a torque off that needs the operator.
-        Phase::TorqueOff if inputs.soft && before.state != GroupState::Sto => GroupState::StoO,
+        Phase::TorqueOff if inputs.soft && before != GroupState::Sto => GroupState::StoO,
         Phase::TorqueOff => GroupState::Sto,
-        Phase::EmergencyBrake | Phase::BrakeCloses => before.state,
-        Phase::Run | Phase::Ss2Wait | Phase::Ss2Brake | Phase::Ss1DWait => {
-            controlled(before.state, config, inputs)
-        }
+        Phase::Run => free(before, config, inputs),
+        Phase::Ss2Wait
+        | Phase::Ss2Brake
+        | Phase::Ss1DWait
+        | Phase::EmergencyBrake
+        | Phase::BrakeCloses => limit(before, config, inputs),
     };
     let changed = matches!(
-        (before.state, next),
+        (before, next),
         (GroupState::Sls2, GroupState::Sls3) | (GroupState::Sls3, GroupState::Sls2)
     );
-    let limits = matches!(next, GroupState::Sls2 | GroupState::Sls3);
+    let slow = matches!(next, GroupState::Sls2 | GroupState::Sls3);
+    // While a stop runs, standing still for a moment does not end the common limit.
+    let kept = state.both && (inputs.moving || inputs.phase != Phase::Run);
     let after = State {
         state: next,
-        both: limits && inputs.moving && (before.both || changed),
+        both: slow && (kept || (changed && inputs.moving)),
     };
     let outputs = Outputs {
         state: after.state,
         both: after.both,
-        may_move: after.state.is_released()
-            && matches!(inputs.phase, Phase::Run | Phase::Ss2Wait | Phase::Ss1DWait),
+        may_move: after.state.is_released(),
     };
     (after, outputs)
 }
 
-/// The state of a group that no emergency ramp brakes.
-fn controlled(before: GroupState, config: &Config, inputs: &Inputs) -> GroupState {
-    let strict = match inputs.request {
-        GroupState::StoO | GroupState::Sto if !inputs.moving => inputs.request,
-        _ => GroupState::Auto,
-    };
-    match before {
-        GroupState::Sto => leave_torque_off(config, inputs),
-        GroupState::Sos | GroupState::StoO => {
-            if releases(config, inputs) {
-                inputs.request
-            } else {
-                before.stricter(strict)
-            }
+/// The state while a stop runs: what it was, to which a limit may still be added.
+fn limit(before: GroupState, config: &Config, inputs: &Inputs) -> GroupState {
+    use GroupState::{Auto, Sls2, Sls3, Sls4, SlsS};
+    let permitted = config.may_release(inputs.request);
+    match (before, inputs.request) {
+        (Auto, Sls2 | Sls3 | Sls4 | SlsS) | (Sls2 | Sls3 | Sls4, SlsS) if permitted => {
+            inputs.request
         }
-        _ if inputs.ss2_ended => rest(config, inputs).stricter(strict),
-        _ => released(before, config, inputs).stricter(strict),
+        _ => before,
     }
 }
 
-/// The standstill state: that of axes also for a spindle, where its stop key and SMP549 ask for it.
-const fn rest(config: &Config, inputs: &Inputs) -> GroupState {
-    if inputs.spindle_stop {
-        GroupState::Sos
+/// The state of a group without a stop.
+fn free(before: GroupState, config: &Config, inputs: &Inputs) -> GroupState {
+    if before == GroupState::Sto {
+        return leave_torque_off(config, inputs);
+    }
+    if before.is_released() && inputs.ss2_ended {
+        return rest(config, inputs);
+    }
+    if inputs.request.strictness() >= GroupState::Sos.strictness() {
+        return stand(before, config, inputs);
+    }
+    if before.is_released() {
+        released(before, config, inputs)
+    } else if releases(config, inputs) {
+        inputs.request
     } else {
-        config.rest()
+        before
+    }
+}
+
+/// The state at the end of an SS2: the standstill state, or the stricter one that is requested. A spindle stays under control
+/// where its stop key and SMP549 ask for it and no standstill is requested.
+fn rest(config: &Config, inputs: &Inputs) -> GroupState {
+    match inputs.request {
+        GroupState::Sto | GroupState::StoO => inputs.request,
+        GroupState::Sos => config.rest(),
+        _ if inputs.spindle_stop => GroupState::Sos,
+        _ => config.rest(),
+    }
+}
+
+/// The state where standstill or torque off is requested. In motion a stop follows, and the limits stay until then.
+fn stand(before: GroupState, config: &Config, inputs: &Inputs) -> GroupState {
+    let asked = match inputs.request {
+        GroupState::Sos => config.rest(),
+        request => request,
+    };
+    // A spindle that is under control by its stop key stays so.
+    let stricter = inputs.request.strictness() > before.strictness();
+    if stricter && !inputs.moving {
+        asked
+    } else {
+        before
     }
 }
 
 /// STO is left by the operator's edge only, and not while a stop of rank SS1 is asked for.
 fn leave_torque_off(config: &Config, inputs: &Inputs) -> GroupState {
-    let switched = inputs.switch_on
-        && inputs.phase == Phase::Run
-        && inputs.demand < Stop::Ss1D
-        && inputs.request != GroupState::Sto;
+    let switched =
+        inputs.switch_on && inputs.demand < Stop::Ss1D && inputs.request != GroupState::Sto;
     match inputs.request {
         _ if !switched => GroupState::Sto,
         GroupState::StoO => GroupState::StoO,
@@ -188,30 +215,28 @@ fn leave_torque_off(config: &Config, inputs: &Inputs) -> GroupState {
     }
 }
 
-/// A standing group is released by an activation without any stop; with the door open the self-test must be in force.
+/// An activation without any stop; with the door open the self-test must be in force.
 fn releases(config: &Config, inputs: &Inputs) -> bool {
     inputs.activate
-        && inputs.phase == Phase::Run
         && inputs.demand == Stop::None
         && config.may_release(inputs.request)
         && (inputs.gen_safe || inputs.request == GroupState::Auto)
 }
 
-/// The next state of a released group by its request; torque off is looked after by the caller.
+/// The next state of a released group by a request for a released one.
 fn released(before: GroupState, config: &Config, inputs: &Inputs) -> GroupState {
-    use GroupState::{Auto, Sls2, Sls3, Sls4, SlsS, Sos};
-    let standing = if inputs.moving {
-        None
-    } else {
-        Some(config.rest())
-    };
-    match (before, inputs.request) {
-        // In motion a stop follows; the limits stay until then.
-        (_, Sos) => standing.unwrap_or(before),
-        (Auto, request) if config.may_release(request) => request,
-        (Sls2 | Sls3, Sls2 | Sls3) => inputs.request,
-        (Sls2 | Sls3 | Sls4, SlsS) if config.may_release(SlsS) => standing.unwrap_or(SlsS),
-        (SlsS, Sls2 | Sls3 | Sls4) => standing.unwrap_or(SlsS),
+    use GroupState::{Auto, Sls2, Sls3, Sls4, SlsS};
+    let request = inputs.request;
+    match (before, request) {
+        (Auto, _) if config.may_release(request) => request,
+        (Sls2 | Sls3, Sls2 | Sls3) => request,
+        (Sls2 | Sls3 | Sls4, SlsS) | (SlsS, Sls2 | Sls3 | Sls4) if config.may_release(SlsS) => {
+            if inputs.moving {
+                SlsS
+            } else {
+                config.rest()
+            }
+        }
         (_, Auto) if releases(config, inputs) => Auto,
         _ => before,
     }

@@ -133,7 +133,8 @@ pub struct Inputs {
     pub untested: bool,
 }
 
-/// The outputs of one cycle: which causes there are, and the highest of them.
+/// The outputs of one cycle: which causes there are, and the highest of them. In the cycle of the main switch nothing
+/// follows from the causes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Outputs {
     /// A fault of the request: SS1F.
@@ -146,11 +147,36 @@ pub struct Outputs {
     pub asks_ss2: bool,
     /// SS2 of the axis groups of the working space.
     pub stops_axes: bool,
-    /// The highest cause.
+    /// The highest of the causes and of the requested stop.
     pub demand: Stop,
 }
 
+impl Outputs {
+    /// The stop for the highest of the causes.
+    const fn highest(&self) -> Stop {
+        if self.asks_ss1f {
+            Stop::Ss1F
+        } else if self.asks_ss1 {
+            Stop::Ss1
+        } else if self.asks_ss1d {
+            Stop::Ss1D
+        } else if self.asks_ss2 {
+            Stop::Ss2
+        } else {
+            Stop::None
+        }
+    }
+}
+
 impl Inputs {
+    /// The stop that the safe PLC asks for; there is no code for SS0, so it would be a wrong one.
+    const fn requested_stop(&self) -> Stop {
+        match self.stop_request {
+            Stop::Ss0 => Stop::Ss1F,
+            stop => stop,
+        }
+    }
+
     /// The request makes the group stricter than its state by taking the release away.
     const fn ends_release(&self) -> bool {
         match self.request {
@@ -160,20 +186,16 @@ impl Inputs {
         }
     }
 
-    /// The door has just been opened: a limit is requested of a group at full speed.
-    const fn door_opens(&self) -> bool {
-        matches!(self.state, GroupState::Auto) && self.request.is_limited()
-    }
-
     /// A spindle in this situation needs its permissive to go on: as the door opens, and then in all but SOM_4 at the panel
     /// and restricted operation.
     const fn needs_permissive(&self) -> bool {
         match self.state {
             GroupState::Sls2 | GroupState::Sls3 => true,
             GroupState::Sls4 => matches!(self.unit, Unit::Handwheel),
-            GroupState::Auto => {
-                self.request.is_limited() && !matches!(self.request, GroupState::SlsS)
-            }
+            GroupState::Auto => matches!(
+                self.request,
+                GroupState::Sls2 | GroupState::Sls3 | GroupState::Sls4
+            ),
             _ => false,
         }
     }
@@ -190,42 +212,32 @@ const fn modes(before: Modes, request: GroupState) -> Modes {
 }
 
 pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (State, Outputs) {
-    let before = if inputs.main_switch {
-        State::INITIAL
-    } else {
-        state
-    };
+    let place = Place::of(inputs.unit);
+    let modes = modes(state.modes, inputs.request);
     let spindle = config.kind == Kind::Spindle;
-    let after = State {
-        modes: modes(before.modes, inputs.request),
-        place: Place::of(inputs.unit),
-    };
-    let crossed =
-        before.modes != Modes::None && after.modes != Modes::None && after.modes != before.modes;
-    let limited = inputs.state.is_limited();
+    let released = inputs.state.is_released();
     let lost = inputs.moving && !inputs.permissive;
-    let asks_ss1f = inputs.bad_code
-        || crossed
-        || (inputs.request == GroupState::SlsS && !spindle)
-        || inputs.stop_request >= Stop::Ss1F;
+    let crossed = state.modes != Modes::None && modes != Modes::None && modes != state.modes;
+    let by_hand = inputs.unit == Unit::Handwheel
+        && matches!(
+            inputs.state,
+            GroupState::Sls2 | GroupState::Sls3 | GroupState::Sls4
+        );
+    let asks_ss1f = inputs.bad_code || crossed || (inputs.request == GroupState::SlsS && !spindle);
     let asks_ss1 = (inputs.moving && inputs.ends_release())
         || (inputs.request == GroupState::Sls4 && !config.som_4);
     let asks_ss1d = spindle && lost && inputs.needs_permissive();
-    let asks_ss2 = (!spindle && lost && limited && inputs.unit == Unit::Handwheel)
-        || after.place != before.place
-        || (inputs.idle && !inputs.permissive)
-        || (!inputs.gen_safe && (limited || inputs.door_opens()))
-        || inputs.untested;
-    let demand = if asks_ss1f {
-        Stop::Ss1F
-    } else if asks_ss1 {
-        Stop::Ss1
-    } else if asks_ss1d {
-        Stop::Ss1D
-    } else if asks_ss2 {
-        Stop::Ss2
+    // The door is open where anything but AUTO is requested.
+    let overdue = inputs.request != GroupState::Auto && !inputs.gen_safe;
+    let asks_ss2 = (!spindle && lost && by_hand)
+        || (released && (place != state.place || overdue || inputs.idle || inputs.untested));
+    let after = if inputs.main_switch {
+        State {
+            modes: Modes::None,
+            place,
+        }
     } else {
-        Stop::None
+        State { modes, place }
     };
     let outputs = Outputs {
         asks_ss1f,
@@ -233,11 +245,12 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
         asks_ss1d,
         asks_ss2,
         stops_axes: asks_ss1d,
-        demand: demand.max(if asks_ss1f {
-            Stop::Ss1F
-        } else {
-            inputs.stop_request
-        }),
+        demand: Stop::None,
     };
-    (after, outputs)
+    let demand = if inputs.main_switch {
+        Stop::None
+    } else {
+        outputs.highest().max(inputs.requested_stop())
+    };
+    (after, Outputs { demand, ..outputs })
 }

@@ -36,6 +36,7 @@
 //! | [`self_checks`] | reactions to faults that the kernel finds in itself | - |
 //! | [`start_checks`] | configuration while the control boots | - |
 //! | [`parameters`] | safe machine parameters, checked and converted: no step | - |
+//! | [`channel`] | the monitors of one axis group in one channel, wired to each other | - |
 //! | [`types`] | stops, monitoring states, modes in their priority: no step | - |
 //!
 //! Conventions common to the modules of this family:
@@ -43,9 +44,9 @@
 //! * One call is one HSCI cycle of 3 ms, the same for all monitors. Durations are [`Cycles`](crate::kernel::Cycles).
 //! * Monitors judge with the monitoring state valid at the start of the cycle; of all causes of a cycle the highest stop
 //!   wins; a stop beats a release, a stricter request beats a laxer one (HFS-STOP-009).
-//! * A timer started with t expires t cycles after the cycle of its start; t = 0 expires in the cycle of the start.
-//! * `main_switch` and `power_on` (main switch off and on) first set everything volatile to its initial value; then the
-//!   cycle is evaluated with its other inputs.
+//! * A timer started with t expires t cycles after the cycle of its start; it runs for one cycle at least, also with t = 0.
+//! * `main_switch` and `power_on` (main switch off and on) set everything volatile to its initial value; their cycle does
+//!   nothing else, what its other inputs ask for counts from the next one on.
 //! * A signal that is missing must be the one that stops: an output that permits is `true` only when it was worked out.
 
 pub mod acceptance;
@@ -55,6 +56,7 @@ pub mod axis_release;
 pub mod both_channels;
 pub mod brakes;
 pub mod button;
+pub mod channel;
 pub mod comparison;
 pub mod deceleration;
 pub mod gate;

@@ -102,10 +102,9 @@ contract! {
     /// SOM_4 is selected only where it is enabled, and only from SOM_1 with the keys neutral since any other mode.
     som_4_comes_from_som_1 ["HFS-P-21", "HFS-KSW-002", "HFS-MODE-006", "HFS-MODE-007", "HFS-FAULT-015"]:
         when |s| s.outputs.som == Som::Som4
-            => s.config.som_4 && !s.inputs.deselected
-                && (s.inputs.power_on
-                    || (matches!(s.before.som, Som::Som1 | Som::Som4)
-                        && matches!(s.before.last, Som::Som1 | Som::Som4) && !s.before.refused));
+            => s.config.som_4 && !(s.inputs.deselected && s.before.som == Som::Som4) && !s.inputs.power_on
+                && matches!(s.before.som, Som::Som1 | Som::Som4)
+                && matches!(s.before.last, Som::Som1 | Som::Som4) && !s.before.refused;
 
     /// After SOM_4 comes SOM_1 and nothing else.
     after_som_4_comes_som_1 ["HFS-P-21", "HFS-KSW-002", "HFS-MODE-006", "HFS-MODE-020"]:
@@ -120,24 +119,24 @@ contract! {
 
     /// With neutral keys the mode is SOM_1 and nothing is refused any more.
     neutral_keys_give_som_1 ["HFS-P-22", "HFS-KSW-001", "HFS-KSW-006"]:
-        when |s| s.inputs.neutral()
+        when |s| s.inputs.neutral() || s.inputs.power_on
             => s.after == State::INITIAL;
 
     /// The soft key leaves SOM_4 until its key has been turned back.
     soft_key_leaves_som_4 ["HFS-MODE-006", "HFS-MODE-020"]:
         when |s| !s.inputs.power_on && (s.before.refused || (s.before.som == Som::Som4 && s.inputs.deselected))
-            && s.inputs.key_4
+            && s.inputs.wish() == Som::Som4
             => s.outputs.som == Som::Som1 && s.after.refused;
 
     /// An input alone selects its mode when nothing stands against it.
     key_selects_its_mode ["HFS-KSW-001", "HFS-P-46"]:
-        when |s| !s.inputs.power_on && s.before == State::INITIAL && !s.inputs.deselected
+        when |s| !s.inputs.power_on && s.before == State::INITIAL
             && (s.config.som_4 || s.inputs.wish() != Som::Som4)
             => s.outputs.som == s.inputs.wish();
 
     /// Every change is reported, whatever it is.
     every_change_is_reported ["HFS-KSW-003", "HFS-MODE-019", "HFS-API-021"]:
-        when |s| !s.inputs.power_on
+        when |s| s.outputs.som != s.before.som || s.outputs.changed
             => s.outputs.changed == (s.outputs.som != s.before.som);
 
     /// The step keeps the invariant and shows its state.
@@ -147,38 +146,30 @@ contract! {
 }
 
 pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (State, Outputs) {
-    let before = if inputs.power_on {
+    let after = if inputs.power_on || inputs.neutral() {
         State::INITIAL
     } else {
-        state
-    };
-    let after = if inputs.neutral() {
-        State::INITIAL
-    } else {
-        select(before, config, inputs)
+        select(state, config, inputs)
     };
     let outputs = Outputs {
         som: after.som,
-        changed: after.som != before.som,
+        changed: after.som != state.som,
     };
     (after, outputs)
 }
 
 /// The mode while an input is active.
 fn select(before: State, config: &Config, inputs: &Inputs) -> State {
-    let left = before.som == Som::Som4 && inputs.deselected;
+    let wish = inputs.wish();
+    // The soft key leaves SOM_4; where the keylock leaves it already there is nothing to refuse.
+    let left = wish == Som::Som4 && before.som == Som::Som4 && inputs.deselected;
     let refused = inputs.key_4 && (before.refused || left);
-    let granted = match inputs.wish() {
+    let granted = match wish {
         Som::Som1 => false,
         Som::Som2 | Som::Som3 => before.last != Som::Som4,
-        Som::Som4 => {
-            config.som_4
-                && !refused
-                && !inputs.deselected
-                && matches!(before.last, Som::Som1 | Som::Som4)
-        }
+        Som::Som4 => config.som_4 && !refused && matches!(before.last, Som::Som1 | Som::Som4),
     };
-    let som = if granted { inputs.wish() } else { Som::Som1 };
+    let som = if granted { wish } else { Som::Som1 };
     let last = if granted { som } else { before.last };
     State { som, last, refused }
 }

@@ -21,7 +21,7 @@ impl Config {
     /// The longest time accepted: 30 s.
     pub const LONGEST: Cycles = Cycles::new(10_000);
 
-    /// `t_idle`: the time after which a standing group is stopped, 1 cycle to [`Config::LONGEST`]. The manual fixes it to 3 s
+    /// `t_idle`: the number of standing cycles after which a standing group is stopped, 1 cycle to [`Config::LONGEST`]. The manual fixes it to 3 s
     /// ([`Config::STANDARD`]).
     ///
     /// # Errors
@@ -82,14 +82,14 @@ pub struct Outputs {
 }
 
 contract! {
-    /// A group that has stood for the time and still stands is stopped, unless a permissive is held.
+    /// A group that has stood for the time is stopped as long as it stands, unless a permissive is held.
     long_standstill_stops ["HFS-USTART-001", "HFS-USTART-002", "HFS-USTART-004"]:
-        when |s| stands(&s.inputs) && s.before.timer == s.config.t_idle && !s.inputs.permissive
+        when |s| stands(&s.inputs) && s.before.timer.count() + 1 >= s.config.t_idle.count() && !s.inputs.permissive
             => s.outputs.idle;
 
     /// Nothing else stops it: not a closed door, another mode, motion, a shorter standstill or a held permissive.
     nothing_else_stops ["HFS-USTART-002", "HFS-USTART-003"]:
-        when |s| !stands(&s.inputs) || s.before.timer < s.config.t_idle || s.inputs.permissive
+        when |s| !stands(&s.inputs) || s.before.timer.count() + 1 < s.config.t_idle.count() || s.inputs.permissive
             => !s.outputs.idle;
 
     /// Each cycle of standstill counts, up to the limit.
@@ -118,13 +118,8 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
     if !stands(inputs) {
         return (State::INITIAL, Outputs { idle: false });
     }
-    let over = state.timer >= config.t_idle;
-    let timer = if over {
-        config.t_idle
-    } else {
-        // Below a time of at most 10000 cycles.
-        Cycles::new(state.timer.count().saturating_add(1))
-    };
-    let idle = over && !inputs.permissive;
+    let stood = Cycles::new(state.timer.count().saturating_add(1));
+    let timer = stood.min(config.t_idle);
+    let idle = timer == config.t_idle && !inputs.permissive;
     (State { timer }, Outputs { idle })
 }

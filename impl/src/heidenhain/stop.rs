@@ -10,8 +10,10 @@
 //! readings of the manual implemented here: AMB-02 MACHINE (an SS1 after a failed SS2 is found by the kernel), AMB-06 BOTH
 //! (SS2 waits as well), AMB-07 STO_O, AMB-44 EDGE (the restart is a fresh edge, found outside), AMB-73 FROM_REQUEST.
 //!
-//! The standstill of a group that is asked for an SS2 ends it in the same cycle. An SS2 that comes to stand in the very
-//! cycle in which its time is up has ended in time; so has an SS1 whose torque is off in that cycle.
+//! The standstill of a group that is asked for an SS2 ends it in the same cycle. A braking SS2 that comes to stand in the
+//! very cycle in which its time is up has ended in time; so has an SS1 whose torque is off in that cycle. A group that waits
+//! for others is not braked by its own stop; a request for SS1D takes the place of an SS2 that waits, with its time, while
+//! one that brakes goes on.
 
 use crate::heidenhain::types::{Phase, Stop};
 use crate::kernel::{ConfigError, Cycles};
@@ -73,6 +75,11 @@ impl Config {
     }
 }
 
+/// What a timer of this time starts with: one cycle at least.
+pub const fn started(time: Cycles) -> Cycles {
+    if time.is_zero() { Cycles::new(1) } else { time }
+}
+
 /// The state between two cycles.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct State {
@@ -84,10 +91,8 @@ pub struct State {
     pub timer: Cycles,
     /// What is left of the overlap of the brake while it closes, else 0.
     pub brake: Cycles,
-    /// The SS1 concerns the whole machine.
+    /// The SS1 that brakes concerns the whole machine: it stops the other groups too.
     pub wide: bool,
-    /// An SS1D waits while the SS2 before it goes on braking.
-    pub contour: bool,
 }
 
 impl State {
@@ -98,33 +103,33 @@ impl State {
         timer: Cycles::ZERO,
         brake: Cycles::ZERO,
         wide: false,
-        contour: false,
     };
 
     /// Level, phase and timers belong together.
     #[cfg_attr(creusot, creusot_contracts::macros::logic)]
     pub fn invariant(&self, config: &Config) -> bool {
         let timed = !self.timer.is_zero();
+        let (t_ss1, t_ss2) = (started(config.t_ss1), started(config.t_ss2));
         let fits = match self.phase {
             Phase::Run => self.level == Stop::None && !timed,
             Phase::Ss2Wait | Phase::Ss2Brake => {
-                self.level == Stop::Ss2 && timed && self.timer <= config.t_ss2
+                self.level == Stop::Ss2 && timed && self.timer <= t_ss2
             }
-            // Its own wait has no time; that of an SS2 before it runs on.
-            Phase::Ss1DWait => self.level == Stop::Ss1D && self.timer <= config.t_ss2,
+            // Its own wait has no time; that of an SS2 that goes on braking runs on.
+            Phase::Ss1DWait => self.level == Stop::Ss1D && self.timer <= t_ss2,
             Phase::EmergencyBrake | Phase::BrakeCloses => {
                 matches!(self.level, Stop::Ss1D | Stop::Ss1 | Stop::Ss1F)
                     && timed
-                    && self.timer <= config.t_ss1
+                    && self.timer <= t_ss1
             }
             Phase::TorqueOff => self.level >= Stop::Ss1D && !timed,
         };
         let closes = matches!(self.phase, Phase::BrakeCloses);
+        let ramp = closes || matches!(self.phase, Phase::EmergencyBrake);
         fits && closes != self.brake.is_zero()
-            && self.brake <= config.t_brake
+            && self.brake <= started(config.t_brake)
             && (config.cc || !closes)
-            && (!self.wide || self.level >= Stop::Ss1)
-            && (!self.contour || matches!(self.phase, Phase::Ss1DWait))
+            && (!self.wide || (ramp && self.level >= Stop::Ss1))
     }
 }
 
@@ -154,7 +159,7 @@ pub struct Outputs {
     pub level: Stop,
     /// What it is doing.
     pub phase: Phase,
-    /// The SS1 concerns the whole machine.
+    /// The SS1 that brakes concerns the whole machine: it stops the other groups too.
     pub wide: bool,
     /// -STO.A.x or -STO.B.x is 0.
     pub torque_off: bool,
@@ -177,137 +182,145 @@ pub struct Outputs {
 }
 
 pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (State, Outputs) {
-    let held = if inputs.main_switch {
+    if inputs.main_switch {
+        return (State::INITIAL, Outputs::default());
+    }
+    let restarted = restarts(state, inputs);
+    let after = if restarted {
         State::INITIAL
     } else {
-        state
+        stopped(state, config, inputs)
     };
-    let restarted = restarts(held, inputs);
-    let before = if restarted { State::INITIAL } else { held };
-    let asked = rise(before, config, inputs);
-    let mut after = advance(before, asked, config, inputs);
-    after.wide |= inputs.wide_cause && inputs.demand >= Stop::Ss1 && after.level >= Stop::Ss1;
-    let ss2_ended = after.level == Stop::None && asked.level == Stop::Ss2;
+    let controlled = matches!(state.phase, Phase::Run | Phase::Ss2Brake);
+    let asked = state.level == Stop::Ss2 || inputs.demand == Stop::Ss2;
+    let ss2_ended = after.level == Stop::None && controlled && asked;
     (after, outputs(after, ss2_ended, restarted))
 }
 
-/// The operator's restart counts after an ended SS1 or SS1D, and while nothing of that rank is asked for.
+/// The operator's restart counts after an ended SS1, and while nothing of that rank is asked for; an SS1D that has ended in
+/// both channels needs no restart.
 fn restarts(state: State, inputs: &Inputs) -> bool {
-    inputs.restart
-        && state.phase == Phase::TorqueOff
+    let soft_end = state.level == Stop::Ss1D && inputs.peer_off;
+    state.phase == Phase::TorqueOff
         && state.level < Stop::Ss1F
         && inputs.demand < Stop::Ss1D
+        && (inputs.restart || soft_end)
 }
 
-/// The stop that counts now, with the timers of one that has just been asked for.
-fn rise(before: State, config: &Config, inputs: &Inputs) -> State {
-    if inputs.demand <= before.level {
-        return before;
+/// One cycle of a stop, or of the wait for one.
+fn stopped(before: State, config: &Config, inputs: &Inputs) -> State {
+    let level = before.level.max(inputs.demand);
+    let raised = State { level, ..before };
+    if inputs.demand == Stop::Ss0 {
+        return torque_off(raised);
     }
-    let demand = inputs.demand;
-    let level = State {
-        level: demand,
-        ..before
-    };
-    match demand {
-        Stop::None => before,
-        Stop::Ss2 => State {
-            phase: Phase::Ss2Wait,
-            timer: config.t_ss2,
-            ..level
-        },
-        Stop::Ss1D => State {
-            phase: Phase::Ss1DWait,
-            contour: before.phase == Phase::Ss2Brake,
-            ..level
-        },
-        Stop::Ss1 | Stop::Ss1F => match before.phase {
-            // The ramp and its timers go on; torque that is off stays off.
-            Phase::EmergencyBrake | Phase::BrakeCloses | Phase::TorqueOff => level,
-            _ => emergency(level, config),
-        },
-        Stop::Ss0 => torque_off(level),
+    match before.phase {
+        Phase::TorqueOff => raised,
+        Phase::EmergencyBrake | Phase::BrakeCloses => brake(
+            State {
+                wide: before.wide || widens(inputs),
+                ..raised
+            },
+            config,
+            inputs,
+        ),
+        _ if level >= Stop::Ss1 => emergency(level, widens(inputs), config),
+        _ if level == Stop::Ss1D => delay(before, config, inputs),
+        Phase::Ss2Wait => wait(before, config, inputs),
+        Phase::Ss2Brake if inputs.still => State::INITIAL,
+        Phase::Ss2Brake => run(before.phase, before.timer, config),
+        Phase::Run | Phase::Ss1DWait => start(config, inputs),
     }
 }
 
-/// What the stop does in this cycle: `before` is the state of the cycle before, `asked` has the stop that counts now.
-fn advance(before: State, asked: State, config: &Config, inputs: &Inputs) -> State {
-    match asked.phase {
-        Phase::Run | Phase::TorqueOff => asked,
-        Phase::Ss2Wait | Phase::Ss2Brake => {
-            let phase = if inputs.listed_still || asked.phase == Phase::Ss2Brake {
-                Phase::Ss2Brake
-            } else {
-                Phase::Ss2Wait
-            };
-            let timer = run(before.level == asked.level, asked.timer);
-            if phase == Phase::Ss2Brake && inputs.still {
-                State::INITIAL
-            } else if timer.is_zero() {
-                failed_ss2(asked, config)
-            } else {
-                State {
-                    phase,
-                    timer,
-                    ..asked
-                }
-            }
-        }
-        Phase::Ss1DWait => {
-            let timed = !asked.timer.is_zero();
-            let timer = asked.timer.tick();
-            if inputs.listed_still {
-                emergency(asked, config)
-            } else if timed && timer.is_zero() {
-                failed_ss2(asked, config)
-            } else {
-                State { timer, ..asked }
-            }
-        }
-        Phase::EmergencyBrake | Phase::BrakeCloses => {
-            // A ramp that has just begun keeps its whole time.
-            if before.phase == asked.phase {
-                brake(asked, config, inputs)
-            } else {
-                asked
-            }
-        }
-    }
+/// An SS1 is asked for that concerns the whole machine; SS1F and SS0 do so by themselves.
+fn widens(inputs: &Inputs) -> bool {
+    inputs.wide_cause && inputs.demand == Stop::Ss1
 }
 
-/// A timer that runs already is one cycle shorter; one that has just been started keeps its time.
-const fn run(running: bool, timer: Cycles) -> Cycles {
-    if running { timer.tick() } else { timer }
-}
-
-/// The emergency ramp begins; without any time for it the torque goes at once, by SS0.
-fn emergency(state: State, config: &Config) -> State {
-    let ramp = State {
-        phase: Phase::EmergencyBrake,
-        timer: config.t_ss1,
-        contour: false,
-        ..state
-    };
-    if config.t_ss1.is_zero() {
-        torque_off(State {
-            level: Stop::Ss0,
-            ..ramp
-        })
+/// An SS2, if one is asked for: it waits for the listed groups, brakes, or has ended where the group stands.
+fn start(config: &Config, inputs: &Inputs) -> State {
+    let timer = started(config.t_ss2);
+    let phase = if inputs.listed_still {
+        Phase::Ss2Brake
     } else {
-        ramp
+        Phase::Ss2Wait
+    };
+    if inputs.demand < Stop::Ss2 || (inputs.listed_still && inputs.still) {
+        State::INITIAL
+    } else {
+        State {
+            level: Stop::Ss2,
+            phase,
+            timer,
+            ..State::INITIAL
+        }
+    }
+}
+
+/// One cycle of an SS2 that waits for the listed groups. Its time runs from the request.
+fn wait(before: State, config: &Config, inputs: &Inputs) -> State {
+    let phase = if inputs.listed_still {
+        Phase::Ss2Brake
+    } else {
+        Phase::Ss2Wait
+    };
+    run(phase, before.timer, config)
+}
+
+/// One cycle of the time of an SS2; when it is up the SS2 has failed.
+fn run(phase: Phase, timer: Cycles, config: &Config) -> State {
+    let timer = timer.tick();
+    if timer.is_zero() {
+        failed_ss2(config)
+    } else {
+        State {
+            level: Stop::Ss2,
+            phase,
+            timer,
+            ..State::INITIAL
+        }
     }
 }
 
 /// An SS2 that has not come to stand in its time is an SS1, found by the kernel: of the whole machine.
-fn failed_ss2(state: State, config: &Config) -> State {
-    emergency(
+fn failed_ss2(config: &Config) -> State {
+    emergency(Stop::Ss1, true, config)
+}
+
+/// One cycle of an SS1D: it waits for the listed groups, and an SS2 that was braking goes on until the group stands.
+fn delay(before: State, config: &Config, inputs: &Inputs) -> State {
+    let braking = matches!(before.phase, Phase::Ss2Brake | Phase::Ss1DWait)
+        && !before.timer.is_zero()
+        && !inputs.still;
+    let timer = if braking {
+        before.timer.tick()
+    } else {
+        Cycles::ZERO
+    };
+    if braking && timer.is_zero() {
+        failed_ss2(config)
+    } else if inputs.listed_still {
+        emergency(Stop::Ss1D, false, config)
+    } else {
         State {
-            level: Stop::Ss1,
-            wide: true,
-            ..state
-        },
-        config,
-    )
+            level: Stop::Ss1D,
+            phase: Phase::Ss1DWait,
+            timer,
+            ..State::INITIAL
+        }
+    }
+}
+
+/// The emergency ramp begins.
+fn emergency(level: Stop, wide: bool, config: &Config) -> State {
+    State {
+        level,
+        phase: Phase::EmergencyBrake,
+        timer: started(config.t_ss1),
+        wide,
+        ..State::INITIAL
+    }
 }
 
 /// One cycle of an SS1: the brake closes at standstill (channel B) or the other channel reports (channel A), and its time
@@ -315,13 +328,13 @@ fn failed_ss2(state: State, config: &Config) -> State {
 fn brake(state: State, config: &Config, inputs: &Inputs) -> State {
     let timer = state.timer.tick();
     let closing = state.phase == Phase::BrakeCloses;
-    let left = if closing {
+    let brake = if closing {
         state.brake.tick()
     } else {
-        config.t_brake
+        started(config.t_brake)
     };
     let done = if config.cc {
-        (closing || inputs.still) && left.is_zero()
+        closing && brake.is_zero()
     } else {
         inputs.peer_off
     };
@@ -336,7 +349,7 @@ fn brake(state: State, config: &Config, inputs: &Inputs) -> State {
         State {
             phase: Phase::BrakeCloses,
             timer,
-            brake: left,
+            brake,
             ..state
         }
     } else {
@@ -347,11 +360,9 @@ fn brake(state: State, config: &Config, inputs: &Inputs) -> State {
 /// Torque off, at the end of a stop or at once.
 fn torque_off(state: State) -> State {
     State {
+        level: state.level,
         phase: Phase::TorqueOff,
-        timer: Cycles::ZERO,
-        brake: Cycles::ZERO,
-        contour: false,
-        ..state
+        ..State::INITIAL
     }
 }
 
@@ -363,7 +374,8 @@ fn outputs(state: State, ss2_ended: bool, restarted: bool) -> Outputs {
         wide: state.wide,
         torque_off: off,
         brake_closed: off || state.phase == Phase::BrakeCloses,
-        on_contour: state.phase == Phase::Ss2Brake || state.contour,
+        on_contour: state.phase == Phase::Ss2Brake
+            || (state.phase == Phase::Ss1DWait && !state.timer.is_zero()),
         emergency_ramp: state.phase == Phase::EmergencyBrake,
         brake_listed: matches!(state.phase, Phase::Ss2Wait | Phase::Ss1DWait),
         needs_switch: state.level >= Stop::Ss1F,

@@ -15,29 +15,6 @@ pub(super) trait Cells: Copy + Send + Sync + 'static {
     fn store(self, cells: &mut [i32]);
 }
 
-/// Implements [`Cells`]: the fields of a state in their order, each with its way from a number and back.
-macro_rules! cells {
-    ($($state:ty, $count:literal { $($field:ident = $load:expr, $store:expr;)+ })+) => {$(
-        impl $crate::diff::peer::adapter::Cells for $state {
-            const COUNT: usize = $count;
-
-            fn load(cells: &[i32]) -> Self {
-                let mut cells = cells.iter().copied();
-                let mut next = || cells.next().unwrap_or(0);
-                Self { $($field: ($load)(next()),)+ }
-            }
-
-            fn store(self, cells: &mut [i32]) {
-                for (cell, value) in cells.iter_mut().zip([$(($store)(self.$field)),+]) {
-                    *cell = value;
-                }
-            }
-        }
-    )+};
-}
-
-pub(super) use cells;
-
 /// A monitor with its configuration.
 pub(super) struct Adapter {
     inputs: &'static [&'static str],
@@ -117,6 +94,29 @@ impl Adapter {
         self
     }
 }
+
+/// Implements [`Cells`]: the fields of a state in their order, each with its way from a number and back.
+macro_rules! cells {
+    ($($state:ty, $count:literal { $($field:ident = $load:expr, $store:expr;)+ })+) => {$(
+        impl Cells for $state {
+            const COUNT: usize = $count;
+
+            fn load(cells: &[i32]) -> Self {
+                let mut cells = cells.iter().copied();
+                let mut next = || cells.next().unwrap_or(0);
+                Self { $($field: ($load)(next()),)+ }
+            }
+
+            fn store(self, cells: &mut [i32]) {
+                for (cell, value) in cells.iter_mut().zip([$(($store)(self.$field)),+]) {
+                    *cell = value;
+                }
+            }
+        }
+    )+};
+}
+
+pub(super) use cells;
 
 /// The state in the first of the cells; they are then the others.
 pub(super) fn take<S: Cells>(rest: &mut &[i32]) -> S {

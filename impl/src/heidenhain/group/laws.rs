@@ -12,14 +12,6 @@ const fn held(step: &Step) -> GroupState {
     }
 }
 
-/// No stop brakes the group or has taken its torque; it may wait.
-const fn controlled(phase: Phase) -> bool {
-    matches!(
-        phase,
-        Phase::Run | Phase::Ss2Wait | Phase::Ss2Brake | Phase::Ss1DWait
-    )
-}
-
 contract! {
     /// A standing group is released only by an activation without any stop, in the state that is requested.
     release_needs_an_activation ["HFS-P-12", "HFS-AXG-004", "HFS-AXG-005", "HFS-API-005"]:
@@ -38,22 +30,16 @@ contract! {
         when |s| !held(&s).is_released() && !s.inputs.gen_safe
             => !s.outputs.state.is_limited();
 
-    /// Opening the door puts the limit in force in the same cycle.
+    /// Opening the door puts the limit in force in the same cycle, also while a stop runs.
     opening_a_door_limits_at_once ["HFS-P-08", "HFS-P-10", "HFS-AXG-006", "HFS-SLS-006"]:
-        when |s| held(&s) == GroupState::Auto && controlled(s.inputs.phase) && !s.inputs.ss2_ended
+        when |s| held(&s) == GroupState::Auto && s.inputs.phase != Phase::TorqueOff && !s.inputs.ss2_ended
             && s.inputs.request.is_limited() && s.config.may_release(s.inputs.request)
             => s.outputs.state == s.inputs.request;
 
-    /// Standstill asked for of a released group that stands is in force in the same cycle.
-    standstill_is_in_force_at_once ["HFS-P-08", "HFS-P-09", "HFS-SOS-004", "HFS-SOS-006"]:
-        when |s| held(&s).is_released() && s.inputs.request == GroupState::Sos && !s.inputs.moving
-            && controlled(s.inputs.phase)
-            => !s.outputs.state.is_released();
-
-    /// Torque off asked for of a group that stands is in force in the same cycle; an activation does not help.
-    torque_off_is_in_force_at_once ["HFS-P-08", "HFS-AXG-017", "HFS-TH-001"]:
-        when |s| matches!(s.inputs.request, GroupState::StoO | GroupState::Sto) && !s.inputs.moving
-            && held(&s) != GroupState::Sto && controlled(s.inputs.phase)
+    /// Standstill or torque off asked for of a group that stands is in force in the same cycle; an activation does not help.
+    standstill_is_in_force_at_once ["HFS-P-08", "HFS-P-09", "HFS-SOS-004", "HFS-SOS-006", "HFS-AXG-017", "HFS-TH-001"]:
+        when |s| matches!(s.inputs.request, GroupState::Sos | GroupState::StoO | GroupState::Sto) && !s.inputs.moving
+            && held(&s) != GroupState::Sto && s.inputs.phase == Phase::Run
             => s.outputs.state.strictness() >= s.inputs.request.strictness();
 
     /// In motion a request for standstill or torque off leaves the limits as they are, until the stop that follows.
@@ -62,14 +48,16 @@ contract! {
             && matches!(s.inputs.request, GroupState::Sos | GroupState::StoO | GroupState::Sto)
             => s.outputs.state == held(&s);
 
-    /// An emergency ramp leaves the state as it was.
-    ramp_keeps_the_state ["HFS-AXG-001", "HFS-STOP-011", "HFS-P-50"]:
-        when |s| matches!(s.inputs.phase, Phase::EmergencyBrake | Phase::BrakeCloses)
-            => s.outputs.state == held(&s) && !s.outputs.may_move;
+    /// While a stop runs the state stays; only a limit is added.
+    stop_keeps_the_state ["HFS-AXG-001", "HFS-STOP-011", "HFS-P-50"]:
+        when |s| !matches!(s.inputs.phase, Phase::Run | Phase::TorqueOff)
+            => s.outputs.state == held(&s)
+                || (held(&s).is_released() && s.outputs.state.is_limited()
+                    && s.outputs.state.strictness() > held(&s).strictness() && s.outputs.state == s.inputs.request);
 
     /// Torque off ends in STO; after an SS1D in STO_O, unless the group was in STO.
     torque_off_is_sto ["HFS-AXG-008", "HFS-SS1D-003", "HFS-STO-006"]:
-        when |s| s.inputs.phase == Phase::TorqueOff
+        when |s| s.inputs.phase == Phase::TorqueOff && !s.inputs.main_switch
             => s.outputs.state == if s.inputs.soft && held(&s) != GroupState::Sto {
                 GroupState::StoO
             } else {
@@ -78,9 +66,10 @@ contract! {
 
     /// The end of an SS2 is the standstill state: SOS for axes, torque off for a spindle unless its stop key asks for SOS.
     ss2_ends_at_rest ["HFS-AXG-008", "HFS-AXG-011", "HFS-SS2-001", "HFS-SS2-002", "HFS-SS2-006"]:
-        when |s| held(&s).is_released() && s.inputs.ss2_ended && controlled(s.inputs.phase)
+        when |s| held(&s).is_released() && s.inputs.ss2_ended && s.inputs.phase == Phase::Run
             && !matches!(s.inputs.request, GroupState::StoO | GroupState::Sto)
-            => s.outputs.state == if s.config.kind() == Kind::Spindle && !s.inputs.spindle_stop {
+            => s.outputs.state == if s.config.kind() == Kind::Spindle
+                && !(s.inputs.spindle_stop && s.inputs.request != GroupState::Sos) {
                 GroupState::StoO
             } else {
                 GroupState::Sos
@@ -114,16 +103,15 @@ contract! {
             && s.inputs.phase != Phase::TorqueOff && s.inputs.request != GroupState::Auto
             => s.outputs.state == GroupState::SlsS;
 
-    /// The main switch leads to STO; torque comes by the operator's edge only.
+    /// The main switch leads to STO.
     main_switch_leads_to_sto ["HFS-AXG-002"]:
-        when |s| s.inputs.main_switch && !s.inputs.switch_on
+        when |s| s.inputs.main_switch
             => s.outputs.state == GroupState::Sto;
 
-    /// Only a released group that no stop brakes may move.
+    /// Only a released group with torque may move.
     motion_needs_the_release ["HFS-P-12", "HFS-AXG-004"]:
         when |s| s.outputs.may_move
-            => s.outputs.state.is_released()
-                && !matches!(s.inputs.phase, Phase::EmergencyBrake | Phase::BrakeCloses | Phase::TorqueOff);
+            => s.outputs.state.is_released() && s.inputs.phase != Phase::TorqueOff && !s.inputs.main_switch;
 
     /// The step keeps the invariant and shows its state.
     state_stays_consistent ["HFS-AXG-001"]:

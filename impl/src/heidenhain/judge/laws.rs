@@ -6,18 +6,27 @@ use crate::heidenhain::types::{GroupState, Kind, Stop, Unit};
 contract! {
     /// The demand is the highest of the causes and of the requested stop.
     demand_is_the_highest_cause ["HFS-STOP-009", "HFS-FAULT-018", "HFS-SS1-001"]:
-        when |s| s.outputs.demand != Stop::None
-            => (s.outputs.demand == Stop::Ss1F) == s.outputs.asks_ss1f
+        when |s| !s.inputs.main_switch
+            => s.outputs.demand >= s.inputs.stop_request.min(Stop::Ss1F)
+                && (!s.outputs.asks_ss1f || s.outputs.demand >= Stop::Ss1F)
                 && (!s.outputs.asks_ss1 || s.outputs.demand >= Stop::Ss1)
                 && (!s.outputs.asks_ss1d || s.outputs.demand >= Stop::Ss1D)
-                && (!s.outputs.asks_ss2 || s.outputs.demand >= Stop::Ss2)
-                && (s.outputs.demand >= s.inputs.stop_request || s.inputs.stop_request == Stop::Ss0)
-                && (s.outputs.asks_ss1f || s.outputs.asks_ss1 || s.outputs.asks_ss1d || s.outputs.asks_ss2
-                    || s.outputs.demand == s.inputs.stop_request);
+                && (!s.outputs.asks_ss2 || s.outputs.demand >= Stop::Ss2);
+
+    /// Nothing is demanded without a cause or a request, and never SS0.
+    demand_needs_a_cause ["HFS-STOP-009", "HFS-SS0-002"]:
+        when |s| s.outputs.demand != Stop::None
+            => match s.outputs.demand {
+                Stop::None | Stop::Ss0 => false,
+                Stop::Ss2 => s.outputs.asks_ss2 || s.inputs.stop_request == Stop::Ss2,
+                Stop::Ss1D => s.outputs.asks_ss1d || s.inputs.stop_request == Stop::Ss1D,
+                Stop::Ss1 => s.outputs.asks_ss1 || s.inputs.stop_request == Stop::Ss1,
+                Stop::Ss1F => s.outputs.asks_ss1f || s.inputs.stop_request >= Stop::Ss1F,
+            };
 
     /// A request that is no code, SS0 and SS1F of the safe PLC are SS1F.
     bad_request_is_ss1f ["HFS-FAULT-001", "HFS-FAULT-006", "HFS-API-018", "HFS-SS0-002"]:
-        when |s| s.inputs.bad_code || s.inputs.stop_request >= Stop::Ss1F
+        when |s| (s.inputs.bad_code || s.inputs.stop_request >= Stop::Ss1F) && !s.inputs.main_switch
             => s.outputs.demand == Stop::Ss1F;
 
     /// SOM_4 after SOM_2 or SOM_3, and the reverse, without SOS or AUTO between is SS1F.
@@ -29,24 +38,23 @@ contract! {
 
     /// What was requested is remembered until SOS or AUTO is requested.
     mode_is_remembered ["HFS-FAULT-007"]:
-        when |s| s.inputs.request != s.inputs.state
+        when |s| !s.inputs.main_switch
             => match s.inputs.request {
                 GroupState::Auto | GroupState::Sos => s.after.modes == Modes::None,
                 GroupState::Sls2 | GroupState::Sls3 => s.after.modes == Modes::Low,
                 GroupState::Sls4 => s.after.modes == Modes::High,
-                GroupState::SlsS | GroupState::StoO | GroupState::Sto =>
-                    s.inputs.main_switch || s.after.modes == s.before.modes,
+                GroupState::SlsS | GroupState::StoO | GroupState::Sto => s.after.modes == s.before.modes,
             };
 
     /// Restricted spindle operation of a group without spindle is SS1F.
     spindle_mode_needs_a_spindle ["HFS-FAULT-008", "HFS-P-39"]:
-        when |s| s.inputs.request == GroupState::SlsS && s.config.kind() != Kind::Spindle
+        when |s| s.inputs.request == GroupState::SlsS && s.config.kind() != Kind::Spindle && !s.inputs.main_switch
             => s.outputs.demand == Stop::Ss1F;
 
     /// SOM_4 that is not enabled is at least SS1.
     som_4_must_be_enabled ["HFS-FAULT-015", "HFS-MODE-007"]:
-        when |s| s.inputs.request == GroupState::Sls4 && !s.config.som_4()
-            => s.outputs.demand >= Stop::Ss1;
+        when |s| s.inputs.request == GroupState::Sls4 && !s.config.som_4() && !s.inputs.main_switch
+            => s.outputs.asks_ss1 && s.outputs.demand >= Stop::Ss1;
 
     /// Standstill asked for in motion is SS1: the door was opened in SOM_1.
     standstill_in_motion_is_ss1 ["HFS-SOS-004", "HFS-FAULT-014", "HFS-MODE-015", "HFS-P-08", "HFS-P-09"]:
@@ -64,7 +72,7 @@ contract! {
         when |s| s.config.kind() == Kind::Spindle && s.inputs.moving && !s.inputs.permissive
             && (matches!(s.inputs.state, GroupState::Sls2 | GroupState::Sls3)
                 || (s.inputs.state == GroupState::Sls4 && s.inputs.unit == Unit::Handwheel))
-            => s.outputs.asks_ss1d && s.outputs.stops_axes && s.outputs.demand >= Stop::Ss1D;
+            => s.outputs.asks_ss1d && s.outputs.stops_axes;
 
     /// So does a spindle that turns without permissive as its door is opened.
     opened_door_stops_the_spindle ["HFS-MODE-011", "HFS-AXG-007"]:
@@ -82,22 +90,23 @@ contract! {
     /// Axes moved by handwheel without permissive stop.
     handwheel_needs_the_permissive ["HFS-AXG-015", "HFS-FAULT-026", "HFS-HW-002"]:
         when |s| s.config.kind() != Kind::Spindle && s.inputs.moving && !s.inputs.permissive
-            && s.inputs.state.is_limited() && s.inputs.unit == Unit::Handwheel
+            && matches!(s.inputs.state, GroupState::Sls2 | GroupState::Sls3 | GroupState::Sls4)
+            && s.inputs.unit == Unit::Handwheel
             => s.outputs.asks_ss2;
 
-    /// A change between panel, handwheel and reference run stops the group.
+    /// A change between panel, handwheel and reference run stops a released group.
     change_of_unit_stops ["HFS-SS2-008", "HFS-HW-004", "HFS-FAULT-025", "HFS-AXG-013"]:
-        when |s| !s.inputs.main_switch && Place::of(s.inputs.unit) != s.before.place
-            => s.outputs.asks_ss2 && s.outputs.demand >= Stop::Ss2 && s.after.place == Place::of(s.inputs.unit);
+        when |s| Place::of(s.inputs.unit) != s.before.place && s.inputs.state.is_released()
+            => s.outputs.asks_ss2 && s.after.place == Place::of(s.inputs.unit);
 
-    /// With the door open an overdue self-test stops the group.
+    /// With the door open an overdue self-test stops a released group.
     overdue_test_stops ["HFS-P-30", "HFS-P-51", "HFS-FAULT-017", "HFS-TEST-031"]:
-        when |s| !s.inputs.gen_safe && s.inputs.state.is_limited()
+        when |s| !s.inputs.gen_safe && s.inputs.state.is_released() && s.inputs.request != GroupState::Auto
             => s.outputs.asks_ss2;
 
-    /// The start-up protection and a moving axis that is not checked stop the group.
+    /// The start-up protection and a moving axis that is not checked stop a released group.
     monitors_stop ["HFS-USTART-001", "HFS-P-19"]:
-        when |s| (s.inputs.idle && !s.inputs.permissive) || s.inputs.untested
+        when |s| (s.inputs.idle || s.inputs.untested) && s.inputs.state.is_released()
             => s.outputs.asks_ss2;
 
     /// A group that stands, in an allowed mode and with nothing amiss, is not stopped.

@@ -30,7 +30,7 @@ pub(super) fn gate_grants_spindle_mode(
 ) -> (gate::State, gate::Outputs) {
     let (after, mut outputs) = gate::transition(state, config, inputs);
     if inputs.state_code == GroupState::SlsS.code() && config.kind() != Kind::Spindle {
-        outputs.request = GroupState::SlsS;
+        outputs.stop = Stop::from_code(inputs.stop_code).unwrap_or(Stop::Ss1F);
     }
     (after, outputs)
 }

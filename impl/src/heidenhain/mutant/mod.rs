@@ -11,6 +11,7 @@ macro_rules! variants {
     )+};
 }
 
+mod composing;
 mod groups;
 mod interface;
 mod machine;
@@ -105,6 +106,15 @@ mutants! { heidenhain:
         OutputEnableAnySs1 "output-enable-any-ss1" => machine::output_enable_any_ss1;
         /// There is no deadline.
         OutputEnableNoDeadline "output-enable-no-deadline" => machine::output_enable_no_deadline;
+    }
+    /// The channel with this mutant in it.
+    fn channel {
+        /// A permission that is merely on restarts.
+        ChannelPermitsByLevel "channel-permits-by-level" => composing::channel_permits_by_level;
+        /// A stop that the other channel tells is not taken over.
+        ChannelMissesTold "channel-misses-told" => composing::channel_misses_told;
+        /// The requests of the other channel are taken to be the own ones.
+        ChannelAlone "channel-alone" => composing::channel_alone;
     }
     /// The limited speed with this mutant in it.
     fn speed {

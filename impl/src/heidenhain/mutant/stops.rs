@@ -2,6 +2,7 @@
 
 use crate::heidenhain::stop;
 use crate::heidenhain::types::{Phase, Stop};
+use crate::kernel::Cycles;
 
 pub(super) fn stop_reloads_timer(
     state: stop::State,
@@ -14,7 +15,7 @@ pub(super) fn stop_reloads_timer(
         && state.level != Stop::Ss1F
         && matches!(after.phase, Phase::EmergencyBrake | Phase::BrakeCloses)
     {
-        after.timer = config.t_ss1();
+        after.timer = stop::started(config.t_ss1());
     }
     (after, outputs)
 }
@@ -26,7 +27,7 @@ pub(super) fn stop_leaves_contour(
 ) -> (stop::State, stop::Outputs) {
     let (mut after, mut outputs) = stop::transition(state, config, inputs);
     if after.phase == Phase::Ss1DWait {
-        after.contour = false;
+        after.timer = Cycles::ZERO;
         outputs.on_contour = false;
     }
     (after, outputs)

@@ -25,25 +25,25 @@ pub fn stop_state<S: Source>(source: &mut S, config: &stop::Config) -> Option<st
         Phase::Run => {}
         Phase::Ss2Wait | Phase::Ss2Brake => {
             state.level = Stop::Ss2;
-            state.timer = source.any_cycles(config.t_ss2());
+            state.timer = source.any_cycles(stop::started(config.t_ss2()));
         }
         Phase::Ss1DWait => {
             state.level = Stop::Ss1D;
-            state.timer = source.any_cycles(config.t_ss2());
-            state.contour = source.any_bool();
+            state.timer = source.any_cycles(stop::started(config.t_ss2()));
         }
         Phase::EmergencyBrake | Phase::BrakeCloses => {
             state.level = source.any_of(&[Stop::Ss1D, Stop::Ss1, Stop::Ss1F]);
-            state.timer = source.any_cycles(config.t_ss1());
+            state.timer = source.any_cycles(stop::started(config.t_ss1()));
             if phase == Phase::BrakeCloses {
-                state.brake = source.any_cycles(config.t_brake());
+                state.brake = source.any_cycles(stop::started(config.t_brake()));
             }
         }
         Phase::TorqueOff => {
             state.level = source.any_of(&[Stop::Ss1D, Stop::Ss1, Stop::Ss1F, Stop::Ss0]);
         }
     }
-    state.wide = state.level >= Stop::Ss1 && source.any_bool();
+    let ramp = matches!(phase, Phase::EmergencyBrake | Phase::BrakeCloses);
+    state.wide = ramp && state.level >= Stop::Ss1 && source.any_bool();
     state.invariant(config).then_some(state)
 }
 
@@ -163,7 +163,7 @@ pub fn axis_release<S: Source>(
         ..axis_release::State::INITIAL
     };
     if mode == Mode::Ss2 {
-        state.timer = source.any_cycles(config.t_ss2());
+        state.timer = source.any_cycles(config.started());
     }
     let inputs = axis_release::Inputs {
         group_released: source.any_bool(),

@@ -1,11 +1,13 @@
 //! Monitors of HEIDENHAIN Functional Safety.
 
+mod composing;
 mod groups;
 mod interface;
 mod machine;
 mod service;
 mod watching;
 
+pub use composing::*;
 pub use groups::*;
 pub use interface::*;
 pub use machine::*;

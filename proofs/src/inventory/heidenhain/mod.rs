@@ -1,5 +1,6 @@
 //! Harnesses of the monitors of HEIDENHAIN Functional Safety.
 
+mod composing;
 mod groups;
 mod interface;
 mod machine;
@@ -7,10 +8,11 @@ mod service;
 mod watching;
 
 /// The lists of this family.
-pub(super) static ENTRIES: [&[super::Entry]; 5] = [
+pub(super) static ENTRIES: [&[super::Entry]; 6] = [
     interface::ENTRIES,
     groups::ENTRIES,
     machine::ENTRIES,
     watching::ENTRIES,
     service::ENTRIES,
+    composing::ENTRIES,
 ];

@@ -62,4 +62,6 @@ monitors! { heidenhain:
     switch_on
     /// Permission of the outputs.
     output_enable
+    /// The channel.
+    channel
 }

@@ -5,16 +5,15 @@ use stillpoint_monitors::heidenhain::{
 };
 
 use super::numbers::{self, *};
-use crate::diff::peer::adapter::cells;
+use crate::diff::peer::adapter::{Cells, cells};
 
 cells! {
-    stop::State, 6 {
+    stop::State, 5 {
         level = numbers::stop, |s| ordinal(&Stop::ALL, s);
         phase = phase, |p| ordinal(&Phase::ALL, p);
         timer = cycles, cell;
         brake = cycles, cell;
         wide = truthy, i32::from;
-        contour = truthy, i32::from;
     }
     judge::State, 2 {
         modes = |c| value(&judge::Modes::ALL, c), |m| ordinal(&judge::Modes::ALL, m);

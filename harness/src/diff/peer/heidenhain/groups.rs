@@ -6,6 +6,7 @@ use stillpoint_monitors::heidenhain::{axis_release, group, judge, startup, stop 
 use super::numbers::{self, *};
 use crate::diff::peer::adapter::Adapter;
 use crate::diff::peer::{Made, Params, Refusable};
+use crate::diff::product::Values;
 
 /// The monitor of a machine of this topic.
 pub(super) fn make(machine: &str, p: &Params, mutant: Option<Mutant>) -> Made {
@@ -23,7 +24,7 @@ fn stops(p: &Params, mutant: Option<Mutant>) -> Refusable {
     let (t_ss1, t_ss2, t_brake) = (p.time("t_ss1"), p.time("t_ss2"), p.time("t_brake"));
     let config = stops::Config::new(p.is("cc"), t_ss1, t_ss2, t_brake)?;
     let next = mutant.map_or(stops::next as stops::Next, Mutant::stop);
-    let longest = p.value("t_ss1").max(p.value("t_ss2"));
+    let longest = p.value("t_ss1").max(p.value("t_ss2")).max(1);
     Ok(Adapter::new(
         &[
             "main_switch",
@@ -52,8 +53,7 @@ fn stops(p: &Params, mutant: Option<Mutant>) -> Refusable {
             upto(5),
             upto(6),
             upto(longest),
-            upto(p.value("t_brake")),
-            truth(),
+            upto(p.value("t_brake").max(1)),
             truth(),
         ],
         stops::State::INITIAL,
@@ -139,7 +139,9 @@ fn judge(p: &Params, mutant: Option<Mutant>) -> Refusable {
             ]);
             after
         },
-    ))
+    )
+    // There is no code for SS0.
+    .only(&["stop_request"], Values::List(&[0, 1, 2, 3, 4])))
 }
 
 fn group(p: &Params, mutant: Option<Mutant>) -> Refusable {
@@ -214,7 +216,7 @@ fn axis_release(p: &Params, mutant: Option<Mutant>) -> Refusable {
     Ok(Adapter::new(
         &["group_released", "feed", "moving"],
         &["mode", "asks_ss1", "stands"],
-        vec![upto(2), upto(p.value("t_ss2"))],
+        vec![upto(2), upto(p.value("t_ss2").max(1))],
         axis_release::State::INITIAL,
         move |state, i, o| {
             let inputs = axis_release::Inputs {

@@ -9,10 +9,6 @@ use stillpoint_monitors::sinumerik::{
 use super::numbers::*;
 use crate::diff::peer::adapter::{Cells, cells, put, take};
 
-fn position(position: Position) -> i32 {
-    position.0
-}
-
 cells! {
     external::State, 2 {
         started = truthy, i32::from;
