@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use stillpoint::diff::peer::Mutant;
 use stillpoint::diff::product::Product;
 use stillpoint::diff::random::Random;
 use stillpoint::diff::slices::slices;
