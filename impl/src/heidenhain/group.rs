@@ -56,7 +56,7 @@ impl Config {
 pub struct State {
     /// The monitoring state.
     pub state: GroupState,
-    /// The limits of SLS_2 and SLS_3 apply together, until the group stands.
+    /// The mode has changed in motion: the limits of SLS_2 and SLS_3 apply together, until the group stands.
     pub both: bool,
 }
 
@@ -70,7 +70,7 @@ impl State {
     /// Both limits apply in one of their states only; restricted operation is for spindles.
     #[cfg_attr(creusot, creusot_contracts::macros::logic)]
     pub const fn invariant(&self, config: &Config) -> bool {
-        (!self.both || matches!(self.state, GroupState::Sls2 | GroupState::Sls3))
+        (!self.both || is_sls(self.state))
             && (!self.state.is_released() || config.may_release(self.state))
     }
 }
@@ -127,16 +127,12 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
         | Phase::EmergencyBrake
         | Phase::BrakeCloses => limit(before, config, inputs),
     };
-    let changed = matches!(
-        (before, next),
-        (GroupState::Sls2, GroupState::Sls3) | (GroupState::Sls3, GroupState::Sls2)
-    );
-    let slow = matches!(next, GroupState::Sls2 | GroupState::Sls3);
+    let changed = is_sls(before) && is_sls(next) && before != next;
     // While a stop runs, standing still for a moment does not end the common limit.
     let kept = state.both && (inputs.moving || inputs.phase != Phase::Run);
     let after = State {
         state: next,
-        both: slow && (kept || (changed && inputs.moving)),
+        both: is_sls(next) && (kept || (changed && inputs.moving)),
     };
     let outputs = Outputs {
         state: after.state,
@@ -144,6 +140,14 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
         may_move: after.state.is_released(),
     };
     (after, outputs)
+}
+
+/// Limited speed of one of the modes SOM_2 to SOM_4.
+const fn is_sls(state: GroupState) -> bool {
+    matches!(
+        state,
+        GroupState::Sls2 | GroupState::Sls3 | GroupState::Sls4
+    )
 }
 
 /// The state while a stop runs: what it was, to which a limit may still be added.
@@ -229,7 +233,8 @@ fn released(before: GroupState, config: &Config, inputs: &Inputs) -> GroupState 
     let request = inputs.request;
     match (before, request) {
         (Auto, _) if config.may_release(request) => request,
-        (Sls2 | Sls3, Sls2 | Sls3) => request,
+        // Between SOM_4 and the others the door was closed meanwhile; a direct change is SS1F and does not come here.
+        (Sls2 | Sls3 | Sls4, Sls2 | Sls3 | Sls4) => request,
         (Sls2 | Sls3 | Sls4, SlsS) | (SlsS, Sls2 | Sls3 | Sls4) if config.may_release(SlsS) => {
             if inputs.moving {
                 SlsS

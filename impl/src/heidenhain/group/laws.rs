@@ -89,12 +89,11 @@ contract! {
             => s.inputs.activate && s.inputs.request == GroupState::Auto && s.inputs.demand == Stop::None
                 && s.inputs.phase == Phase::Run;
 
-    /// After a change between SOM_2 and SOM_3 in motion both limits apply until the group stands.
+    /// After a change of the mode in motion the limits of SOM_2 and SOM_3 apply together until the group stands.
     both_limits_until_standstill ["HFS-AXG-018"]:
-        when |s| s.inputs.moving && matches!(
-            (held(&s), s.outputs.state),
-            (GroupState::Sls2, GroupState::Sls3) | (GroupState::Sls3, GroupState::Sls2)
-        )
+        when |s| s.inputs.moving && held(&s) != s.outputs.state
+            && matches!(held(&s), GroupState::Sls2 | GroupState::Sls3 | GroupState::Sls4)
+            && matches!(s.outputs.state, GroupState::Sls2 | GroupState::Sls3 | GroupState::Sls4)
             => s.outputs.both;
 
     /// A turning spindle leaves restricted operation for no other limit.

@@ -101,7 +101,11 @@ pub fn judge<S: Source>(source: &mut S) -> Option<(judge::State, judge::Config, 
 /// Any consistent monitoring state.
 pub fn group_state<S: Source>(source: &mut S, config: &group::Config) -> Option<group::State> {
     let state = source.any_of(&GroupState::ALL);
-    let both = matches!(state, GroupState::Sls2 | GroupState::Sls3) && source.any_bool();
+    let slow = matches!(
+        state,
+        GroupState::Sls2 | GroupState::Sls3 | GroupState::Sls4
+    );
+    let both = slow && source.any_bool();
     let state = group::State { state, both };
     state.invariant(config).then_some(state)
 }
