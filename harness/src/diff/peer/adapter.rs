@@ -98,7 +98,7 @@ impl Adapter {
 /// Implements [`Cells`]: the fields of a state in their order, each with its way from a number and back.
 macro_rules! cells {
     ($($state:ty, $count:literal { $($field:ident = $load:expr, $store:expr;)+ })+) => {$(
-        impl Cells for $state {
+        impl $crate::diff::peer::adapter::Cells for $state {
             const COUNT: usize = $count;
 
             fn load(cells: &[i32]) -> Self {
