@@ -5,7 +5,7 @@ use stillpoint_monitors::heidenhain::{
 };
 
 use super::numbers::{self, *};
-use crate::diff::peer::adapter::{Cells, cells};
+use crate::diff::peer::adapter::cells;
 
 cells! {
     stop::State, 5 {
