@@ -1,7 +1,7 @@
 //! What was configured: the values of a machine file, or the parameters of a specification.
 
 use stillpoint_show::document::{Block, Inline};
-use stillpoint_spec::machine::{AxisKind, Machine, Settings};
+use stillpoint_spec::machine::{AxisKind, Machine, Shown};
 
 use super::document::{code, paragraph, section, table, words};
 use crate::subject::Subject;
@@ -19,7 +19,11 @@ pub(super) fn blocks(subject: &Subject) -> Vec<Block> {
     ))];
     out.push(Block::List(coverage(machine)));
     if !machine.control.is_empty() {
-        out.push(section("Control", "control", settings(&machine.control)));
+        out.push(section(
+            "Control",
+            "control",
+            settings(&machine.control_shown()),
+        ));
     }
     for (n, axis) in machine.axes.iter().enumerate() {
         let kind = match axis.kind {
@@ -37,7 +41,7 @@ pub(super) fn blocks(subject: &Subject) -> Vec<Block> {
             false => format!("; enabled: {}", axis.functions.join(", ")),
         };
         let mut inside = vec![paragraph(format!("A {kind}{functions}."))];
-        inside.extend(settings(&axis.values));
+        inside.extend(settings(&machine.axis_shown(axis)));
         out.push(section(&title, &format!("axis-{}", n + 1), inside));
     }
     for (n, group) in machine.axis_groups.iter().enumerate() {
@@ -47,7 +51,7 @@ pub(super) fn blocks(subject: &Subject) -> Vec<Block> {
         };
         let axes: Vec<&str> = group.axes.iter().map(|a| a.get_ref().as_str()).collect();
         let mut inside = vec![paragraph(format!("Its axes: {}.", axes.join(", ")))];
-        inside.extend(settings(&group.values));
+        inside.extend(settings(&machine.group_shown(group)));
         out.push(section(&title, &format!("group-{}", n + 1), inside));
     }
     for (n, door) in machine.doors.iter().enumerate() {
@@ -57,7 +61,7 @@ pub(super) fn blocks(subject: &Subject) -> Vec<Block> {
         };
         let axes: Vec<&str> = door.axes.iter().map(|a| a.get_ref().as_str()).collect();
         let mut inside = vec![paragraph(format!("Within reach: {}.", axes.join(", ")))];
-        inside.extend(settings(&door.values));
+        inside.extend(settings(&machine.door_shown(door)));
         out.push(section(&title, &format!("door-{}", n + 1), inside));
     }
     out
@@ -76,22 +80,17 @@ fn coverage(machine: &Machine) -> Vec<Vec<Inline>> {
 }
 
 /// Values that the file gives, and those it leaves to the family's default folded away.
-fn settings(values: &Settings) -> Vec<Block> {
+fn settings(values: &[Shown]) -> Vec<Block> {
     let rows = |given: bool| -> Vec<Vec<Vec<Inline>>> {
-        values
-            .iter()
-            .filter(|(_, s)| s.is_given() == given)
-            .map(|(name, s)| {
-                // Names of options are quoted in the file, where their quotes mean nothing but a text.
-                let shown: Vec<&str> = s.shown.iter().map(|v| v.trim_matches('"')).collect();
-                vec![code(name), words(shown.join(", "))]
-            })
+        let chosen = values.iter().filter(|v| v.given == given);
+        chosen
+            .map(|v| vec![code(&v.name), words(&v.value), words(&v.text)])
             .collect()
     };
     let mut out = Vec::new();
     let (given, defaults) = (rows(true), rows(false));
     if !given.is_empty() {
-        out.push(table(&["parameter", "value"], given));
+        out.push(table(&["parameter", "value", "what it is"], given));
     }
     if !defaults.is_empty() {
         out.push(Block::Details {
@@ -99,7 +98,7 @@ fn settings(values: &Settings) -> Vec<Block> {
                 "{} parameters have the default of the manual",
                 defaults.len()
             )),
-            blocks: vec![table(&["parameter", "default"], defaults)],
+            blocks: vec![table(&["parameter", "default", "what it is"], defaults)],
         });
     }
     out
