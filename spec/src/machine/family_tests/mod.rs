@@ -8,8 +8,11 @@ use std::path::{Path, PathBuf};
 
 use super::family::Family;
 
-/// The families with, for each rule, a machine that violates it and one beside it that does not.
-fn examples() -> [(&'static str, Vec<(&'static str, String, String)>); 2] {
+/// A rule by what it says, a machine that violates it, and one beside it that does not.
+type Example = (&'static str, String, String);
+
+/// The families with examples for each of their rules.
+fn examples() -> [(&'static str, Vec<Example>); 2] {
     let sinumerik =
         sinumerik::EXAMPLES.map(|(rule, bad, good)| (rule, bad.to_owned(), good.to_owned()));
     [
