@@ -6,11 +6,9 @@ use std::path::{Path, PathBuf};
 use stillpoint_spec::Spec;
 use stillpoint_spec::bind::Bound;
 use stillpoint_spec::ir::System;
-use stillpoint_spec::machine::families;
 
 use super::random::Random;
 use super::{DiffError, peer};
-use crate::production::FAMILY;
 use crate::subject::Subject;
 
 /// A machine or system of the specification under the parameters of one or more runs.
@@ -50,9 +48,6 @@ pub fn pairings(subject: &Subject) -> Result<Vec<Pairing>, DiffError> {
     let mut out: Vec<Pairing> = Vec::new();
     let mut files = Files::default();
     for (k, task) in subject.tasks.iter().enumerate() {
-        if of_other_family(subject, &task.bound.system.name) {
-            continue;
-        }
         let file = match &subject.machine {
             Some(machine) => machine.runs[k].file.clone(),
             None => subject.path.clone(),
@@ -134,17 +129,9 @@ fn add(
     Ok(())
 }
 
-/// Whether the system is one of a family without monitors: its machines can have the names of those that have one.
-fn of_other_family(subject: &Subject, system: &str) -> bool {
-    let family = system.split('/').next().unwrap_or_default();
-    let folder = families(&subject.path).join(family);
-    family != FAMILY && folder.join("family.toml").is_file()
-}
-
-/// The folder with the tables of a machine file's family, if that has monitors.
+/// The folder with the tables of a machine file's family.
 fn family_folder(subject: &Subject) -> Option<PathBuf> {
-    let machine = subject.machine.as_ref()?;
-    let run = machine.runs.first().filter(|_| machine.family == FAMILY)?;
+    let run = subject.machine.as_ref()?.runs.first()?;
     run.file.parent().map(Path::to_owned)
 }
 
