@@ -1,5 +1,5 @@
 //! Interpreter and generated code are one function: every reachable state and every input of every shipped system; of systems
-//! with more than [`MOST`] reachable cycles a share of the states, picked by their values.
+//! with more than [`STEP`] reachable cycles a share of the states, picked by their values, which shrinks as more are compared.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -43,8 +43,8 @@ fn bind(system: ir::System, params: &[(&str, i64)]) -> Bound {
     Bound::new(system, &given, &BTreeMap::new()).unwrap_or_else(|e| panic!("{e}"))
 }
 
-/// Reachable cycles up to which each is compared.
-const MOST: u64 = 4_000_000;
+/// So many reachable cycles are all compared; after each further so many, half as many states are picked.
+const STEP: u64 = 500_000;
 
 /// Both evaluators, cycle by cycle.
 struct Both<'a> {
@@ -52,8 +52,6 @@ struct Both<'a> {
     table: &'static Table,
     interpreted: Interpreted<'a>,
     generated: Generated<'a>,
-    /// One of so many states is compared, with all its cycles; 0 for none.
-    share: u64,
     /// Cycles made: inputs that nobody read are not enumerated.
     cycles: AtomicU64,
     /// Those of them that were compared.
@@ -102,7 +100,6 @@ impl<'a> Both<'a> {
             table,
             interpreted: Interpreted::new(bound),
             generated,
-            share: 1,
             cycles: AtomicU64::new(0),
             compared: AtomicU64::new(0),
             values: AtomicU64::new(0),
@@ -115,11 +112,8 @@ impl<'a> Both<'a> {
         let mix = |hash: u64, cell: &i32| {
             (hash ^ u64::from(*cell as u32)).wrapping_mul(0x9E37_79B9_7F4A_7C15)
         };
-        match self.share {
-            0 => false,
-            1 => true,
-            n => (state.iter().fold(0, mix) >> 32) % n == 0,
-        }
+        let share = 1 << (self.compared.load(Ordering::Relaxed) / STEP).min(40);
+        (state.iter().fold(0, mix) >> 20) % share == 0
     }
 
     fn note(&self, what: &str, left: &dyn std::fmt::Debug, right: &dyn std::fmt::Debug) -> bool {
@@ -296,14 +290,11 @@ impl System for Both<'_> {
 
 /// Explores one system with both evaluators; the number of cycles in which they were compared.
 fn compare(bound: &Bound) -> u64 {
-    let mut both = Both::new(bound);
-    both.share = 0;
-    explore_both(&both);
-    both.share = both.cycles.swap(0, Ordering::Relaxed).div_ceil(MOST);
+    let both = Both::new(bound);
     explore_both(&both);
     let [cycles, compared, values] =
         [&both.cycles, &both.compared, &both.values].map(|number| number.load(Ordering::Relaxed));
-    assert!(compared == cycles || (both.share > 1 && compared > MOST / 16));
+    assert!(compared == cycles || compared >= STEP);
     println!(
         "{}: {cycles} cycles, {compared} of them compared, {values} values",
         bound.system.name
