@@ -20,7 +20,22 @@ const COMBINATIONS: u128 = 10_000;
 const TRANSITIONS: u128 = 1_000_000;
 
 /// The systems of the shipped specifications that are left out for that reason, as file and system.
-const LEFT_OUT: [&str; 17] = [
+const LEFT_OUT: [&str; 32] = [
+    "composed-axes/machine_axes",
+    "composed-spindle/machine_spindle",
+    "composed/logic",
+    "doors/space",
+    "doors/spindle_space",
+    "faults-two-channels/fault_requests",
+    "faults-two-channels/fault_kernel",
+    "group/axes",
+    "group/spindle",
+    "interface/requests",
+    "kernel/three_groups",
+    "reference/axis",
+    "reference/other_axis",
+    "status-bits/bits",
+    "stop/groups",
     "axis/stop",
     "axis/stop_pair",
     "axis/channel",
