@@ -38,7 +38,7 @@ fn a_violated_property_is_shown_with_its_run() {
     let (html, markdown) = reports(file, 1, &[], &folder("violated"));
     for part in [
         "<p class=\"result\">VIOLATED</p>",
-        "One property: 1 violated. Every reachable state was explored.",
+        "1 property: 1 violated. Every reachable state was explored.",
         "<span class=\"badge bad\">violated</span>",
         "<figure class=\"timing\">",
         "cycle 2: S840D-P-03 is violated here",
