@@ -12,12 +12,12 @@ use stillpoint_model::Options;
 use stillpoint_monitors::sinumerik::mutant::Mutant as Sinumerik;
 use stillpoint_tests::root;
 
-/// The tables compared: those of a machine, or with the parameters of their systems.
+/// The tables compared: those of a machine, or with the parameters of their systems. What several files use is compared with
+/// the parameters of the first one, so the file of a machine's own table stands before those that put it together with others.
 const FILES: [&str; 13] = [
     "spec/sinumerik-840d/axis.toml",
     "spec/machines/milling-840d.toml",
-    "spec/heidenhain-fs/doors.toml",
-    "spec/heidenhain-fs/faults.toml",
+    "spec/heidenhain-fs/stop.toml",
     "spec/heidenhain-fs/group.toml",
     "spec/heidenhain-fs/interface.toml",
     "spec/heidenhain-fs/mode.toml",
@@ -26,7 +26,8 @@ const FILES: [&str; 13] = [
     "spec/heidenhain-fs/reference.toml",
     "spec/heidenhain-fs/selftest.toml",
     "spec/heidenhain-fs/status-bits.toml",
-    "spec/heidenhain-fs/stop.toml",
+    "spec/heidenhain-fs/doors.toml",
+    "spec/heidenhain-fs/faults.toml",
 ];
 
 /// What has a monitor: the names of family and machine or system. Families use the same names for different machines.
@@ -80,12 +81,9 @@ fn machine(mutant: Mutant) -> Option<Name> {
     found.map(|(machine, _)| (family.name, (*machine).to_owned()))
 }
 
-/// The wrong monitors that are compared with a table, and its name. Those of HEIDENHAIN are left out: the comparison does not
-/// find `stop-leaves-contour`, and why is not known yet. All of them are killed by the inventory of the proofs.
+/// The wrong monitors that are compared with a table, and its name.
 fn mutants() -> impl Iterator<Item = (Mutant, Name)> {
-    Mutant::all()
-        .filter_map(|mutant| Some((mutant, machine(mutant)?)))
-        .filter(|(_, (family, _))| *family == "sinumerik-840d")
+    Mutant::all().filter_map(|mutant| Some((mutant, machine(mutant)?)))
 }
 
 #[test]
