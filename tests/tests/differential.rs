@@ -162,7 +162,7 @@ fn differs(pairings: &[Pairing], mutant: Mutant, machine: &Name) -> bool {
         .filter(|p| name(p) == *machine)
         .cloned()
         .collect();
-    let found = sample(&concerned, Some(mutant), 400_000, 3, 0, &|_, _| ())
+    let found = sample(&concerned, Some(mutant), 4_000_000, 3, 0, &|_, _| ())
         .unwrap_or_else(|e| panic!("{e}"));
     found.iter().any(|c| c.divergence.is_some())
 }
