@@ -2,9 +2,12 @@
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
-use stillpoint::check::{Checked, Settings, check};
-use stillpoint::subject::{self, Readings, Subject};
+use stillpoint::check::{Settings, check};
+use stillpoint::subject::{self, Readings, Subject, Task};
+use stillpoint_model::Report;
 
 /// Whether these programs are there. A user without them sees that the test was skipped; where the environment has `CI`,
 /// it fails then.
@@ -97,17 +100,47 @@ pub fn load(path: &Path) -> Subject {
     subject::load(path, &Readings::new()).unwrap_or_else(|e| panic!("{e}"))
 }
 
-/// The explorations of a file, all of them complete.
+/// The exploration of one system of a file, complete.
 ///
 /// # Panics
-/// If one fails or is not complete.
-pub fn explored(subject: &Subject) -> Vec<Checked> {
-    let all = check(subject, &Settings::default(), &mut |_| Box::new(()))
+/// If it fails or is not complete.
+pub fn explored(subject: &Subject, task: &Task) -> Report {
+    let alone = Subject {
+        tasks: vec![task.clone()],
+        ..subject.clone()
+    };
+    let mut all = check(&alone, &Settings::default(), &mut |_| Box::new(()))
         .unwrap_or_else(|(t, e)| panic!("{t}: {e}"));
-    for done in &all {
-        assert!(done.outcome.report.complete, "{}", subject.name);
-    }
-    all
+    let report = all.remove(0).outcome.report;
+    assert!(report.complete, "{}: {}", subject.name, task.title);
+    report
+}
+
+/// What `work` makes of each of these, in their order. Another tool keeps one processor busy, so each processor has one.
+///
+/// # Panics
+/// If `work` does.
+pub fn each<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R> {
+    let processors = std::thread::available_parallelism().map_or(1, usize::from);
+    let next = AtomicUsize::new(0);
+    let done = Mutex::new(Vec::new());
+    std::thread::scope(|scope| {
+        for _ in 0..processors {
+            scope.spawn(|| {
+                loop {
+                    let n = next.fetch_add(1, Ordering::Relaxed);
+                    let Some(item) = items.get(n) else { break };
+                    let result = work(item);
+                    done.lock()
+                        .expect("nothing panics under it")
+                        .push((n, result));
+                }
+            });
+        }
+    });
+    let mut done = done.into_inner().expect("nothing panics under it");
+    done.sort_by_key(|(n, _)| *n);
+    done.into_iter().map(|(_, result)| result).collect()
 }
 
 /// Whether a file declares a system of its own; others only serve to be included.

@@ -3,13 +3,11 @@
 //! A user without SPIN or gcc sees that the tests were skipped; where the environment has `CI`, they fail then.
 
 use std::path::Path;
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 use stillpoint::export::promela::{Promela, promela};
 use stillpoint_model::Verdict;
 use stillpoint_spec::ir::Form;
-use stillpoint_tests::peer::{Folder, explored, has_system, load, tools};
+use stillpoint_tests::peer::{Folder, each, explored, has_system, load, tools};
 use stillpoint_tests::{files, root, specification_files};
 
 const TOOLS: [&str; 2] = ["spin", "gcc"];
@@ -90,13 +88,13 @@ fn verifier(name: &str, model: &Promela, optimise: &str) -> Folder {
 fn compare(path: &Path) -> Compared {
     let subject = load(path);
     let mut compared = Compared::default();
-    for (n, (task, done)) in subject.tasks.iter().zip(explored(&subject)).enumerate() {
+    for (n, task) in subject.tasks.iter().enumerate() {
         let name = &task.bound.system.name;
-        let report = &done.outcome.report;
         if LEFT_OUT.contains(&name.as_str()) {
             compared.left_out.push(name.clone());
             continue;
         }
+        let report = explored(&subject, task);
         let model = promela(&task.bound, &task.title).unwrap_or_else(|e| panic!("{name}: {e}"));
         let stem = path.file_stem().unwrap_or_default().to_string_lossy();
         let folder = verifier(&format!("{stem}-{n}"), &model, "-O0");
@@ -150,23 +148,11 @@ fn shipped_systems_have_the_same_states() {
     // The yardstick has a test of its own; files that only others use have no system.
     let mut files = specification_files();
     files.retain(|path| has_system(path) && !path.ends_with("bench/two-axis.toml"));
-    // Compiling and running a verifier keeps one processor busy.
-    let processors = std::thread::available_parallelism().map_or(1, usize::from);
-    let next = AtomicUsize::new(0);
-    let left_out = Mutex::new(Vec::new());
-    std::thread::scope(|scope| {
-        for _ in 0..processors {
-            scope.spawn(|| {
-                while let Some(path) = files.get(next.fetch_add(1, Ordering::Relaxed)) {
-                    let compared = compare(path);
-                    assert_eq!(compared.broken, 0, "{}", path.display());
-                    let mut all = left_out.lock().expect("no test of another file failed");
-                    all.extend(compared.left_out);
-                }
-            });
-        }
-    });
-    let mut left_out = left_out.into_inner().expect("no test failed");
+    let mut left_out = Vec::new();
+    for (path, compared) in files.iter().zip(each(&files, |path| compare(path))) {
+        assert_eq!(compared.broken, 0, "{}", path.display());
+        left_out.extend(compared.left_out);
+    }
     left_out.sort();
     assert_eq!(left_out, LEFT_OUT, "the systems that are too large");
 }
@@ -176,10 +162,8 @@ fn seeded_errors_break_assertions() {
     if !tools(&TOOLS) {
         return;
     }
-    let broken: usize = files("tests/must-fail", "toml")
-        .iter()
-        .map(|path| compare(path).broken)
-        .sum();
+    let files = files("tests/must-fail", "toml");
+    let broken: usize = each(&files, |path| compare(path).broken).iter().sum();
     assert!(
         broken >= 2,
         "assertions are broken in {broken} systems only: the comparison shows too little"
