@@ -46,6 +46,16 @@ pub enum Phase {
     Interrupted,
 }
 
+impl Phase {
+    /// Every phase, in the order of their declaration.
+    pub const ALL: [Self; 4] = [
+        Self::Valid,
+        Self::Changed,
+        Self::Confirming,
+        Self::Interrupted,
+    ];
+}
+
 /// The state between two cycles.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct State {

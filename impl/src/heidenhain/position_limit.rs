@@ -57,6 +57,11 @@ pub enum Lock {
     Locked,
 }
 
+impl Lock {
+    /// Every lock, in the order of their declaration.
+    pub const ALL: [Self; 3] = [Self::None, Self::ReturnAllowed, Self::Locked];
+}
+
 /// The state between two cycles.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct State {

@@ -44,6 +44,11 @@ pub enum AxisRef {
     Checked,
 }
 
+impl AxisRef {
+    /// Every state, in the order of their declaration.
+    pub const ALL: [Self; 4] = [Self::NotHomed, Self::Homed, Self::NotChecked, Self::Checked];
+}
+
 /// The state between two cycles.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct State {

@@ -46,6 +46,11 @@ pub enum Pulse {
     BBack,
 }
 
+impl Pulse {
+    /// Every pulse, in the order of their declaration.
+    pub const ALL: [Self; 5] = [Self::None, Self::ALow, Self::ABack, Self::BLow, Self::BBack];
+}
+
 /// The state between two cycles.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct State {

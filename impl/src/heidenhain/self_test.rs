@@ -83,6 +83,26 @@ pub enum Phase {
     Failed,
 }
 
+impl Phase {
+    /// Every step, in the order of their declaration.
+    pub const ALL: [Self; 14] = [
+        Self::Configuration,
+        Self::Internal,
+        Self::Chain,
+        Self::EsCircuit,
+        Self::VoltageOff,
+        Self::VoltageOn,
+        Self::Keys,
+        Self::Doors,
+        Self::BrakeControl,
+        Self::CutOut,
+        Self::HoldingBrakes,
+        Self::DrivesOff,
+        Self::Passed,
+        Self::Failed,
+    ];
+}
+
 /// The state between two cycles.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct State {

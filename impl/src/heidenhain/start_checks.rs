@@ -35,6 +35,11 @@ pub enum Start {
     Refused,
 }
 
+impl Start {
+    /// Every value, in the order of their declaration.
+    pub const ALL: [Self; 3] = [Self::Booting, Self::InService, Self::Refused];
+}
+
 /// The state between two cycles.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct State {

@@ -21,12 +21,7 @@ pub fn reference<S: Source>(
 ) -> Option<(reference::State, reference::Config, reference::Inputs)> {
     let config = reference::Config::new(source.any_bool()).ok()?;
     let state = reference::State {
-        axis: source.any_of(&[
-            AxisRef::NotHomed,
-            AxisRef::Homed,
-            AxisRef::NotChecked,
-            AxisRef::Checked,
-        ]),
+        axis: source.any_of(&AxisRef::ALL),
         saved: source.any_bool(),
     };
     if !state.invariant(&config) {
@@ -111,12 +106,7 @@ pub fn acceptance<S: Source>(
     source: &mut S,
 ) -> Option<(acceptance::State, acceptance::Config, acceptance::Inputs)> {
     let config = acceptance::Config::new(changes(source, 3)).ok()?;
-    let phase = source.any_of(&[
-        acceptance::Phase::Valid,
-        acceptance::Phase::Changed,
-        acceptance::Phase::Confirming,
-        acceptance::Phase::Interrupted,
-    ]);
+    let phase = source.any_of(&acceptance::Phase::ALL);
     let listed = matches!(
         phase,
         acceptance::Phase::Changed | acceptance::Phase::Confirming
@@ -139,24 +129,6 @@ pub fn acceptance<S: Source>(
     Some((state, config, inputs))
 }
 
-/// The steps of the self-test.
-const PHASES: [self_test::Phase; 14] = [
-    self_test::Phase::Configuration,
-    self_test::Phase::Internal,
-    self_test::Phase::Chain,
-    self_test::Phase::EsCircuit,
-    self_test::Phase::VoltageOff,
-    self_test::Phase::VoltageOn,
-    self_test::Phase::Keys,
-    self_test::Phase::Doors,
-    self_test::Phase::BrakeControl,
-    self_test::Phase::CutOut,
-    self_test::Phase::HoldingBrakes,
-    self_test::Phase::DrivesOff,
-    self_test::Phase::Passed,
-    self_test::Phase::Failed,
-];
-
 /// Any step of the self-test.
 pub fn self_test<S: Source>(
     source: &mut S,
@@ -169,7 +141,7 @@ pub fn self_test<S: Source>(
         source.any_bool(),
     )
     .ok()?;
-    let phase = source.any_of(&PHASES);
+    let phase = source.any_of(&self_test::Phase::ALL);
     let repeated = source.any_bool();
     // Elsewhere no test is good.
     let good = phase == self_test::Phase::Passed || (repeated && phase != self_test::Phase::Failed);
@@ -232,13 +204,7 @@ pub fn sampling<S: Source>(
 ) -> Option<(sampling::State, sampling::Config, sampling::Inputs)> {
     let t_low = source.any_delay(LONGEST);
     let config = sampling::Config::new(t_low, source.any_bool()).ok()?;
-    let pulse = source.any_of(&[
-        Pulse::None,
-        Pulse::ALow,
-        Pulse::ABack,
-        Pulse::BLow,
-        Pulse::BBack,
-    ]);
+    let pulse = source.any_of(&Pulse::ALL);
     let state = sampling::State {
         pulse,
         timer: if matches!(pulse, Pulse::ALow | Pulse::BLow) {
@@ -292,7 +258,7 @@ pub fn start_checks<S: Source>(
 )> {
     let config = start_checks::Config::new(source.any_bool()).ok()?;
     let state = start_checks::State {
-        start: source.any_of(&[Start::Booting, Start::InService, Start::Refused]),
+        start: source.any_of(&Start::ALL),
     };
     let inputs = start_checks::Inputs {
         power_on: source.any_bool(),

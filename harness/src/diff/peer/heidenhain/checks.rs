@@ -20,22 +20,13 @@ pub(super) fn make(machine: &str, p: &Params, mutant: Option<Mutant>) -> Made {
     }))
 }
 
-const PULSES: [Pulse; 5] = [
-    Pulse::None,
-    Pulse::ALow,
-    Pulse::ABack,
-    Pulse::BLow,
-    Pulse::BBack,
-];
-const STARTS: [Start; 3] = [Start::Booting, Start::InService, Start::Refused];
-
 cells! {
     sampling::State, 2 {
-        pulse = |c| value(&PULSES, c), |p| ordinal(&PULSES, p);
+        pulse = |c| value(&Pulse::ALL, c), |p| ordinal(&Pulse::ALL, p);
         timer = cycles, cell;
     }
     start_checks::State, 1 {
-        start = |c| value(&STARTS, c), |s| ordinal(&STARTS, s);
+        start = |c| value(&Start::ALL, c), |s| ordinal(&Start::ALL, s);
     }
 }
 
@@ -112,7 +103,7 @@ fn sampling(p: &Params, mutant: Option<Mutant>) -> Refusable {
                 bit(out.opened),
                 bit(out.short),
                 stop_rank(out.demand),
-                rank(&PULSES, after.pulse),
+                rank(&Pulse::ALL, after.pulse),
             ]);
             after
         },
@@ -192,7 +183,7 @@ fn start_checks(p: &Params, mutant: Option<Mutant>) -> Refusable {
                 feed_constant: i[5] != 0,
             };
             let (after, out) = next(state, &config, &inputs);
-            o.extend([stop_rank(out.demand), rank(&STARTS, after.start)]);
+            o.extend([stop_rank(out.demand), rank(&Start::ALL, after.start)]);
             after
         },
     ))

@@ -23,42 +23,13 @@ pub(super) fn make(machine: &str, p: &Params, mutant: Option<Mutant>) -> Made {
     }))
 }
 
-const AXES: [AxisRef; 4] = [
-    AxisRef::NotHomed,
-    AxisRef::Homed,
-    AxisRef::NotChecked,
-    AxisRef::Checked,
-];
-const ACCEPTANCE: [acceptance::Phase; 4] = [
-    acceptance::Phase::Valid,
-    acceptance::Phase::Changed,
-    acceptance::Phase::Confirming,
-    acceptance::Phase::Interrupted,
-];
-const STEPS: [self_test::Phase; 14] = [
-    self_test::Phase::Configuration,
-    self_test::Phase::Internal,
-    self_test::Phase::Chain,
-    self_test::Phase::EsCircuit,
-    self_test::Phase::VoltageOff,
-    self_test::Phase::VoltageOn,
-    self_test::Phase::Keys,
-    self_test::Phase::Doors,
-    self_test::Phase::BrakeControl,
-    self_test::Phase::CutOut,
-    self_test::Phase::HoldingBrakes,
-    self_test::Phase::DrivesOff,
-    self_test::Phase::Passed,
-    self_test::Phase::Failed,
-];
-
 fn count(cell: i32) -> u16 {
     u16::try_from(cell).unwrap_or(0)
 }
 
 cells! {
     reference::State, 2 {
-        axis = |c| value(&AXES, c), |a| ordinal(&AXES, a);
+        axis = |c| value(&AxisRef::ALL, c), |a| ordinal(&AxisRef::ALL, a);
         saved = truthy, i32::from;
     }
     agreement::State, 1 {
@@ -69,11 +40,11 @@ cells! {
         asked = truthy, i32::from;
     }
     acceptance::State, 2 {
-        phase = |c| value(&ACCEPTANCE, c), |p| ordinal(&ACCEPTANCE, p);
+        phase = |c| value(&acceptance::Phase::ALL, c), |p| ordinal(&acceptance::Phase::ALL, p);
         open = count, i32::from;
     }
     self_test::State, 3 {
-        phase = |c| value(&STEPS, c), |p| ordinal(&STEPS, p);
+        phase = |c| value(&self_test::Phase::ALL, c), |p| ordinal(&self_test::Phase::ALL, p);
         repeated = truthy, i32::from;
         rest = cycles, cell;
     }
@@ -123,7 +94,7 @@ fn reference(p: &Params, mutant: Option<Mutant>) -> Refusable {
                 bit(out.checked),
                 bit(out.may_move),
                 bit(out.untested),
-                rank(&AXES, after.axis),
+                rank(&AxisRef::ALL, after.axis),
             ]);
             after
         },
@@ -226,7 +197,7 @@ fn acceptance(p: &Params, mutant: Option<Mutant>) -> Refusable {
             o.extend([
                 bit(out.in_service),
                 stop_rank(out.demand),
-                rank(&ACCEPTANCE, after.phase),
+                rank(&acceptance::Phase::ALL, after.phase),
             ]);
             after
         },
@@ -290,7 +261,7 @@ fn self_test(p: &Params, mutant: Option<Mutant>) -> Refusable {
                 bit(out.ask_voltage),
                 bit(out.cut_out_done),
                 stop_rank(out.demand),
-                rank(&STEPS, after.phase),
+                rank(&self_test::Phase::ALL, after.phase),
             ]);
             after
         },

@@ -28,10 +28,8 @@ pub(super) fn make(machine: &str, p: &Params, mutant: Option<Mutant>) -> Made {
     }))
 }
 
-const LOCKS: [Lock; 3] = [Lock::None, Lock::ReturnAllowed, Lock::Locked];
-
 fn lock_rank(lock: Lock) -> i32 {
-    ordinal(&LOCKS, lock)
+    ordinal(&Lock::ALL, lock)
 }
 
 fn place(position: Position) -> i32 {
@@ -48,7 +46,7 @@ cells! {
         begin = Position, place;
     }
     position_limit::State, 2 {
-        lock = |c| value(&LOCKS, c), lock_rank;
+        lock = |c| value(&Lock::ALL, c), lock_rank;
         last = Position, place;
     }
     revolutions::State, 1 {
