@@ -1,11 +1,9 @@
 //! Larger random systems with many strongly connected components: responses under up to four fairness conditions, against
 //! Emerson and Lei's fixpoint on the explicit graph.
 
-mod common;
-
-use common::large::large_table;
-use common::naive::Naive;
-use common::shown::check_trace;
+use crate::common::large::large_table;
+use crate::common::naive::Naive;
+use crate::common::shown::check_trace;
 use stillpoint_model::{Form, Options, Property, Verdict, explore};
 
 const ATOMS: usize = 7;

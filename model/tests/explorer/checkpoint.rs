@@ -1,9 +1,7 @@
 //! Explorations that are broken off and continued: the same report as undisturbed ones, for every storage.
 
-mod common;
-
-use common::large::large_table;
-use common::{padding, random_table};
+use crate::common::large::large_table;
+use crate::common::{padding, random_table};
 use std::path::PathBuf;
 use std::time::Duration;
 use stillpoint_model::{

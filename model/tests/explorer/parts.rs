@@ -1,10 +1,8 @@
 //! Systems that fall into parts with common inputs: put together from the tables of their parts they give the report of
 //! the plain exploration.
 
-mod common;
-
-use common::large::large_table;
-use common::{Frame, Table, padding, random_table};
+use crate::common::large::large_table;
+use crate::common::{Frame, Table, padding, random_table};
 use stillpoint_model::{
     Choices, Component, Domain, Fault, Form, Options, Property, Report, Storage, System, explore,
 };

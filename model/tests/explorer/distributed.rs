@@ -1,10 +1,7 @@
 //! Several processes explore together: here each one is a thread with its own cluster, and all talk over loopback.
-#![cfg(feature = "distributed")]
 
-mod common;
-
-use common::large::large_table;
-use common::{Table, padding, random_table};
+use crate::common::large::large_table;
+use crate::common::{Table, padding, random_table};
 use std::net::TcpListener;
 use std::thread;
 use std::time::{Duration, Instant};

@@ -1,10 +1,8 @@
 //! Responses without a bound on systems whose answer is known by thought: nested conditions, several fairness conditions,
 //! assumptions, runs that end, self loops, several initial states.
 
-mod common;
-
-use common::shown::check_trace;
-use common::{Table, replay};
+use crate::common::shown::check_trace;
+use crate::common::{Table, replay};
 use stillpoint_model::{Form, Judgement, Options, Property, Verdict, explore};
 
 const ATOMS: usize = 6;

@@ -1,5 +1,4 @@
 //! What several tests share: systems given by explicit tables, and the replay of traces.
-#![allow(dead_code)]
 
 pub mod large;
 pub mod naive;

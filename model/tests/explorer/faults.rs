@@ -1,8 +1,6 @@
 //! Faults in atoms: reported with a run to them, and FALSE for the verdict.
 
-mod common;
-
-use common::{Frame, Table};
+use crate::common::{Frame, Table};
 use stillpoint_model::{
     Choices, Domain, Fault, Form, Options, Property, Replay, Report, System, Verdict, explore,
 };

@@ -1,11 +1,9 @@
 //! The cycles of one state, made by hand from state to state, against the exploration of the same system.
 
-mod common;
-
 use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 
-use common::{padding, random_table};
+use crate::common::{padding, random_table};
 use stillpoint_model::{Held, Options, System, cycles, explore, initials};
 
 #[test]

@@ -1,8 +1,6 @@
 //! "Does not depend on": two runs side by side.
 
-mod common;
-
-use common::{Random, Table, random_table, replay};
+use crate::common::{Random, Table, random_table, replay};
 use std::collections::BTreeSet;
 use stillpoint_model::{Choices, Form, Options, Property, Report, System, Twin, Verdict, explore};
 

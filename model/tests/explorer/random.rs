@@ -1,10 +1,8 @@
 //! Random small systems: the explorer against the naive implementation, for every property form and storage.
 
-mod common;
-
-use common::naive::Naive;
-use common::shown::check_trace;
-use common::{Random, padding, random_table, replay};
+use crate::common::naive::Naive;
+use crate::common::shown::check_trace;
+use crate::common::{Random, padding, random_table, replay};
 use stillpoint_model::{Form, Limits, Options, Property, Report, Storage, explore};
 
 const ATOMS: usize = 6;

@@ -1,9 +1,7 @@
 //! Systems with wide levels: the yardstick's counts, the same report for any number of threads and storage, limits.
 
-mod common;
-
-use common::yardstick::{TwoAxis, Watched};
-use common::{padding, replay};
+use crate::common::yardstick::{TwoAxis, Watched};
+use crate::common::{padding, replay};
 use std::collections::{BTreeSet, VecDeque};
 use std::time::{Duration, Instant};
 use stillpoint_model::{

@@ -1,8 +1,6 @@
 //! Small systems whose answers are known by thought: cycles, joins, unfair loops, nested conditions.
 
-mod common;
-
-use common::{Table, replay};
+use crate::common::{Table, replay};
 use stillpoint_model::{Form, Judgement, Options, Property, Verdict, explore};
 
 const WHEN: usize = 0;

@@ -1,0 +1,16 @@
+//! The explorer, tested. One binary: what the tests share, and the explorer for it, is compiled once.
+
+mod common;
+
+mod checkpoint;
+mod cycles;
+#[cfg(feature = "distributed")]
+mod distributed;
+mod faults;
+mod known;
+mod larger;
+mod liveness;
+mod parts;
+mod random;
+mod scale;
+mod twin;
