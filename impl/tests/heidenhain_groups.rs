@@ -1,12 +1,13 @@
 //! Monitoring states of HEIDENHAIN Functional Safety as scenarios: doors, modes, keys and permissives.
 
-use stillpoint_monitors::heidenhain::types::{GroupState, Kind, Phase, Stop, Unit};
-use stillpoint_monitors::heidenhain::{axis_release, group, judge, startup};
-use stillpoint_monitors::kernel::Cycles;
+use stillpoint_monitors::heidenhain::types::{GroupState, Kind, Left, Phase, Stop, Unit};
+use stillpoint_monitors::heidenhain::{axis_release, group, judge, speed, startup};
+use stillpoint_monitors::kernel::{Cycles, Speed};
 
 fn at(kind: Kind, state: GroupState) -> group::Monitor {
     let config = group::Config::new(kind).expect("plausible");
-    let state = group::State { state, both: false };
+    let left = Left::NONE;
+    let state = group::State { state, left };
     group::Monitor::resume(config, state).expect("consistent")
 }
 
@@ -54,15 +55,51 @@ fn opening_the_door_limits_the_speed_at_once() {
 
 /// HFS-AXG-018: from SOM_3 to SOM_2 and back in motion, the lower limit stays until standstill.
 #[test]
-fn both_limits_apply_until_standstill() {
+fn old_limits_apply_until_standstill() {
     let mut axes = at(Kind::NcAxes, GroupState::Sls3);
     let moving = |request| group::Inputs {
         moving: true,
         ..asks(request)
     };
-    assert!(axes.step(&moving(GroupState::Sls2)).both);
-    assert!(axes.step(&moving(GroupState::Sls3)).both);
-    assert!(!axes.step(&asks(GroupState::Sls3)).both);
+    assert!(axes.step(&moving(GroupState::Sls2)).left.sls_3);
+    assert!(axes.step(&moving(GroupState::Sls3)).left.sls_2);
+    assert!(axes.step(&asks(GroupState::Sls3)).left.is_none());
+}
+
+/// HFS-AXG-018: the door is closed and opened in SOM_4 without a key between, while the axes move: the limit of SOM_2 still
+/// counts, whatever the one of SOM_4 is, until the axes stand.
+#[test]
+fn the_limit_of_som_2_counts_in_som_4_until_standstill() {
+    let limits = speed::Limits {
+        som_2: Speed(20),
+        som_3: Speed(40),
+        som_4: Speed(30),
+        restricted: Speed(10),
+    };
+    let config = speed::Config::new(limits, true).expect("plausible");
+    let stop_at = |out: group::Outputs, speed| {
+        let inputs = speed::Inputs {
+            state: out.state,
+            left: out.left,
+            speed: Speed(speed),
+        };
+        speed::Monitor::new(config).step(&inputs).demand
+    };
+    let mut axes = at(Kind::NcAxes, GroupState::Sls2);
+    let moving = |request| group::Inputs {
+        moving: true,
+        ..asks(request)
+    };
+    assert_eq!(axes.step(&moving(GroupState::Auto)).state, GroupState::Sls2);
+    let out = axes.step(&moving(GroupState::Sls4));
+    assert_eq!(out.state, GroupState::Sls4);
+    assert_eq!(stop_at(out, 25), Stop::Ss1);
+    assert_eq!(stop_at(out, 21), Stop::None);
+    axes.step(&moving(GroupState::Auto));
+    let out = axes.step(&moving(GroupState::Sls3));
+    assert_eq!(stop_at(out, 25), Stop::Ss1, "through three modes");
+    let out = axes.step(&asks(GroupState::Sls3));
+    assert_eq!(stop_at(out, 41), Stop::None);
 }
 
 /// HFS-SS1D-003: an SS1D ends in STO_O, which an activation leaves; it never lifts an STO.

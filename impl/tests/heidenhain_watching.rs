@@ -1,6 +1,6 @@
 //! Runs of the monitors of position and speed of HEIDENHAIN Functional Safety, with the values of the manual.
 
-use stillpoint_monitors::heidenhain::types::{GroupState, Stop};
+use stillpoint_monitors::heidenhain::types::{GroupState, Left, Stop};
 use stillpoint_monitors::heidenhain::{
     comparison, deceleration, operating_stop, parameters, position_limit, revolutions, speed,
     stop_path,
@@ -22,7 +22,7 @@ fn som_2_stops_an_axis_above_2100_mm_per_minute() {
     let mut monitor = speed::Monitor::new(config);
     let at = |per_minute: u32| speed::Inputs {
         state: GroupState::Sls2,
-        both: false,
+        left: Left::NONE,
         speed: Speed(per_minute / 2),
     };
     assert_eq!(monitor.step(&at(2_100)).demand, Stop::None);

@@ -94,6 +94,15 @@ fn the_first_rule_that_matches_wins() {
     assert_eq!((frame.now[0], frame.fired[0]), (2, 2));
 }
 
+/// `a` reads an input of `b`, and that one reads what `c` does in this cycle: `c` steps first, whatever the order of the file.
+#[test]
+fn instances_step_in_data_flow_order_through_wires_of_inputs() {
+    let text = "spec = \"t\"\n[machine.m]\ntext = \"m\"\n[machine.m.input]\nv = \"INT(0..9)\"\n[machine.m.state]\nx = { type = \"INT(0..9)\", init = 0 }\n[[machine.m.rule]]\nname = \"r\"\nnote = \"n\"\nwhen = \"TRUE\"\nthen = \"x := v;\"\n[system.s]\ntext = \"s\"\n[system.s.instance]\na = { machine = \"m\" }\nb = { machine = \"m\" }\nc = { machine = \"m\" }\n[system.s.wire]\n\"a.v\" = \"b.v\"\n\"b.v\" = \"c.x\"\n[system.s.free]\nports = [\"c.v\"]\n[[system.s.property]]\nid = \"P\"\ntext = \"p\"\nalways = \"a.x = c.x\"\n";
+    let b = bound(text);
+    let (frame, _) = cycle(&b, &[0, 0, 0], &[("c.v", 7)]);
+    assert_eq!(frame.now, [7, 7, 7]);
+}
+
 #[test]
 fn effects_run_in_order_and_lets_keep_the_start() {
     let body = "[machine.m.state]\nx = { type = \"INT(0..9)\", init = 0 }\ny = { type = \"INT(0..9)\", init = 0 }\nz = { type = \"INT(0..9)\", init = 0 }\n[machine.m.let]\nold = \"x\"\n[machine.m.output]\nnow = \"x\"\nbefore = \"PREV(x)\"\n";

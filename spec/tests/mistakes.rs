@@ -353,6 +353,11 @@ fn wrong_systems() {
             "PREV",
         ),
         (
+            format!("{pair}[system.s.wire]\n\"m[i].a\" = \"m[3 - i].a\"\n"),
+            "combinational loop between m[1], m[2]",
+            "PREV",
+        ),
+        (
             format!("{two}[system.s.wire]\n\"m[i].a\" = \"PREV(m[@i + 1].x)\"\n"),
             "index 3 is outside 1..2",
             "2 instances",

@@ -7,7 +7,7 @@
 //! Recommended readings of the manual implemented here: AMB-07 STO_O, AMB-09, AMB-56 KEEP, AMB-66 KEEP, AMB-72 SS1 (a request
 //! for torque off in motion leaves the state to the stop that follows).
 
-use crate::heidenhain::types::{GroupState, Kind, Phase, Stop};
+use crate::heidenhain::types::{GroupState, Kind, Left, Phase, Stop};
 use crate::kernel::ConfigError;
 
 mod laws;
@@ -56,21 +56,21 @@ impl Config {
 pub struct State {
     /// The monitoring state.
     pub state: GroupState,
-    /// The mode has changed in motion: the limits of SLS_2 and SLS_3 apply together, until the group stands.
-    pub both: bool,
+    /// The modes it has left in motion, whose limits apply until it stands.
+    pub left: Left,
 }
 
 impl State {
     /// Torque off, as after every start of the control.
     pub const INITIAL: Self = Self {
         state: GroupState::Sto,
-        both: false,
+        left: Left::NONE,
     };
 
-    /// Both limits apply in one of their states only; restricted operation is for spindles.
+    /// Limits of other modes apply in one of these states only; restricted operation is for spindles.
     #[cfg_attr(creusot, creusot_contracts::macros::logic)]
     pub const fn invariant(&self, config: &Config) -> bool {
-        (!self.both || is_sls(self.state))
+        (self.left.is_none() || is_sls(self.state))
             && (!self.state.is_released() || config.may_release(self.state))
     }
 }
@@ -107,8 +107,8 @@ pub struct Inputs {
 pub struct Outputs {
     /// The monitoring state (`NN_AxGrpState`).
     pub state: GroupState,
-    /// The limits of SLS_2 and SLS_3 apply together.
-    pub both: bool,
+    /// The modes left in motion, whose limits apply as well.
+    pub left: Left,
     /// The group is released; a stop may brake it all the same.
     pub may_move: bool,
 }
@@ -127,16 +127,21 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
         | Phase::EmergencyBrake
         | Phase::BrakeCloses => limit(before, config, inputs),
     };
-    let changed = is_sls(before) && is_sls(next) && before != next;
-    // While a stop runs, standing still for a moment does not end the common limit.
-    let kept = state.both && (inputs.moving || inputs.phase != Phase::Run);
-    let after = State {
-        state: next,
-        both: is_sls(next) && (kept || (changed && inputs.moving)),
+    // While a stop runs, standing still for a moment does not end the limits of before.
+    let kept = if inputs.moving || inputs.phase != Phase::Run {
+        state.left
+    } else {
+        Left::NONE
     };
+    let left = match is_sls(next) {
+        true if before != next && inputs.moving => kept.and(before),
+        true => kept,
+        false => Left::NONE,
+    };
+    let after = State { state: next, left };
     let outputs = Outputs {
         state: after.state,
-        both: after.both,
+        left: after.left,
         may_move: after.state.is_released(),
     };
     (after, outputs)

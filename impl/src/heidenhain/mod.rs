@@ -14,6 +14,7 @@
 //! | [`judge`] | stops that requests, machine operating mode and permissive demand | `both_channels`, `startup` |
 //! | [`axis_release`] | feed enable of one axis in a released group, with an SS2 of its own | `group` of the cycle before |
 //! | [`stop`] | stop reaction of one axis group: SS2, SS1D, SS1, SS1F, SS0 with their timers | `judge`, all monitors |
+//! | [`report`] | what one channel tells the other of its stop and its causes | `stop` |
 //! | [`group`] | monitoring state of one axis group | `stop` |
 //! | [`switch_on`] | control voltage on: edge, chain of contacts, -STO.A.G | `stop` of every group |
 //! | [`output_enable`] | `NN_GenOutputEnable` | `stop` of every group |
@@ -69,6 +70,7 @@ pub mod output_enable;
 pub mod parameters;
 pub mod position_limit;
 pub mod reference;
+pub mod report;
 pub mod revolutions;
 pub mod sampling;
 pub mod self_checks;

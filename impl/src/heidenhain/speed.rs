@@ -5,7 +5,7 @@
 //! which channel B finds.
 
 pub use crate::contract::Stateless as State;
-use crate::heidenhain::types::{GroupState, Stop};
+use crate::heidenhain::types::{GroupState, Left, Stop};
 use crate::kernel::{ConfigError, Speed};
 
 /// The limits in increments per cycle (see [`crate::heidenhain::parameters`]), 0 where none is set.
@@ -49,23 +49,28 @@ impl Config {
         Ok(Self { limits, cc })
     }
 
-    /// The limit of a monitoring state, none where the speed is not limited. `both`: the group went from SLS_2 to SLS_3 or
-    /// back without standing still, and the lower of the two limits counts.
-    pub fn limit(&self, state: GroupState, both: bool) -> Option<Speed> {
+    /// The limit of a monitoring state, none where the speed is not limited. `left`: the modes that the group has left without
+    /// standing still; the lowest of all these limits counts, but not in restricted operation, which has its own.
+    pub fn limit(&self, state: GroupState, left: Left) -> Option<Speed> {
         let Limits {
             som_2,
             som_3,
             som_4,
             restricted,
         } = self.limits;
-        match state {
-            GroupState::Sls2 | GroupState::Sls3 if both => Some(som_2.min(som_3)),
-            GroupState::Sls2 => Some(som_2),
-            GroupState::Sls3 => Some(som_3),
-            GroupState::Sls4 => Some(som_4),
-            GroupState::SlsS => Some(restricted),
-            GroupState::Auto | GroupState::Sos | GroupState::StoO | GroupState::Sto => None,
-        }
+        let own = match state {
+            GroupState::Sls2 => som_2,
+            GroupState::Sls3 => som_3,
+            GroupState::Sls4 => som_4,
+            GroupState::SlsS => return Some(restricted),
+            GroupState::Auto | GroupState::Sos | GroupState::StoO | GroupState::Sto => return None,
+        };
+        let beside = |applies: bool, limit: Speed| if applies { limit } else { own };
+        Some(
+            own.min(beside(left.sls_2, som_2))
+                .min(beside(left.sls_3, som_3))
+                .min(beside(left.sls_4, som_4)),
+        )
     }
 }
 
@@ -79,8 +84,8 @@ const fn with_margin(limit: Speed) -> u64 {
 pub struct Inputs {
     /// The monitoring state of the group at the start of the cycle.
     pub state: GroupState,
-    /// The limits of SLS_2 and SLS_3 apply together.
-    pub both: bool,
+    /// The modes left in motion, whose limits apply as well.
+    pub left: Left,
     /// The magnitude of the actual speed.
     pub speed: Speed,
 }
@@ -101,13 +106,13 @@ pub struct Outputs {
 contract! {
     /// Faster than the limit of the mode plus 5 %: SS1 in the same cycle.
     faster_than_the_limit_stops ["HFS-P-11", "HFS-SLS-001", "HFS-SLS-003", "HFS-SLS-004", "HFS-SLS-006", "HFS-SLS-010"]:
-        when |s| s.inputs.state != GroupState::SlsS && s.config.limit(s.inputs.state, s.inputs.both)
+        when |s| s.inputs.state != GroupState::SlsS && s.config.limit(s.inputs.state, s.inputs.left)
             .is_some_and(|limit| s.inputs.speed.0 as u64 * 100 > limit.0 as u64 * 105)
             => s.outputs.violated && s.outputs.demand == Stop::Ss1;
 
     /// Up to the limit plus 5 % nothing is violated.
     within_the_margin_is_no_violation ["HFS-SLS-003"]:
-        when |s| s.config.limit(s.inputs.state, s.inputs.both)
+        when |s| s.config.limit(s.inputs.state, s.inputs.left)
             .is_some_and(|limit| s.inputs.speed.0 as u64 * 100 <= limit.0 as u64 * 105)
             && s.inputs.state != GroupState::SlsS
             => !s.outputs.violated && s.outputs.watched;
@@ -120,18 +125,20 @@ contract! {
 
     /// With the door closed, in the operating stop and without torque no speed is limited.
     nothing_watched_without_a_limit ["HFS-SLS-001", "HFS-SLS-011"]:
-        when |s| s.config.limit(s.inputs.state, s.inputs.both).is_none()
+        when |s| s.config.limit(s.inputs.state, s.inputs.left).is_none()
             => !s.outputs.watched && !s.outputs.violated && !s.outputs.not_set && s.outputs.demand == Stop::None;
 
-    /// Between SLS_2 and SLS_3 in motion the lower limit counts.
-    lower_of_two_limits_counts ["HFS-AXG-018"]:
-        when |s| s.inputs.both && matches!(s.inputs.state, GroupState::Sls2 | GroupState::Sls3)
-            && s.inputs.speed.0 as u64 * 100 > s.config.limits.som_2.min(s.config.limits.som_3).0 as u64 * 105
+    /// After a change between SLS_2, SLS_3 and SLS_4 in motion the lowest limit counts.
+    lowest_limit_counts ["HFS-AXG-018"]:
+        when |s| matches!(s.inputs.state, GroupState::Sls2 | GroupState::Sls3 | GroupState::Sls4)
+            && ((s.inputs.left.sls_2 && s.inputs.speed.0 as u64 * 100 > s.config.limits.som_2.0 as u64 * 105)
+                || (s.inputs.left.sls_3 && s.inputs.speed.0 as u64 * 100 > s.config.limits.som_3.0 as u64 * 105)
+                || (s.inputs.left.sls_4 && s.inputs.speed.0 as u64 * 100 > s.config.limits.som_4.0 as u64 * 105))
             => s.outputs.violated;
 
     /// A limit of 0 in SOM_2 to SOM_4 is found by channel B, which raises SS1 at any speed.
     limit_of_zero_is_found ["HFS-SLS-008"]:
-        when |s| s.config.limit(s.inputs.state, s.inputs.both) == Some(Speed(0)) && s.inputs.state != GroupState::SlsS
+        when |s| s.config.limit(s.inputs.state, s.inputs.left) == Some(Speed(0)) && s.inputs.state != GroupState::SlsS
             => s.outputs.not_set == s.config.cc && (!s.config.cc || s.outputs.demand == Stop::Ss1);
 
     /// SS1 is raised for these two reasons only, and nothing else is.
@@ -141,7 +148,7 @@ contract! {
 }
 
 pub(crate) fn transition(_: State, config: &Config, inputs: &Inputs) -> (State, Outputs) {
-    let Some(limit) = config.limit(inputs.state, inputs.both) else {
+    let Some(limit) = config.limit(inputs.state, inputs.left) else {
         return (State, Outputs::default());
     };
     let restricted = inputs.state == GroupState::SlsS;

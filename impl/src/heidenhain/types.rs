@@ -183,6 +183,52 @@ impl GroupState {
     }
 }
 
+/// The modes that a moving group has left for another one with limited speed: their limits apply beside that of the mode in
+/// force, until the group stands (HFS-AXG-018).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Left {
+    /// The limit of SLS_2 applies.
+    pub sls_2: bool,
+    /// The limit of SLS_3 applies.
+    pub sls_3: bool,
+    /// The limit of SLS_4 applies.
+    pub sls_4: bool,
+}
+
+impl Left {
+    /// None of them.
+    pub const NONE: Self = Self {
+        sls_2: false,
+        sls_3: false,
+        sls_4: false,
+    };
+
+    /// These, and the state that is left now.
+    #[must_use]
+    pub const fn and(self, state: GroupState) -> Self {
+        Self {
+            sls_2: self.sls_2 || matches!(state, GroupState::Sls2),
+            sls_3: self.sls_3 || matches!(state, GroupState::Sls3),
+            sls_4: self.sls_4 || matches!(state, GroupState::Sls4),
+        }
+    }
+
+    /// Whether no limit is left over.
+    pub const fn is_none(self) -> bool {
+        !(self.sls_2 || self.sls_3 || self.sls_4)
+    }
+
+    /// Whether the limit of a state is among them.
+    pub const fn has(self, state: GroupState) -> bool {
+        match state {
+            GroupState::Sls2 => self.sls_2,
+            GroupState::Sls3 => self.sls_3,
+            GroupState::Sls4 => self.sls_4,
+            _ => false,
+        }
+    }
+}
+
 /// What an axis group consists of (MP100): all its axes are of one kind and in one working space (HFS-GRP-001).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Kind {

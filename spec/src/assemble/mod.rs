@@ -359,8 +359,13 @@ impl<'a> Builder<'a> {
             self.expressions(k, unit);
         }
         self.fail_early()?;
-        let needs: Vec<Vec<usize>> = (0..units.len())
-            .map(|k| self.connect(&units[k], def, &wires))
+        for unit in &units {
+            self.connect(unit, def, &wires);
+        }
+        let needs: Vec<Vec<usize>> = units
+            .iter()
+            .enumerate()
+            .map(|(k, unit)| self.providers(k, unit))
             .collect();
         for unit in &mut units {
             self.rules(unit);

@@ -1,6 +1,6 @@
 //! Ports, wires, and the order in which instances step.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use super::{Builder, Unit};
 use crate::diag::{Result, nearest};
@@ -153,14 +153,13 @@ impl Builder<'_> {
         }
     }
 
-    /// Fills in the wired expressions of a unit; returns the units whose step must come before.
+    /// Fills in the wired expressions of a unit.
     pub(super) fn connect(
         &mut self,
         unit: &Unit,
         def: &schema::System,
         _wires: &HashMap<String, (Option<usize>, Text)>,
-    ) -> Vec<usize> {
-        let mut needs = Vec::new();
+    ) {
         for (lazy, _, k) in &unit.wires {
             let Some((_, text)) = def.wire.get_index(*k) else {
                 continue;
@@ -185,27 +184,42 @@ impl Builder<'_> {
                 Ok(node)
             })();
             if let Some(node) = self.note(made) {
-                self.providers(&node, &mut needs);
                 self.sys.lazies[*lazy as usize].value = node;
             }
         }
-        needs
     }
 
-    /// The units whose outputs or new state an expression reads.
-    pub(super) fn providers(&self, node: &Node, out: &mut Vec<usize>) {
-        node.visit(&mut |n| match n {
-            Node::Cell(Space::Now, k)
-            | Node::Element {
-                space: Space::Now,
-                base: k,
-                ..
-            } => {
-                out.extend(self.state_owner.get(*k as usize).copied());
+    /// The units whose step must come before that of unit `own`: those whose outputs or new state its wires read, also by way
+    /// of inputs of other units. A wire that reads itself makes the unit wait for itself, which has no order.
+    pub(super) fn providers(&self, own: usize, unit: &Unit) -> Vec<usize> {
+        let mut out = Vec::new();
+        for (wire, _, _) in &unit.wires {
+            let mut seen = HashSet::new();
+            let mut open = vec![*wire];
+            while let Some(lazy) = open.pop() {
+                let Some(read) = self.sys.lazies.get(lazy as usize) else {
+                    continue;
+                };
+                read.value.visit(&mut |n| match n {
+                    Node::Cell(Space::Now, k)
+                    | Node::Element {
+                        space: Space::Now,
+                        base: k,
+                        ..
+                    } => {
+                        out.extend(self.state_owner.get(*k as usize).copied());
+                    }
+                    Node::Lazy(k) => match self.lazy_owner.get(*k as usize).copied().flatten() {
+                        Some(owner) => out.push(owner),
+                        None if k == wire => out.push(own),
+                        None if seen.insert(*k) => open.push(*k),
+                        None => {}
+                    },
+                    _ => {}
+                });
             }
-            Node::Lazy(k) => out.extend(self.lazy_owner.get(*k as usize).copied().flatten()),
-            _ => {}
-        });
+        }
+        out
     }
 
     /// Data-flow order: providers first, else the order of the file.

@@ -3,7 +3,7 @@
 //! What one monitor guarantees on its own is part of its own contract and not repeated, except where a law of the manual
 //! runs through several monitors.
 
-use super::{Config, Inputs, Outputs, State, causes, transition};
+use super::{Config, Inputs, Outputs, State, causes, found, transition};
 use crate::heidenhain::gate;
 use crate::heidenhain::types::{GroupState, Kind, Phase, Stop};
 
@@ -117,6 +117,19 @@ contract! {
             => s.outputs.taken == own(&s)
                 && (s.outputs.taken.request != s.inputs.peer.request || s.outputs.taken.stop != s.inputs.peer.stop
                     || s.outputs.taken.starts != s.inputs.peer.starts || s.outputs.taken.held != s.inputs.peer.held);
+
+    /// The other channel is told every cause that this one finds, also when its own torque is off already.
+    other_channel_is_told_of_causes ["HFS-STOP-012", "HFS-ARCH-001"]:
+        when |s| !s.inputs.main_switch && (found(&s.inputs) != Stop::None || own(&s).stop != Stop::None)
+            => s.outputs.tells >= found(&s.inputs).max(own(&s).stop);
+
+    /// What the other channel has told is not told back by a channel without torque, so that both can be switched on again.
+    told_causes_are_not_told_back ["HFS-STOP-012", "HFS-ACK-001"]:
+        when |s| s.outputs.stop.torque_off && !s.outputs.stop.needs_switch && !held(&s).is_released()
+            && found(&s.inputs) == Stop::None && !s.inputs.late && !s.inputs.moving
+            && own(&s).stop == Stop::None && s.inputs.peer.stop == Stop::None
+            && own(&s).request == GroupState::Auto && s.inputs.peer.request == GroupState::Auto
+            => s.outputs.tells == Stop::None;
 
     /// The step keeps the invariant and shows its state.
     state_stays_consistent ["HFS-STOP-009", "HFS-AXG-001"]:

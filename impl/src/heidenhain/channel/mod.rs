@@ -10,7 +10,7 @@
 //! asked for.
 
 use crate::heidenhain::types::{GroupState, Kind, Phase, Som, Stop, Unit};
-use crate::heidenhain::{both_channels, gate, group, judge, startup, stop};
+use crate::heidenhain::{both_channels, gate, group, judge, report, startup, stop};
 use crate::kernel::{ConfigError, Cycles};
 
 mod laws;
@@ -25,6 +25,7 @@ pub struct Config {
     startup: startup::Config,
     judge: judge::Config,
     stop: stop::Config,
+    report: report::Config,
     group: group::Config,
 }
 
@@ -46,6 +47,7 @@ impl Config {
             startup: startup::Config::new(t_idle)?,
             judge: judge::Config::new(kind, som_4)?,
             stop,
+            report: report::Config::new()?,
             group: group::Config::new(kind)?,
         })
     }
@@ -139,7 +141,7 @@ pub struct Inputs {
     pub untested: bool,
     /// The highest stop that the monitors of this channel demand for the group; an SS1 among them concerns the machine.
     pub monitors: Stop,
-    /// The stop of the group in the other channel.
+    /// What the other channel tells of the group ([`Outputs::tells`] of it).
     pub told: Stop,
     /// An SS1 of another group, or an emergency stop, concerns the whole machine.
     pub machine: Stop,
@@ -172,6 +174,8 @@ pub struct Outputs {
     pub stops_axes: bool,
     /// The stop of the group.
     pub stop: stop::Outputs,
+    /// What the other channel is told: the stop that runs, and the causes that this channel finds.
+    pub tells: Stop,
     /// The monitoring state of the group.
     pub group: group::Outputs,
     /// The group has no torque in this channel: a stop has taken it, or its state is STO or STO_O.
@@ -180,9 +184,14 @@ pub struct Outputs {
     pub brake_closed: bool,
 }
 
-/// The causes of the cycle from outside this group's own requests.
+/// The causes that this channel finds outside the group's own requests.
+fn found(inputs: &Inputs) -> Stop {
+    inputs.monitors.max(inputs.machine)
+}
+
+/// Those, and what the other channel tells.
 fn causes(inputs: &Inputs) -> Stop {
-    inputs.monitors.max(inputs.told).max(inputs.machine)
+    found(inputs).max(inputs.told)
 }
 
 pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (State, Outputs) {
@@ -256,6 +265,15 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
             spindle_stop: inputs.spindle_stop,
         },
     );
+    let (_, report) = report::next(
+        report::State::INITIAL,
+        &config.report,
+        &report::Inputs {
+            level: stop.level,
+            phase: stop.phase,
+            found: judged.demand.max(found(inputs)),
+        },
+    );
     let off = matches!(group.state, GroupState::Sto | GroupState::StoO);
     let after = State {
         startup,
@@ -272,6 +290,7 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
         demand,
         stops_axes: judged.stops_axes,
         stop: stopped,
+        tells: report.told,
         group: grouped,
         torque_off: stopped.torque_off || off,
         brake_closed: stopped.brake_closed || off,

@@ -89,12 +89,19 @@ contract! {
             => s.inputs.activate && s.inputs.request == GroupState::Auto && s.inputs.demand == Stop::None
                 && s.inputs.phase == Phase::Run;
 
-    /// After a change of the mode in motion the limits of SOM_2 and SOM_3 apply together until the group stands.
-    both_limits_until_standstill ["HFS-AXG-018"]:
+    /// After a change of the mode in motion the limit of the old one applies as well.
+    old_limit_stays_in_motion ["HFS-AXG-018"]:
         when |s| s.inputs.moving && held(&s) != s.outputs.state
             && matches!(held(&s), GroupState::Sls2 | GroupState::Sls3 | GroupState::Sls4)
             && matches!(s.outputs.state, GroupState::Sls2 | GroupState::Sls3 | GroupState::Sls4)
-            => s.outputs.both;
+            => s.outputs.left.has(held(&s));
+
+    /// It does so until the group stands, or the speed is limited no more, whatever modes follow.
+    old_limits_stay_until_standstill ["HFS-AXG-018"]:
+        when |s| !s.before.left.is_none() && s.inputs.moving
+            && matches!(s.outputs.state, GroupState::Sls2 | GroupState::Sls3 | GroupState::Sls4) && !s.inputs.main_switch
+            => (!s.before.left.sls_2 || s.outputs.left.sls_2) && (!s.before.left.sls_3 || s.outputs.left.sls_3)
+                && (!s.before.left.sls_4 || s.outputs.left.sls_4);
 
     /// A turning spindle leaves restricted operation for no other limit.
     restricted_until_standstill ["HFS-AXG-019", "HFS-MODE-013"]:
@@ -115,5 +122,5 @@ contract! {
     /// The step keeps the invariant and shows its state.
     state_stays_consistent ["HFS-AXG-001"]:
         when |s| s.before.invariant(&s.config)
-            => s.after.invariant(&s.config) && s.outputs.state == s.after.state && s.outputs.both == s.after.both;
+            => s.after.invariant(&s.config) && s.outputs.state == s.after.state && s.outputs.left == s.after.left;
 }

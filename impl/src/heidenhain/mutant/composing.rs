@@ -32,3 +32,13 @@ pub(super) fn channel_alone(
     inputs.peer = channel::transition(state, config, &inputs).1.taken;
     channel::transition(state, config, &inputs)
 }
+
+pub(super) fn channel_tells_back(
+    state: channel::State,
+    config: &channel::Config,
+    inputs: &channel::Inputs,
+) -> (channel::State, channel::Outputs) {
+    let (after, mut outputs) = channel::transition(state, config, inputs);
+    outputs.tells = outputs.tells.max(inputs.told);
+    (after, outputs)
+}

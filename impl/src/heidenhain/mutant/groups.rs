@@ -1,6 +1,6 @@
 //! Wrong variants of what is asked of an axis group and of its monitoring state.
 
-use crate::heidenhain::types::{GroupState, Phase, Stop};
+use crate::heidenhain::types::{GroupState, Left, Phase, Stop};
 use crate::heidenhain::{axis_release, group, judge, startup};
 
 pub(super) fn judge_trusts_mode_changes(
@@ -54,8 +54,8 @@ pub(super) fn group_loosens(
     inputs: &group::Inputs,
 ) -> (group::State, group::Outputs) {
     let (mut after, mut outputs) = group::transition(state, config, inputs);
-    after.both = false;
-    outputs.both = false;
+    after.left = Left::NONE;
+    outputs.left = Left::NONE;
     (after, outputs)
 }
 

@@ -47,6 +47,13 @@ mutants! { heidenhain:
         /// Channel B takes the torque together with closing the brakes.
         StopDropsTheLoad "stop-drops-the-load" => stops::stop_drops_the_load;
     }
+    /// What the other channel is told, with this mutant in it.
+    fn report {
+        /// A channel without torque tells of no further cause.
+        ReportFallsSilent "report-falls-silent" => stops::report_falls_silent;
+        /// A stop that has ended is told on and on.
+        ReportNeverEnds "report-never-ends" => stops::report_never_ends;
+    }
     /// The judgement with this mutant in it.
     fn judge {
         /// SOM_4 may follow SOM_2 directly.
@@ -60,7 +67,7 @@ mutants! { heidenhain:
     fn group {
         /// Closing the door activates.
         GroupDoorStarts "group-door-starts" => groups::group_door_starts;
-        /// A change between SOM_2 and SOM_3 in motion drops the old limit.
+        /// A change of the mode in motion drops the old limit.
         GroupLoosens "group-loosens" => groups::group_loosens;
         /// An SS1D makes STO of STO_O.
         GroupSoftLiftsSto "group-soft-lifts-sto" => groups::group_soft_lifts_sto;
@@ -113,6 +120,8 @@ mutants! { heidenhain:
         ChannelPermitsByLevel "channel-permits-by-level" => composing::channel_permits_by_level;
         /// A stop that the other channel tells is not taken over.
         ChannelMissesTold "channel-misses-told" => composing::channel_misses_told;
+        /// A cause that the other channel has told is told back to it.
+        ChannelTellsBack "channel-tells-back" => composing::channel_tells_back;
         /// The requests of the other channel are taken to be the own ones.
         ChannelAlone "channel-alone" => composing::channel_alone;
     }
@@ -120,7 +129,7 @@ mutants! { heidenhain:
     fn speed {
         /// One increment more than the limit plus 5 % is permitted.
         SpeedMarginTooWide "speed-margin-too-wide" => watching::speed_margin_too_wide;
-        /// Between SLS_2 and SLS_3 in motion the new limit counts at once, also a higher one.
+        /// After a change of the mode in motion the new limit counts at once, also a higher one.
         SpeedHigherOfTwo "speed-higher-of-two" => watching::speed_higher_of_two;
         /// A limit that is not set is not shown.
         SpeedZeroIsNoFault "speed-zero-is-no-fault" => watching::speed_zero_is_no_fault;

@@ -1,7 +1,7 @@
 //! Wrong variants of the stop reaction.
 
-use crate::heidenhain::stop;
 use crate::heidenhain::types::{Phase, Stop};
+use crate::heidenhain::{report, stop};
 use crate::kernel::Cycles;
 
 pub(super) fn stop_reloads_timer(
@@ -53,4 +53,16 @@ pub(super) fn stop_drops_the_load(
     let (after, mut outputs) = stop::transition(state, config, inputs);
     outputs.torque_off |= outputs.brake_closed;
     (after, outputs)
+}
+
+variants! {
+    report_falls_silent: report |state, config, inputs| {
+        let found = if inputs.phase == Phase::TorqueOff { Stop::None } else { inputs.found };
+        report::transition(state, config, &report::Inputs { found, ..*inputs })
+    }
+
+    report_never_ends: report |state, config, inputs| {
+        let phase = Phase::Run;
+        report::transition(state, config, &report::Inputs { phase, ..*inputs })
+    }
 }

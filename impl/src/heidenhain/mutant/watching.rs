@@ -1,6 +1,6 @@
 //! Wrong variants of the monitors of position and speed.
 
-use crate::heidenhain::types::{GroupState, Stop, Unit};
+use crate::heidenhain::types::{GroupState, Left, Stop, Unit};
 use crate::heidenhain::{
     axis_count, comparison, deceleration, operating_stop, position_limit, revolutions, speed,
     stop_path,
@@ -14,7 +14,8 @@ variants! {
     }
 
     speed_higher_of_two: speed |state, config, inputs| {
-        speed::transition(state, config, &speed::Inputs { both: false, ..*inputs })
+        let left = Left::NONE;
+        speed::transition(state, config, &speed::Inputs { left, ..*inputs })
     }
 
     speed_zero_is_no_fault: speed |state, config, inputs| {

@@ -3,7 +3,7 @@
 //! The whole product is what Kani takes and what random tests draw from. It is too large to enumerate; the enumeration takes
 //! parts of it, each free in what one group of laws is about.
 
-use stillpoint_monitors::heidenhain::types::{GroupState, Phase, Som, Stop, Unit};
+use stillpoint_monitors::heidenhain::types::{GroupState, Left, Phase, Som, Stop, Unit};
 use stillpoint_monitors::heidenhain::{channel, gate, judge, startup, stop};
 use stillpoint_monitors::kernel::Cycles;
 
@@ -168,7 +168,7 @@ fn whole<S: Source>(source: &mut S) -> Option<Step> {
         fresh: false,
     };
     if state.stop.phase == Phase::TorqueOff {
-        state.group.both = false;
+        state.group.left = Left::NONE;
         state.group.state = source.any_of(&[GroupState::Sto, GroupState::StoO]);
     }
     let off = matches!(state.group.state, GroupState::Sto | GroupState::StoO);

@@ -1,7 +1,7 @@
 //! Stop and monitoring state of an axis group.
 
-use stillpoint_monitors::heidenhain::types::{GroupState, Phase, Stop, Unit};
-use stillpoint_monitors::heidenhain::{axis_release, group, judge, startup, stop};
+use stillpoint_monitors::heidenhain::types::{GroupState, Left, Phase, Stop, Unit};
+use stillpoint_monitors::heidenhain::{axis_release, group, judge, report, startup, stop};
 
 use super::kind;
 use crate::source::Source;
@@ -98,6 +98,28 @@ pub fn judge<S: Source>(source: &mut S) -> Option<(judge::State, judge::Config, 
     Some((judge_state(source), config, judge_inputs(source)))
 }
 
+/// Any step of the report to the other channel.
+pub fn report<S: Source>(
+    source: &mut S,
+) -> Option<(report::State, report::Config, report::Inputs)> {
+    let config = report::Config::new().ok()?;
+    let inputs = report::Inputs {
+        level: source.any_of(&Stop::ALL),
+        phase: source.any_of(&Phase::ALL),
+        found: source.any_of(&Stop::ALL),
+    };
+    Some((report::State::INITIAL, config, inputs))
+}
+
+/// Any modes left in motion.
+pub fn left<S: Source>(source: &mut S) -> Left {
+    Left {
+        sls_2: source.any_bool(),
+        sls_3: source.any_bool(),
+        sls_4: source.any_bool(),
+    }
+}
+
 /// Any consistent monitoring state.
 pub fn group_state<S: Source>(source: &mut S, config: &group::Config) -> Option<group::State> {
     let state = source.any_of(&GroupState::ALL);
@@ -105,8 +127,8 @@ pub fn group_state<S: Source>(source: &mut S, config: &group::Config) -> Option<
         state,
         GroupState::Sls2 | GroupState::Sls3 | GroupState::Sls4
     );
-    let both = slow && source.any_bool();
-    let state = group::State { state, both };
+    let left = if slow { left(source) } else { Left::NONE };
+    let state = group::State { state, left };
     state.invariant(config).then_some(state)
 }
 

@@ -8,6 +8,7 @@ use stillpoint_monitors::heidenhain::{
 };
 use stillpoint_monitors::kernel::{Cycles, Distance, Percent, Position, Speed};
 
+use super::left;
 use crate::source::Source;
 
 /// Any position; the enumeration takes those near 0 and the ends of the range.
@@ -42,8 +43,8 @@ pub fn speed<S: Source>(source: &mut S) -> Option<(speed::State, speed::Config, 
     };
     let config = speed::Config::new(limits, source.any_bool()).ok()?;
     let state = state(source);
-    let both = source.any_bool();
-    let limit = config.limit(state, both).unwrap_or_default().0;
+    let left = left(source);
+    let limit = config.limit(state, left).unwrap_or_default().0;
     let speed = match source.any_in(0, 2) {
         0 => velocity(source, 3),
         1 => Speed(
@@ -53,7 +54,7 @@ pub fn speed<S: Source>(source: &mut S) -> Option<(speed::State, speed::Config, 
         ),
         _ => Speed(limit.saturating_add(source.any_in(0, 1))),
     };
-    let inputs = speed::Inputs { state, both, speed };
+    let inputs = speed::Inputs { state, left, speed };
     Some((speed::State::INITIAL, config, inputs))
 }
 

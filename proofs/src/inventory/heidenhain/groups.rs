@@ -10,6 +10,12 @@ inventory! {
         domain_text: "SMP525 to SMP528 and MP2308 each 0, 1 or 3 cycles; either channel; every consistent state; every input",
         caveat: "longer times only under Kani and in samples; the code compares times with zero, it treats no other value specially",
     }]
+    [contract hfs_report_contract on heidenhain::report {
+        property: "every clause of the report's contract: the running stop, every cause that is found, nothing that is over",
+        domain: NARROW,
+        domain_text: "complete: every input",
+        caveat: "that the telegram arrives is watched by the watchdogs; when it arrives is in the tables",
+    }]
     [contract hfs_judge_contract on heidenhain::judge {
         property: "every clause of the judgement's contract: bad requests, mode changes, motion, permissive, operating unit, self-test",
         domain: NARROW,

@@ -46,6 +46,8 @@ monitors! { heidenhain:
     start_checks
     /// Stop reaction.
     stop
+    /// What the other channel is told.
+    report
     /// Requests, operating mode and permissive.
     judge
     /// Monitoring state.

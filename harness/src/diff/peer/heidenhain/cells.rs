@@ -5,7 +5,7 @@ use stillpoint_monitors::heidenhain::{
 };
 
 use super::numbers::{self, *};
-use crate::diff::peer::adapter::cells;
+use crate::diff::peer::adapter::{Cells, cells};
 
 cells! {
     stop::State, 5 {
@@ -18,10 +18,6 @@ cells! {
     judge::State, 2 {
         modes = |c| value(&judge::Modes::ALL, c), |m| ordinal(&judge::Modes::ALL, m);
         place = |c| value(&judge::Place::ALL, c), |p| ordinal(&judge::Place::ALL, p);
-    }
-    group::State, 2 {
-        state = state, |s| ordinal(&GroupState::ALL, s);
-        both = truthy, i32::from;
     }
     startup::State, 1 {
         timer = cycles, cell;
@@ -47,5 +43,39 @@ cells! {
     output_enable::State, 2 {
         enabled = truthy, i32::from;
         timer = cycles, cell;
+    }
+}
+
+/// The monitoring state, and a cell for each mode left in motion.
+impl Cells for group::State {
+    const COUNT: usize = 4;
+
+    fn load(cells: &[i32]) -> Self {
+        let cell = |k: usize| cells.get(k).copied().unwrap_or(0);
+        Self {
+            state: state(cell(0)),
+            left: Left {
+                sls_2: truthy(cell(1)),
+                sls_3: truthy(cell(2)),
+                sls_4: truthy(cell(3)),
+            },
+        }
+    }
+
+    fn store(self, cells: &mut [i32]) {
+        let Left {
+            sls_2,
+            sls_3,
+            sls_4,
+        } = self.left;
+        let own = [
+            ordinal(&GroupState::ALL, self.state),
+            i32::from(sls_2),
+            i32::from(sls_3),
+            i32::from(sls_4),
+        ];
+        for (cell, value) in cells.iter_mut().zip(own) {
+            *cell = value;
+        }
     }
 }

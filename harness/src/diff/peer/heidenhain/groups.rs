@@ -1,7 +1,7 @@
 //! Stop and monitoring state of an axis group.
 
 use stillpoint_monitors::heidenhain::mutant::Mutant;
-use stillpoint_monitors::heidenhain::{axis_release, group, judge, startup, stop as stops};
+use stillpoint_monitors::heidenhain::{axis_release, group, judge, report, startup, stop as stops};
 
 use super::numbers::{self, *};
 use crate::diff::peer::adapter::Adapter;
@@ -12,6 +12,7 @@ use crate::diff::product::Values;
 pub(super) fn make(machine: &str, p: &Params, mutant: Option<Mutant>) -> Made {
     Ok(Some(match machine {
         "stop" => stops(p, mutant)?,
+        "report" => report(mutant)?,
         "judge" => judge(p, mutant)?,
         "group" => group(p, mutant)?,
         "startup" => startup(p, mutant)?,
@@ -83,6 +84,24 @@ fn stops(p: &Params, mutant: Option<Mutant>) -> Refusable {
                 bit(out.keeps_enable),
             ]);
             after
+        },
+    ))
+}
+
+fn report(mutant: Option<Mutant>) -> Refusable {
+    let config = report::Config::new()?;
+    let next = mutant.map_or(report::next as report::Next, Mutant::report);
+    Ok(Adapter::stateless(
+        &["level", "phase", "found"],
+        &["told"],
+        move |i, o| {
+            let inputs = report::Inputs {
+                level: stop(i[0]),
+                phase: phase(i[1]),
+                found: stop(i[2]),
+            };
+            let (_, out) = next(report::State::INITIAL, &config, &inputs);
+            o.push(stop_rank(out.told));
         },
     ))
 }
@@ -161,8 +180,8 @@ fn group(p: &Params, mutant: Option<Mutant>) -> Refusable {
             "switch_on",
             "spindle_stop",
         ],
-        &["state", "both", "may_move"],
-        vec![upto(7), truth()],
+        &["state", "with_2", "with_3", "with_4", "may_move"],
+        vec![upto(7), truth(), truth(), truth()],
         group::State::INITIAL,
         move |state, i, o| {
             let inputs = group::Inputs {
@@ -179,7 +198,13 @@ fn group(p: &Params, mutant: Option<Mutant>) -> Refusable {
                 spindle_stop: i[10] != 0,
             };
             let (after, out) = next(state, &config, &inputs);
-            o.extend([state_rank(out.state), bit(out.both), bit(out.may_move)]);
+            o.extend([
+                state_rank(out.state),
+                bit(out.left.sls_2),
+                bit(out.left.sls_3),
+                bit(out.left.sls_4),
+                bit(out.may_move),
+            ]);
             after
         },
     ))

@@ -19,6 +19,7 @@ pub(super) static FAMILY: Family = Family {
         ("gate", "gate"),
         ("both_channels", "both_channels"),
         ("stop", "stop"),
+        ("report", "report"),
         ("judge", "judge"),
         ("group", "group"),
         ("startup", "startup"),

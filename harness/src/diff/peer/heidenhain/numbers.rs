@@ -1,6 +1,8 @@
 //! The values of the monitors as the numbers of the tables, and back.
 
-pub(super) use stillpoint_monitors::heidenhain::types::{GroupState, Kind, Phase, Som, Stop, Unit};
+pub(super) use stillpoint_monitors::heidenhain::types::{
+    GroupState, Kind, Left, Phase, Som, Stop, Unit,
+};
 
 pub(super) use crate::diff::peer::numbers::*;
 

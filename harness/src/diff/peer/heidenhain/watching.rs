@@ -77,13 +77,17 @@ fn speed(p: &Params, mutant: Option<Mutant>) -> Refusable {
     let config = speed::Config::new(limits, p.is("cc"))?;
     let next = mutant.map_or(speed::next as speed::Next, Mutant::speed);
     Ok(Adapter::stateless(
-        &["state", "both", "v"],
+        &["state", "with_2", "with_3", "with_4", "v"],
         &["watched", "violated", "not_set", "demand"],
         move |i, o| {
             let inputs = speed::Inputs {
                 state: state(i[0]),
-                both: i[1] != 0,
-                speed: speed_of(i[2]),
+                left: Left {
+                    sls_2: i[1] != 0,
+                    sls_3: i[2] != 0,
+                    sls_4: i[3] != 0,
+                },
+                speed: speed_of(i[4]),
             };
             let (_, out) = next(speed::State::INITIAL, &config, &inputs);
             o.extend([
