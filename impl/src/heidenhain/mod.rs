@@ -30,6 +30,9 @@
 //! | [`brakes`] | brake outputs of a safe PLC | `stop` |
 //! | [`tool_holder`] | opening of the tool holder by a safe PLC | `group` of the cycle before |
 //! | [`acceptance`] | acceptance of changed safe machine parameters | - |
+//! | [`key_filter`] | keys of one operating unit at a time, group signal of the keys (safe PLC) | `button` |
+//! | [`axes_logic`], [`spindle_logic`], [`magazine_logic`] | requests for the three groups of a milling machine (safe PLC) | `key_filter`, `som` |
+//! | [`safe_plc`] | these blocks wired to a program | - |
 //! | [`self_test`] | order of the self-test, its interval | - |
 //! | [`status_bits`] | reactions to the safe status bits of a telegram | - |
 //! | [`sampling`] | forced dynamic sampling of a pair of inputs | - |
@@ -70,6 +73,7 @@ pub mod parameters;
 pub mod position_limit;
 pub mod reference;
 pub mod revolutions;
+pub mod safe_plc;
 pub mod sampling;
 pub mod self_checks;
 pub mod self_test;
@@ -83,3 +87,6 @@ pub mod stop_path;
 pub mod switch_on;
 pub mod tool_holder;
 pub mod types;
+
+// The blocks of the safe PLC under the names of monitors, like all others.
+pub use safe_plc::{axes_logic, key_filter, magazine_logic, spindle_logic};

@@ -15,6 +15,7 @@ mod composing;
 mod groups;
 mod interface;
 mod machine;
+mod safe_plc;
 mod service;
 mod stops;
 mod watching;
@@ -257,5 +258,43 @@ mutants! { heidenhain:
         StartChecksAnySpeed "start-checks-any-speed" => service::start_checks_any_speed;
         /// A refused control tries again by itself.
         StartChecksTriesAgain "start-checks-tries-again" => service::start_checks_tries_again;
+    }
+    /// The filter of the keys with this mutant in it.
+    fn key_filter {
+        /// A stop key of a unit that is not active is filtered.
+        KeyFilterDropsStops "key-filter-drops-stops" => safe_plc::key_filter_drops_stops;
+        /// The handwheel acts in every operating mode.
+        KeyFilterTwoUnits "key-filter-two-units" => safe_plc::key_filter_two_units;
+        /// The group signal is formed of what the filter lets through.
+        KeyFilterGroupSignalLate "key-filter-group-signal-late" => safe_plc::key_filter_group_signal_late;
+    }
+    /// The requests for NC axes with this mutant in them.
+    fn axes_logic {
+        /// A key that is held while the door closes activates.
+        AxesLogicHeldKeyStarts "axes-logic-held-key-starts" => safe_plc::axes_logic_held_key_starts;
+        /// NC start counts as long as it is pressed, not from its edge.
+        AxesLogicStartByLevel "axes-logic-start-by-level" => safe_plc::axes_logic_start_by_level;
+        /// A program goes on without its permissive.
+        AxesLogicForgetsThePermissive "axes-logic-forgets-the-permissive" => safe_plc::axes_logic_forgets_the_permissive;
+        /// An open magazine door does not matter.
+        AxesLogicMagazineDoorOverlooked "axes-logic-magazine-door-overlooked" => safe_plc::axes_logic_magazine_door_overlooked;
+    }
+    /// The requests for a spindle with this mutant in them.
+    fn spindle_logic {
+        /// A jog key that is released stops nothing.
+        SpindleLogicJogRunsOn "spindle-logic-jog-runs-on" => safe_plc::spindle_logic_jog_runs_on;
+        /// With the door open a start needs no permissive.
+        SpindleLogicNoPermissive "spindle-logic-no-permissive" => safe_plc::spindle_logic_no_permissive;
+        /// Restricted operation is granted in SOM_1 too.
+        SpindleLogicRestrictedInSom1 "spindle-logic-restricted-in-som-1" => safe_plc::spindle_logic_restricted_in_som_1;
+    }
+    /// The requests for a magazine with this mutant in them.
+    fn magazine_logic {
+        /// A door that is opened in motion is an SS2.
+        MagazineLogicDoorIsSs2 "magazine-logic-door-is-ss2" => safe_plc::magazine_logic_door_is_ss2;
+        /// The confirmation outlasts the open door.
+        MagazineLogicConfirmedForEver "magazine-logic-confirmed-for-ever" => safe_plc::magazine_logic_confirmed_for_ever;
+        /// The permissive alone keeps it moving.
+        MagazineLogicPermissiveIsEnough "magazine-logic-permissive-is-enough" => safe_plc::magazine_logic_permissive_is_enough;
     }
 }

@@ -64,4 +64,12 @@ monitors! { heidenhain:
     output_enable
     /// The channel.
     channel
+    /// Filter of the keys.
+    key_filter
+    /// Requests for NC axes.
+    axes_logic
+    /// Requests for a spindle.
+    spindle_logic
+    /// Requests for a magazine.
+    magazine_logic
 }
