@@ -6,6 +6,7 @@ mod groups;
 mod interface;
 mod machine;
 mod numbers;
+mod safe_plc;
 mod service;
 mod watching;
 
@@ -45,6 +46,10 @@ pub(super) static FAMILY: Family = Family {
         ("sampling", "sampling"),
         ("self_checks", "self_checks"),
         ("start_checks", "start_checks"),
+        ("splc", "safe_plc"),
+        ("splc_axes", "axes_logic"),
+        ("splc_spindle", "spindle_logic"),
+        ("splc_magazine", "magazine_logic"),
     ],
     systems: &[],
     fixed: &[],
@@ -63,6 +68,7 @@ fn make(machine: &str, params: &Params, mutant: Option<super::Mutant>) -> Made {
         watching::make,
         service::make,
         checks::make,
+        safe_plc::make,
     ] {
         if let Some(adapter) = make(machine, params, mutant)? {
             return Ok(Some(adapter));
