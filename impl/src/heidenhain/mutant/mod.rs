@@ -297,4 +297,61 @@ mutants! { heidenhain:
         /// The permissive alone keeps it moving.
         MagazineLogicPermissiveIsEnough "magazine-logic-permissive-is-enough" => safe_plc::magazine_logic_permissive_is_enough;
     }
+    /// A safe input with this mutant in it.
+    fn safe_input {
+        /// One contact is enough.
+        SafeInputOneContact "safe-input-one-contact" => safe_plc::safe_input_one_contact;
+    }
+    /// The working space with this mutant in it.
+    fn working_space {
+        /// One closed door protects the space.
+        WorkingSpaceOneDoor "working-space-one-door" => safe_plc::working_space_one_door;
+    }
+    /// The control voltage asked for with this mutant in it.
+    fn control_voltage {
+        /// One reset is good for ever.
+        ControlVoltageOneReset "control-voltage-one-reset" => safe_plc::control_voltage_one_reset;
+    }
+    /// The jog increment with this mutant in it.
+    fn jog_increment {
+        /// A key that stays pressed begins the next increment.
+        JogIncrementRepeats "jog-increment-repeats" => safe_plc::jog_increment_repeats;
+        /// A lost condition takes the feed only.
+        JogIncrementNoStop "jog-increment-no-stop" => safe_plc::jog_increment_no_stop;
+    }
+    /// The general fields with this mutant in them.
+    fn general_fields {
+        /// A marker of 2 counts as 1.
+        GeneralFieldsAnyNumber "general-fields-any-number" => safe_plc::general_fields_any_number;
+    }
+    /// The check of a program with this mutant in it.
+    fn program_check {
+        /// A changed program runs on with a message.
+        ProgramCheckMessageOnly "program-check-message-only" => safe_plc::program_check_message_only;
+    }
+    /// The table of the safety functions with this mutant in it.
+    fn availability {
+        /// Auxiliary axes have an operating stop in SOM_1.
+        AvailabilityAuxiliaryStop "availability-auxiliary-stop" => safe_plc::availability_auxiliary_stop;
+    }
+    /// The functions with the door open with this mutant in them.
+    fn allowed_functions {
+        /// The chip conveyor needs no permissive.
+        AllowedFunctionsConveyor "allowed-functions-conveyor" => safe_plc::allowed_functions_conveyor;
+    }
+    /// The soft key F LIMITED with this mutant in it.
+    fn f_limited {
+        /// In SOM_1 the limit of SOM_2 applies.
+        FLimitedSom1Moves "f-limited-som-1-moves" => safe_plc::f_limited_som_1_moves;
+    }
+    /// The motion of a group with this mutant in it.
+    fn group_motion {
+        /// The first axis counts alone.
+        GroupMotionFirstAxis "group-motion-first-axis" => safe_plc::group_motion_first_axis;
+    }
+    /// A safe output with this mutant in it.
+    fn safe_output {
+        /// The enable is not looked at.
+        SafeOutputStaysOn "safe-output-stays-on" => safe_plc::safe_output_stays_on;
+    }
 }

@@ -1,7 +1,11 @@
 //! Wrong variants of the blocks of the safe PLC.
 
-use crate::heidenhain::types::{GroupState, Stop, Unit};
-use crate::heidenhain::{axes_logic, key_filter, magazine_logic, spindle_logic};
+use crate::heidenhain::types::{GroupState, Kind, Som, Stop, Unit};
+use crate::heidenhain::{
+    allowed_functions, availability, axes_logic, control_voltage, f_limited, general_fields,
+    group_motion, jog_increment, key_filter, magazine_logic, program_check, safe_input,
+    safe_output, spindle_logic, working_space,
+};
 
 variants! {
     key_filter_drops_stops: key_filter |state, config, inputs| {
@@ -93,5 +97,79 @@ variants! {
             inputs.keys = 1;
         }
         magazine_logic::transition(state, config, &inputs)
+    }
+
+    safe_input_one_contact: safe_input |state, config, inputs| {
+        let either = inputs.contact_a || inputs.contact_b;
+        let inputs = safe_input::Inputs { contact_a: either, contact_b: either };
+        safe_input::transition(state, config, &inputs)
+    }
+
+    working_space_one_door: working_space |state, config, inputs| {
+        let closed = if inputs.closed != 0 { u8::MAX } else { 0 };
+        working_space::transition(state, config, &working_space::Inputs { closed })
+    }
+
+    control_voltage_one_reset: control_voltage |state, config, inputs| {
+        let (mut after, outputs) = control_voltage::transition(state, config, inputs);
+        after.armed |= state.armed;
+        (after, outputs)
+    }
+
+    jog_increment_repeats: jog_increment |state, config, inputs| {
+        let (mut after, outputs) = jog_increment::transition(state, config, inputs);
+        if after.jog == jog_increment::Jog::Ended {
+            after.jog = jog_increment::Jog::Ready;
+        }
+        (after, outputs)
+    }
+
+    jog_increment_no_stop: jog_increment |state, config, inputs| {
+        let (after, mut outputs) = jog_increment::transition(state, config, inputs);
+        outputs.stop = Stop::None;
+        (after, outputs)
+    }
+
+    general_fields_any_number: general_fields |state, config, inputs| {
+        let mut inputs = *inputs;
+        inputs.drives = inputs.drives.min(1);
+        general_fields::transition(state, config, &inputs)
+    }
+
+    program_check_message_only: program_check |state, config, inputs| {
+        let (mut after, mut outputs) = program_check::transition(state, config, inputs);
+        outputs.good |= inputs.translated;
+        after.good = outputs.good;
+        (after, outputs)
+    }
+
+    availability_auxiliary_stop: availability |state, config, inputs| {
+        let (after, mut outputs) = availability::transition(state, config, inputs);
+        outputs.available |= inputs.kind == Kind::Auxiliary
+            && inputs.function == availability::Function::Sos;
+        (after, outputs)
+    }
+
+    allowed_functions_conveyor: allowed_functions |state, config, inputs| {
+        let inputs = allowed_functions::Inputs { permissive: true, ..*inputs };
+        allowed_functions::transition(state, config, &inputs)
+    }
+
+    f_limited_som_1_moves: f_limited |state, config, inputs| {
+        let mut inputs = *inputs;
+        if inputs.som == Som::Som1 {
+            inputs.som = Som::Som2;
+        }
+        f_limited::transition(state, config, &inputs)
+    }
+
+    group_motion_first_axis: group_motion |state, config, inputs| {
+        let axes = inputs.axes & 1;
+        group_motion::transition(state, config, &group_motion::Inputs { axes })
+    }
+
+    safe_output_stays_on: safe_output |state, config, inputs| {
+        let inputs = safe_output::Inputs { enabled: true, ..*inputs };
+        safe_output::transition(state, config, &inputs)
     }
 }

@@ -4,20 +4,60 @@
 //! The blocks are monitors like the others, one call for one cycle of the safe PLC: 21 ms fixed in the channel of the CC, the
 //! cycle of the PLC (MP7602) in that of the MC (HFS-SPLC-003). This module wires those that make the requests of the three
 //! groups, in the order of the manual: group signal of the keys, filter, groups. Doors, keylock and permissive buttons are
-//! evaluated before, by [`som`](crate::heidenhain::som) and [`button`](crate::heidenhain::button).
+//! evaluated before, by [`working_space`], [`som`](crate::heidenhain::som) and [`button`](crate::heidenhain::button).
 //!
 //! The same program runs in both channels, each on its own inputs; what they ask for is compared by the kernel, and the
 //! stricter counts ([`both_channels`](crate::heidenhain::both_channels)).
 
+pub mod allowed_functions;
+pub mod availability;
 pub mod axes_logic;
+pub mod control_voltage;
+pub mod f_limited;
+pub mod general_fields;
+pub mod group_motion;
+pub mod jog_increment;
 pub mod key_filter;
 pub mod magazine_logic;
+pub mod program_check;
+pub mod safe_input;
+pub mod safe_output;
 pub mod spindle_logic;
+pub mod working_space;
 
 use self::key_filter::Keys;
 use crate::contract::Stateless;
 use crate::heidenhain::types::{GroupState, Som};
-use crate::kernel::{ConfigError, Cycles};
+use crate::kernel::{ConfigError, Cycles, DurationTooLong};
+use core::num::NonZeroU32;
+
+/// The cycle of the safe PLC in the channel of the CC, in milliseconds: fixed (HFS-SPLC-003). That in the channel of the MC is
+/// the cycle of the PLC (MP7602), and the two do not run at the same clock.
+pub const CC_CYCLE_MS: u32 = 21;
+
+/// How long the axes stand before the program latch falls: 1 s (HFS-API-013), in cycles of a safe PLC of `cycle_ms`
+/// milliseconds, rounded up: [`CC_CYCLE_MS`] or MP7602 (HFS-SPLC-003).
+///
+/// # Errors
+/// [`DurationTooLong`] for a cycle of more than 4 294 967 ms, which no control has.
+pub const fn one_second(cycle_ms: NonZeroU32) -> Result<Cycles, DurationTooLong> {
+    match cycle_ms.checked_mul(MICROSECONDS) {
+        Some(cycle) => Cycles::from_millis_up(1000, cycle),
+        None => Err(DurationTooLong),
+    }
+}
+
+/// Microseconds in a millisecond.
+const MICROSECONDS: NonZeroU32 = match NonZeroU32::new(1000) {
+    Some(thousand) => thousand,
+    None => NonZeroU32::MIN,
+};
+
+/// The position of an axis for a safety function of the program: `NN_AxPosition` in 0.0001 mm or 0.0001 degrees, reference
+/// system, and none unless `NN_AxSafe` says that it is reliable (HFS-API-034).
+pub const fn position(ax_safe: bool, actual: i32) -> Option<i32> {
+    if ax_safe { Some(actual) } else { None }
+}
 
 /// The configurations of the blocks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

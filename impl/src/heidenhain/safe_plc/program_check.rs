@@ -1,0 +1,106 @@
+//! Whether the program of a safe PLC may run in its channel: its checksum is the accepted one, and it was made for the interface
+//! that the control has.
+//!
+//! Each run-time system checks its own program, at every translation (SMP691 checksum, SMP693 version of the interface).
+
+use crate::kernel::ConfigError;
+
+/// Whether the check is on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Config {
+    commissioning: bool,
+}
+
+impl Config {
+    /// `commissioning`: SMP690 = 1, no check; never in operation.
+    ///
+    /// # Errors
+    /// None; a result like that of the other monitors.
+    pub const fn new(commissioning: bool) -> Result<Self, ConfigError> {
+        Ok(Self { commissioning })
+    }
+}
+
+/// The state between two cycles.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct State {
+    /// The program may run.
+    pub good: bool,
+}
+
+impl State {
+    /// No program.
+    pub const INITIAL: Self = Self { good: false };
+
+    /// Every state is consistent.
+    #[cfg_attr(creusot, creusot_contracts::macros::logic)]
+    pub const fn invariant(&self, _config: &Config) -> bool {
+        true
+    }
+}
+
+/// The inputs of one cycle.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Inputs {
+    /// The program is translated in this cycle.
+    pub translated: bool,
+    /// Its checksum is that of SMP691.
+    pub crc_equal: bool,
+    /// SMP693 is the version of the interface in the NC software.
+    pub version_equal: bool,
+}
+
+/// The outputs of one cycle.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Outputs {
+    /// The program may run.
+    pub good: bool,
+    /// Message with the present checksum, to be entered in SMP691 with the password of the machine builder.
+    pub message_crc: bool,
+    /// Message "Changed NC software version".
+    pub message_version: bool,
+}
+
+contract! {
+    /// A program that differs from the accepted one does not run, and the operator is told why.
+    changed_program_does_not_run ["HFS-SPLC-002", "HFS-PARAM-018"]:
+        when |s| s.inputs.translated && !s.inputs.crc_equal && !s.config.commissioning
+            => !s.outputs.good && s.outputs.message_crc;
+
+    /// A program for another interface does not run either.
+    other_interface_does_not_run ["HFS-PARAM-019"]:
+        when |s| s.inputs.translated && !s.inputs.version_equal && !s.config.commissioning
+            => !s.outputs.good && s.outputs.message_version;
+
+    /// The accepted program runs, without a message.
+    accepted_program_runs ["HFS-SPLC-002"]:
+        when |s| s.inputs.translated && s.inputs.crc_equal && s.inputs.version_equal
+            => s.outputs.good && !s.outputs.message_crc && !s.outputs.message_version;
+
+    /// Between translations nothing changes.
+    verdict_stays ["HFS-SPLC-002"]:
+        when |s| !s.inputs.translated
+            => s.outputs.good == s.before.good && !s.outputs.message_crc && !s.outputs.message_version;
+
+    /// What is shown is kept.
+    verdict_is_kept ["HFS-SPLC-002"]:
+        when |s| s.before.invariant(&s.config)
+            => s.after.good == s.outputs.good;
+}
+
+pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (State, Outputs) {
+    let checked = inputs.translated && !config.commissioning;
+    let message_crc = checked && !inputs.crc_equal;
+    let message_version = checked && !inputs.version_equal;
+    let good = if inputs.translated {
+        !message_crc && !message_version
+    } else {
+        state.good
+    };
+    let outputs = Outputs {
+        good,
+        message_crc,
+        message_version,
+    };
+    (State { good }, outputs)
+}
