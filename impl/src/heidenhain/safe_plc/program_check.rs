@@ -1,7 +1,8 @@
 //! Whether the program of a safe PLC may run in its channel: its checksum is the accepted one, and it was made for the interface
 //! that the control has.
 //!
-//! Each run-time system checks its own program, at every translation (SMP691 checksum, SMP693 version of the interface).
+//! Each run-time system checks its own program: the checksum at every translation (SMP691), the version of the interface always
+//! (SMP693). The manual names the messages only; that such a program does not run is the safe reading.
 
 use crate::kernel::ConfigError;
 
@@ -12,7 +13,7 @@ pub struct Config {
 }
 
 impl Config {
-    /// `commissioning`: SMP690 = 1, no check; never in operation.
+    /// `commissioning`: SMP690 = 1, the checksum is not looked at; never in operation.
     ///
     /// # Errors
     /// None; a result like that of the other monitors.
@@ -67,10 +68,15 @@ contract! {
         when |s| s.inputs.translated && !s.inputs.crc_equal && !s.config.commissioning
             => !s.outputs.good && s.outputs.message_crc;
 
-    /// A program for another interface does not run either.
+    /// A program for another interface does not run either, translated or not, and during commissioning neither.
     other_interface_does_not_run ["HFS-PARAM-019"]:
-        when |s| s.inputs.translated && !s.inputs.version_equal && !s.config.commissioning
+        when |s| !s.inputs.version_equal
             => !s.outputs.good && s.outputs.message_version;
+
+    /// During commissioning any program for the interface runs.
+    commissioning_checks_no_program ["HFS-SPLC-002"]:
+        when |s| s.config.commissioning && s.inputs.translated && s.inputs.version_equal
+            => s.outputs.good && !s.outputs.message_crc;
 
     /// The accepted program runs, without a message.
     accepted_program_runs ["HFS-SPLC-002"]:
@@ -79,7 +85,7 @@ contract! {
 
     /// Between translations nothing changes.
     verdict_stays ["HFS-SPLC-002"]:
-        when |s| !s.inputs.translated
+        when |s| !s.inputs.translated && s.inputs.version_equal
             => s.outputs.good == s.before.good && !s.outputs.message_crc && !s.outputs.message_version;
 
     /// What is shown is kept.
@@ -91,12 +97,13 @@ contract! {
 pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (State, Outputs) {
     let checked = inputs.translated && !config.commissioning;
     let message_crc = checked && !inputs.crc_equal;
-    let message_version = checked && !inputs.version_equal;
-    let good = if inputs.translated {
-        !message_crc && !message_version
+    let message_version = !inputs.version_equal;
+    let known = if inputs.translated {
+        !message_crc
     } else {
         state.good
     };
+    let good = known && inputs.version_equal;
     let outputs = Outputs {
         good,
         message_crc,
