@@ -373,7 +373,7 @@ fn program_at_the_handwheel() {
     );
 }
 
-/// HFS-SEQ-007, HFS-SS2-010, HFS-API-022: the magazine door opens while axes and spindle move behind their open door. The axes
+/// HFS-SEQ-007, HFS-API-022: the magazine door opens while axes and spindle move behind their open door. The axes
 /// stop along the contour, then the spindle by SS1; the states end in SOS and STO_O.
 #[test]
 fn magazine_door_opens() {

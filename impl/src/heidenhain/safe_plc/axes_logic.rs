@@ -66,7 +66,7 @@ pub struct State {
     pub open: bool,
     /// A key of the axes was pressed in the cycle before.
     pub keyed: bool,
-    /// NC start was pressed in the cycle before.
+    /// NC start was pressed in the cycle before, or the door was closed.
     pub starts: bool,
     /// A key of the axes was pressed since the door was closed.
     pub latch: bool,
@@ -368,7 +368,7 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
     let started = accepted && (edge || state.started);
 
     // A new start begins a new standstill: else the latch would fall before the kernel has released the group.
-    let begins = (started && edge) || (latch && pressed);
+    let begins = (started && edge) || (latch && !state.latch);
     let rest = if !inputs.stands() || begins {
         Cycles::ZERO
     } else {
@@ -383,7 +383,8 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
     let after = State {
         open: inputs.door_open,
         keyed: inputs.key_held,
-        starts: inputs.start_held,
+        // A start key counts only behind the open door: one that is pressed while it opens has to be pressed again.
+        starts: inputs.start_held || !inputs.door_open,
         latch,
         started,
         program,

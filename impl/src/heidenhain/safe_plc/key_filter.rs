@@ -16,7 +16,8 @@ pub use crate::contract::Stateless as State;
 pub struct Config;
 
 /// The keys of one operating unit that start a motion. Statuses, not events: the PLC and the safe PLC run at clocks of their
-/// own (HFS-SPLC-004, HFS-SPLC-007).
+/// own (HFS-SPLC-004). Those of the handwheel, but for its permissive, come from the PLC and are not safe: no motion behind an
+/// open door comes of them alone (HFS-SPLC-006).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Keys {
     /// The permissive button or key is valid: see [`button`](crate::heidenhain::button).

@@ -2,7 +2,7 @@
 //! activation, feed enable of each axis, stop, permissive.
 //!
 //! Keylock, stop keys and the permissives of panel and handwheel have no effect here; the magazine has its own. With the door
-//! closed the operator confirms once that nobody is inside.
+//! closed the operator confirms once that nobody is inside; then its axes run like others, in a reference run too (HFS-MAG-006).
 //!
 //! Recommended readings of the manual implemented here: AMB-54 CLEAR_UNLESS_TM, AMB-57 CONFIRM.
 

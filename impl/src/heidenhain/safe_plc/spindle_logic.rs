@@ -20,7 +20,7 @@ pub struct State {
     pub open: bool,
     /// A key of the spindle was pressed in the cycle before.
     pub keyed: bool,
-    /// Spindle start was pressed in the cycle before.
+    /// Spindle start was pressed in the cycle before, or the door was closed.
     pub starts: bool,
     /// Spindle jog was pressed in the cycle before.
     pub jogged: bool,
@@ -192,7 +192,7 @@ contract! {
             => s.outputs.stop == Stop::None && s.outputs.request.strictness() >= GroupState::Sos.strictness();
 
     /// With both doors open the spindle stops after the axes: SS1D, above every other request.
-    both_doors_stop_after_the_axes ["HFS-API-022", "HFS-SEQ-007", "HFS-API-009", "HFS-SS2-010"]:
+    both_doors_stop_after_the_axes ["HFS-API-022", "HFS-SEQ-007", "HFS-API-009"]:
         when |s| s.inputs.door_open && s.inputs.t_open && s.inputs.som != Som::Som1
             => s.outputs.stop == Stop::Ss1D;
 
@@ -237,7 +237,8 @@ pub(crate) fn transition(state: State, _: &Config, inputs: &Inputs) -> (State, O
     let after = State {
         open: inputs.door_open,
         keyed: inputs.key_held,
-        starts: inputs.start_held,
+        // A start key counts only behind the open door: one that is pressed while it opens has to be pressed again.
+        starts: inputs.start_held || !inputs.door_open,
         jogged: inputs.jog_held,
         latch,
         started,
