@@ -79,6 +79,11 @@ fn kernel_under_any_logic() {
 }
 
 #[test]
+fn example_of_a_logic() {
+    holds("splc.toml");
+}
+
+#[test]
 fn logic_alone() {
     holds("composed.toml");
 }

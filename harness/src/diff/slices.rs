@@ -1,4 +1,4 @@
-//! Parts of a composed system that can be explored: some inputs move freely, the others are held.
+//! Parts of a composed system, or of a machine with many inputs, that can be explored: some inputs move freely, the others are held.
 //!
 //! All inputs at once are too many. What each slice leaves out another one has, and random runs move everything.
 
@@ -26,7 +26,7 @@ const CALM: [(&str, i32); 5] = [
     ("selection.sge_sbh", 1),
 ];
 
-const SLICES: [Slice; 3] = [
+const SLICES: [Slice; 6] = [
     // Selection, monitors and stops.
     Slice {
         system: "axis_core",
@@ -77,18 +77,76 @@ const SLICES: [Slice; 3] = [
             "rx_external",
         ],
     },
+    // A safe PLC program: what its three groups are asked for depends on no state of another group.
+    Slice {
+        system: "splc",
+        params: &[],
+        free: &[
+            "door_open",
+            "t_open",
+            "som",
+            "som_changed",
+            "pb_panel",
+            "pb_wheel",
+            "axis_key",
+            "nc_start",
+            "stop_key",
+            "unit",
+            "state_a",
+            "gen_safe",
+        ],
+    },
+    Slice {
+        system: "splc",
+        params: &[],
+        free: &[
+            "door_open",
+            "t_open",
+            "som",
+            "som_changed",
+            "pb_panel",
+            "pb_wheel",
+            "nc_start",
+            "jog",
+            "spindle_start",
+            "stop_key",
+            "unit",
+            "restricted",
+            "holder_open",
+            "gen_safe",
+        ],
+    },
+    Slice {
+        system: "splc",
+        params: &[],
+        free: &[
+            "door_open",
+            "t_open",
+            "som_changed",
+            "pb_magazine",
+            "magazine_key",
+            "confirm",
+            "axis_key",
+            "moving_t",
+            "gen_safe",
+        ],
+    },
 ];
 
-/// The slices of a composed pairing; a machine alone is one slice with all its inputs.
+/// The slices of a pairing: those of a composed one, or of a machine with too many inputs; any other machine is one slice with
+/// all its inputs.
 ///
 /// # Errors
 /// Parameters that do not fit each other.
 pub fn slices(pairing: &Pairing) -> Result<Vec<Pairing>, DiffError> {
-    if !pairing.composed {
-        return Ok(vec![pairing.clone()]);
-    }
     let own = SLICES.iter().filter(|s| s.system == pairing.machine);
-    own.map(|slice| cut(pairing, slice)).collect()
+    let cuts: Vec<Pairing> = own
+        .map(|slice| cut(pairing, slice))
+        .collect::<Result<_, _>>()?;
+    Ok(match cuts.is_empty() && !pairing.composed {
+        true => vec![pairing.clone()],
+        false => cuts,
+    })
 }
 
 fn cut(pairing: &Pairing, slice: &Slice) -> Result<Pairing, DiffError> {

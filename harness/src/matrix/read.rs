@@ -120,20 +120,31 @@ fn add(named: &mut Named, id: &str, place: &str) {
 /// The harness of the contract of the module a file of `impl/src` belongs to: `stop_contract` for
 /// `impl/src/sinumerik/stop.rs`, where the inventory says `[contract stop_contract on sinumerik::stop {`.
 fn contract<'a>(place: &str, proofs: &'a [(String, String)]) -> Option<&'a str> {
-    let on = format!(" on {} {{", module(place)?);
-    let lines = proofs.iter().flat_map(|(_, text)| text.lines());
-    lines
-        .filter_map(|line| line.trim_start().strip_prefix("[contract "))
-        .find_map(|line| line.strip_suffix(&on))
+    modules(place).into_iter().flatten().find_map(|module| {
+        let on = format!(" on {module} {{");
+        let lines = proofs.iter().flat_map(|(_, text)| text.lines());
+        lines
+            .filter_map(|line| line.trim_start().strip_prefix("[contract "))
+            .find_map(|line| line.strip_suffix(&on))
+    })
 }
 
-/// The module a file of `impl/src` belongs to: `sinumerik::stop` for `impl/src/sinumerik/stop.rs`, `sinumerik::channel` for
-/// `impl/src/sinumerik/channel/laws.rs`; none for what all families share.
-fn module(place: &str) -> Option<String> {
-    let (family, inside) = place.strip_prefix("impl/src/")?.split_once('/')?;
-    let first = inside.split('/').next()?;
-    let name = first.strip_suffix(".rs").unwrap_or(first);
-    Some(format!("{family}::{name}"))
+/// The modules a file of `impl/src` may belong to: one of its own, or its folder's. `sinumerik::stop` for
+/// `impl/src/sinumerik/stop.rs`, `sinumerik::channel` for `impl/src/sinumerik/channel/laws.rs`; none for what all families share.
+fn modules(place: &str) -> [Option<String>; 2] {
+    let name = |path: Option<&str>| {
+        let (family, _) = place.strip_prefix("impl/src/")?.split_once('/')?;
+        let name = path.map(|path| path.strip_suffix(".rs").unwrap_or(path))?;
+        Some(format!("{family}::{name}"))
+    };
+    let inside = place
+        .strip_prefix("impl/src/")
+        .and_then(|rest| rest.split_once('/'));
+    let parts = || inside.map(|(_, inside)| inside.split('/'));
+    [
+        name(parts().and_then(|mut parts| parts.next_back())),
+        name(parts().and_then(|mut parts| parts.next())),
+    ]
 }
 
 /// The requirement ids in a text: `PREFIX-AREA-123`, with a prefix of the catalogues and exactly three digits.
@@ -398,18 +409,26 @@ mod tests {
 
     #[test]
     fn modules_are_files_or_folders() {
-        let is = |place, expected: Option<&str>| assert_eq!(module(place).as_deref(), expected);
-        is("impl/src/sinumerik/stop.rs", Some("sinumerik::stop"));
-        is(
-            "impl/src/sinumerik/channel/laws.rs",
-            Some("sinumerik::channel"),
+        let named = |[own, folder]: [Option<String>; 2]| (own, folder);
+        let some = |name: &str| Some(name.to_owned());
+        assert_eq!(
+            named(modules("impl/src/sinumerik/channel/laws.rs")),
+            (some("sinumerik::laws"), some("sinumerik::channel"))
         );
-        is("impl/src/kernel.rs", None);
+        assert_eq!(named(modules("impl/src/kernel.rs")), (None, None));
         let proofs = [(
             "base.rs".to_owned(),
             "    [contract c on sinumerik::stop {\n".to_owned(),
         )];
         assert_eq!(contract("impl/src/sinumerik/stop.rs", &proofs), Some("c"));
+        assert_eq!(
+            contract("impl/src/sinumerik/stop/laws.rs", &proofs),
+            Some("c")
+        );
+        assert_eq!(
+            contract("impl/src/sinumerik/folder/stop.rs", &proofs),
+            Some("c")
+        );
         assert_eq!(contract("impl/src/other/stop.rs", &proofs), None);
     }
 

@@ -48,7 +48,7 @@ pub struct Outputs {
 
 contract! {
     /// The brake of a single axis is released exactly while it is asked for.
-    own_output_follows_the_request ["HFS-SBC-001", "HFS-SBC-004"]:
+    own_output_follows_the_request ["HFS-SBC-001", "HFS-SBC-004", "HFS-API-035"]:
         when |s| s.inputs.own.drive || s.inputs.test
             => s.outputs.own == s.inputs.own.release;
 

@@ -31,6 +31,16 @@
 //! | [`brakes`] | brake outputs of a safe PLC | `stop` |
 //! | [`tool_holder`] | opening of the tool holder by a safe PLC | `group` of the cycle before |
 //! | [`acceptance`] | acceptance of changed safe machine parameters | - |
+//! | [`key_filter`] | keys of one operating unit at a time, group signal of the keys (safe PLC) | `button` |
+//! | [`axes_logic`], [`spindle_logic`], [`magazine_logic`] | requests for the three groups of a milling machine (safe PLC) | `key_filter`, `som` |
+//! | [`jog_increment`] | jog increments of an axis (safe PLC) | `key_filter` |
+//! | [`control_voltage`] | control voltage and drive permissions asked for, reset button (safe PLC) | `switch_on` of the cycle before |
+//! | [`safe_input`], [`working_space`] | marker of a safe input; whether a space is protected (safe PLC) | - |
+//! | [`safe_output`], [`allowed_functions`] | outputs and functions that a person must not meet (safe PLC) | `output_enable` |
+//! | [`general_fields`] | what the kernel takes over of the general fields | - |
+//! | [`program_check`] | checksum and interface of the program of a safe PLC | - |
+//! | [`group_motion`], [`availability`], [`f_limited`] | `NN_AxGrpInMotion`; table of the safety functions; soft key F LIMITED | - |
+//! | [`safe_plc`] | the requests of the three groups wired to a program | - |
 //! | [`self_test`] | order of the self-test, its interval | - |
 //! | [`status_bits`] | reactions to the safe status bits of a telegram | - |
 //! | [`sampling`] | forced dynamic sampling of a pair of inputs | - |
@@ -72,6 +82,7 @@ pub mod position_limit;
 pub mod reference;
 pub mod report;
 pub mod revolutions;
+pub mod safe_plc;
 pub mod sampling;
 pub mod self_checks;
 pub mod self_test;
@@ -85,3 +96,10 @@ pub mod stop_path;
 pub mod switch_on;
 pub mod tool_holder;
 pub mod types;
+
+// The blocks of the safe PLC under the names of monitors, like all others.
+pub use safe_plc::{
+    allowed_functions, availability, axes_logic, control_voltage, f_limited, general_fields,
+    group_motion, jog_increment, key_filter, magazine_logic, program_check, safe_input,
+    safe_output, spindle_logic, working_space,
+};

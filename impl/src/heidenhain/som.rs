@@ -1,7 +1,8 @@
 //! The safe operating mode that one safe PLC selects from its keylock inputs.
 //!
 //! Exactly one active input selects its mode, everything else SOM_1. SOM_4 is entered from SOM_1 and left to SOM_1 only; a
-//! direct change is refused until no input is active.
+//! direct change is refused until no input is active. Whatever else stands for a mode (a code number, a chip, more switches) is an
+//! input like its key, under the same rules (HFS-KSW-005).
 //!
 //! Recommended reading of the manual implemented here: AMB-70 UNTIL_NEUTRAL.
 

@@ -15,6 +15,7 @@ mod composing;
 mod groups;
 mod interface;
 mod machine;
+mod safe_plc;
 mod service;
 mod stops;
 mod watching;
@@ -266,5 +267,100 @@ mutants! { heidenhain:
         StartChecksAnySpeed "start-checks-any-speed" => service::start_checks_any_speed;
         /// A refused control tries again by itself.
         StartChecksTriesAgain "start-checks-tries-again" => service::start_checks_tries_again;
+    }
+    /// The filter of the keys with this mutant in it.
+    fn key_filter {
+        /// A stop key of a unit that is not active is filtered.
+        KeyFilterDropsStops "key-filter-drops-stops" => safe_plc::key_filter_drops_stops;
+        /// The handwheel acts in every operating mode.
+        KeyFilterTwoUnits "key-filter-two-units" => safe_plc::key_filter_two_units;
+        /// The group signal is formed of what the filter lets through.
+        KeyFilterGroupSignalLate "key-filter-group-signal-late" => safe_plc::key_filter_group_signal_late;
+    }
+    /// The requests for NC axes with this mutant in them.
+    fn axes_logic {
+        /// A key that is held while the door closes activates.
+        AxesLogicHeldKeyStarts "axes-logic-held-key-starts" => safe_plc::axes_logic_held_key_starts;
+        /// NC start counts as long as it is pressed, not from its edge.
+        AxesLogicStartByLevel "axes-logic-start-by-level" => safe_plc::axes_logic_start_by_level;
+        /// A program goes on without its permissive.
+        AxesLogicForgetsThePermissive "axes-logic-forgets-the-permissive" => safe_plc::axes_logic_forgets_the_permissive;
+        /// An open magazine door does not matter.
+        AxesLogicMagazineDoorOverlooked "axes-logic-magazine-door-overlooked" => safe_plc::axes_logic_magazine_door_overlooked;
+    }
+    /// The requests for a spindle with this mutant in them.
+    fn spindle_logic {
+        /// A jog key that is released stops nothing.
+        SpindleLogicJogRunsOn "spindle-logic-jog-runs-on" => safe_plc::spindle_logic_jog_runs_on;
+        /// With the door open a start needs no permissive.
+        SpindleLogicNoPermissive "spindle-logic-no-permissive" => safe_plc::spindle_logic_no_permissive;
+        /// Restricted operation is granted in SOM_1 too.
+        SpindleLogicRestrictedInSom1 "spindle-logic-restricted-in-som-1" => safe_plc::spindle_logic_restricted_in_som_1;
+    }
+    /// The requests for a magazine with this mutant in them.
+    fn magazine_logic {
+        /// A door that is opened in motion is an SS2.
+        MagazineLogicDoorIsSs2 "magazine-logic-door-is-ss2" => safe_plc::magazine_logic_door_is_ss2;
+        /// The confirmation outlasts the open door.
+        MagazineLogicConfirmedForEver "magazine-logic-confirmed-for-ever" => safe_plc::magazine_logic_confirmed_for_ever;
+        /// The permissive alone keeps it moving.
+        MagazineLogicPermissiveIsEnough "magazine-logic-permissive-is-enough" => safe_plc::magazine_logic_permissive_is_enough;
+    }
+    /// A safe input with this mutant in it.
+    fn safe_input {
+        /// One contact is enough.
+        SafeInputOneContact "safe-input-one-contact" => safe_plc::safe_input_one_contact;
+    }
+    /// The working space with this mutant in it.
+    fn working_space {
+        /// One closed door protects the space.
+        WorkingSpaceOneDoor "working-space-one-door" => safe_plc::working_space_one_door;
+    }
+    /// The control voltage asked for with this mutant in it.
+    fn control_voltage {
+        /// One reset is good for ever.
+        ControlVoltageOneReset "control-voltage-one-reset" => safe_plc::control_voltage_one_reset;
+    }
+    /// The jog increment with this mutant in it.
+    fn jog_increment {
+        /// A key that stays pressed begins the next increment.
+        JogIncrementRepeats "jog-increment-repeats" => safe_plc::jog_increment_repeats;
+        /// A lost condition takes the feed only.
+        JogIncrementNoStop "jog-increment-no-stop" => safe_plc::jog_increment_no_stop;
+    }
+    /// The general fields with this mutant in them.
+    fn general_fields {
+        /// A marker of 2 counts as 1.
+        GeneralFieldsAnyNumber "general-fields-any-number" => safe_plc::general_fields_any_number;
+    }
+    /// The check of a program with this mutant in it.
+    fn program_check {
+        /// A changed program runs on with a message.
+        ProgramCheckMessageOnly "program-check-message-only" => safe_plc::program_check_message_only;
+    }
+    /// The table of the safety functions with this mutant in it.
+    fn availability {
+        /// Auxiliary axes have an operating stop in SOM_1.
+        AvailabilityAuxiliaryStop "availability-auxiliary-stop" => safe_plc::availability_auxiliary_stop;
+    }
+    /// The functions with the door open with this mutant in them.
+    fn allowed_functions {
+        /// The chip conveyor needs no permissive.
+        AllowedFunctionsConveyor "allowed-functions-conveyor" => safe_plc::allowed_functions_conveyor;
+    }
+    /// The soft key F LIMITED with this mutant in it.
+    fn f_limited {
+        /// In SOM_1 the limit of SOM_2 applies.
+        FLimitedSom1Moves "f-limited-som-1-moves" => safe_plc::f_limited_som_1_moves;
+    }
+    /// The motion of a group with this mutant in it.
+    fn group_motion {
+        /// The first axis counts alone.
+        GroupMotionFirstAxis "group-motion-first-axis" => safe_plc::group_motion_first_axis;
+    }
+    /// A safe output with this mutant in it.
+    fn safe_output {
+        /// The enable is not looked at.
+        SafeOutputStaysOn "safe-output-stays-on" => safe_plc::safe_output_stays_on;
     }
 }

@@ -4,15 +4,17 @@ mod composing;
 mod groups;
 mod interface;
 mod machine;
+mod safe_plc;
 mod service;
 mod watching;
 
 /// The lists of this family.
-pub(super) static ENTRIES: [&[super::Entry]; 6] = [
+pub(super) static ENTRIES: [&[super::Entry]; 7] = [
     interface::ENTRIES,
     groups::ENTRIES,
     machine::ENTRIES,
     watching::ENTRIES,
     service::ENTRIES,
     composing::ENTRIES,
+    safe_plc::ENTRIES,
 ];

@@ -66,4 +66,34 @@ monitors! { heidenhain:
     output_enable
     /// The channel.
     channel
+    /// Filter of the keys.
+    key_filter
+    /// Requests for NC axes.
+    axes_logic
+    /// Requests for a spindle.
+    spindle_logic
+    /// Requests for a magazine.
+    magazine_logic
+    /// Marker of a safe input.
+    safe_input
+    /// Working space.
+    working_space
+    /// Control voltage asked for.
+    control_voltage
+    /// Jog increments.
+    jog_increment
+    /// General fields.
+    general_fields
+    /// Program of a safe PLC.
+    program_check
+    /// Table of the safety functions.
+    availability
+    /// Functions with the door open.
+    allowed_functions
+    /// F LIMITED.
+    f_limited
+    /// Motion of a group.
+    group_motion
+    /// Safe output.
+    safe_output
 }

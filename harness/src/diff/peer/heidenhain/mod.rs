@@ -6,6 +6,8 @@ mod groups;
 mod interface;
 mod machine;
 mod numbers;
+mod operation;
+mod safe_plc;
 mod service;
 mod watching;
 
@@ -46,6 +48,20 @@ pub(super) static FAMILY: Family = Family {
         ("sampling", "sampling"),
         ("self_checks", "self_checks"),
         ("start_checks", "start_checks"),
+        ("safe_input", "safe_input"),
+        ("doors", "working_space"),
+        ("general", "general_fields"),
+        ("motion", "group_motion"),
+        ("available", "availability"),
+        ("program_check", "program_check"),
+        ("increment", "jog_increment"),
+        ("functions", "allowed_functions"),
+        ("reset_button", "control_voltage"),
+        ("nc_speed", "f_limited"),
+        ("splc", "safe_plc"),
+        ("splc_axes", "axes_logic"),
+        ("splc_spindle", "spindle_logic"),
+        ("splc_magazine", "magazine_logic"),
     ],
     systems: &[],
     fixed: &[],
@@ -64,6 +80,8 @@ fn make(machine: &str, params: &Params, mutant: Option<super::Mutant>) -> Made {
         watching::make,
         service::make,
         checks::make,
+        safe_plc::make,
+        operation::make,
     ] {
         if let Some(adapter) = make(machine, params, mutant)? {
             return Ok(Some(adapter));

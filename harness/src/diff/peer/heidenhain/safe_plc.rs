@@ -1,0 +1,377 @@
+//! Blocks of the safe PLC. The table `splc` is the program as a whole, the tables of the doors are one group each: the blocks
+//! then run with the keys of the others at rest, and the self-test in force.
+
+use stillpoint_monitors::heidenhain::key_filter::Keys;
+use stillpoint_monitors::heidenhain::mutant::Mutant;
+use stillpoint_monitors::heidenhain::safe_plc::{Blocks, Config, Inputs, Outputs, State};
+use stillpoint_monitors::heidenhain::{axes_logic, key_filter, magazine_logic, spindle_logic};
+
+use super::numbers::*;
+use crate::diff::peer::adapter::{Adapter, Cells, cells, put, take};
+use crate::diff::peer::{Made, Params, Refusable};
+
+/// The monitor of a machine of this topic.
+pub(super) fn make(machine: &str, p: &Params, mutant: Option<Mutant>) -> Made {
+    let blocks = mutant.map_or(Blocks::PRODUCTION, |mutant| Blocks {
+        filter: mutant.key_filter(),
+        axes: mutant.axes_logic(),
+        spindle: mutant.spindle_logic(),
+        magazine: mutant.magazine_logic(),
+    });
+    Ok(Some(match machine {
+        "splc" => program(p, blocks)?,
+        "splc_axes" => axes(p, blocks)?,
+        "splc_spindle" => spindle(p, blocks)?,
+        "splc_magazine" => magazine(p, blocks)?,
+        _ => return Ok(None),
+    }))
+}
+
+cells! {
+    axes_logic::State, 7 {
+        open = truthy, i32::from;
+        keyed = truthy, i32::from;
+        starts = truthy, i32::from;
+        latch = truthy, i32::from;
+        started = truthy, i32::from;
+        program = truthy, i32::from;
+        rest = cycles, cell;
+    }
+    spindle_logic::State, 6 {
+        open = truthy, i32::from;
+        keyed = truthy, i32::from;
+        starts = truthy, i32::from;
+        jogged = truthy, i32::from;
+        latch = truthy, i32::from;
+        started = truthy, i32::from;
+    }
+    magazine_logic::State, 3 {
+        open = truthy, i32::from;
+        keyed = truthy, i32::from;
+        confirmed = truthy, i32::from;
+    }
+}
+
+impl Cells for State {
+    const COUNT: usize =
+        axes_logic::State::COUNT + spindle_logic::State::COUNT + magazine_logic::State::COUNT;
+
+    fn load(mut cells: &[i32]) -> Self {
+        Self {
+            axes: take(&mut cells),
+            spindle: take(&mut cells),
+            magazine: take(&mut cells),
+        }
+    }
+
+    fn store(self, cells: &mut [i32]) {
+        let rest = put(self.axes, cells);
+        let rest = put(self.spindle, rest);
+        put(self.magazine, rest);
+    }
+}
+
+/// The EN 12417 variant, axis-direction keys without permissive: the recommended readings.
+fn config(p: &Params) -> Result<Config, crate::diff::peer::Refusal> {
+    Ok(Config::new(p.time("t_clear"), true, false)?)
+}
+
+/// A program whose latch has no time: for the groups that have none.
+fn timeless() -> Result<Config, crate::diff::peer::Refusal> {
+    Ok(Config::new(cycles(1), true, false)?)
+}
+
+fn domains(p: &Params) -> Vec<stillpoint_model::Domain> {
+    let mut all = vec![truth(); State::COUNT];
+    all[6] = upto(p.value("t_clear").max(1));
+    all
+}
+
+/// The keys of the spindle are those of the unit in use; the axis keys and NC start those of the panel.
+fn keys(unit: Unit, panel: Keys, turning: Keys, wheel: bool) -> (Keys, Keys) {
+    let on_wheel = unit == Unit::Handwheel;
+    let turn = |here: bool| if here { turning } else { Keys::NONE };
+    let (at_panel, at_wheel) = (turn(!on_wheel), turn(on_wheel));
+    (
+        Keys {
+            jog: at_panel.jog,
+            spindle_start: at_panel.spindle_start,
+            ..panel
+        },
+        Keys {
+            permissive: wheel,
+            jog: at_wheel.jog,
+            spindle_start: at_wheel.spindle_start,
+            ..Keys::NONE
+        },
+    )
+}
+
+/// A feed enable of the only axis.
+fn first(feed: u8) -> i64 {
+    i64::from(feed & 1)
+}
+
+fn requests_of_axes(o: &mut Vec<i64>, out: &axes_logic::Outputs) {
+    o.extend([
+        state_rank(out.request),
+        bit(out.activate),
+        first(out.feed),
+        stop_rank(out.stop),
+    ]);
+}
+
+fn requests_of_spindle(o: &mut Vec<i64>, out: &spindle_logic::Outputs) {
+    o.extend([
+        state_rank(out.request),
+        bit(out.activate),
+        stop_rank(out.stop),
+    ]);
+}
+
+fn requests_of_magazine(o: &mut Vec<i64>, out: &magazine_logic::Outputs) {
+    o.extend([
+        state_rank(out.request),
+        bit(out.activate),
+        first(out.feed),
+        stop_rank(out.stop),
+    ]);
+}
+
+fn step(blocks: &Blocks, config: &Config, state: State, inputs: &Inputs) -> (State, Outputs) {
+    blocks.next(state, config, inputs)
+}
+
+fn program(p: &Params, blocks: Blocks) -> Refusable {
+    let config = config(p)?;
+    Ok(Adapter::new(
+        &[
+            "door_open",
+            "t_open",
+            "som",
+            "som_changed",
+            "pb_panel",
+            "pb_wheel",
+            "pb_magazine",
+            "axis_key",
+            "nc_start",
+            "jog",
+            "spindle_start",
+            "stop_key",
+            "magazine_key",
+            "confirm",
+            "unit",
+            "restricted",
+            "holder_open",
+            "state_a",
+            "moving_t",
+            "gen_safe",
+        ],
+        &[
+            "request_a",
+            "activate_a",
+            "feed_a",
+            "stop_a",
+            "request_s",
+            "activate_s",
+            "stop_s",
+            "request_t",
+            "activate_t",
+            "feed_t",
+            "stop_t",
+            "pb_a",
+            "pb_s",
+            "pb_t",
+            "mkg",
+        ],
+        domains(p),
+        State::INITIAL,
+        move |state, i, o| {
+            let panel = Keys {
+                permissive: i[4] != 0,
+                axes: u8::from(i[7] != 0),
+                nc_start: i[8] != 0,
+                ..Keys::NONE
+            };
+            let turning = Keys {
+                jog: i[9] != 0,
+                spindle_start: i[10] != 0,
+                ..Keys::NONE
+            };
+            let (panel, wheel) = keys(unit(i[14]), panel, turning, i[5] != 0);
+            let inputs = Inputs {
+                keys: key_filter::Inputs {
+                    door_open: i[0] != 0,
+                    t_open: i[1] != 0,
+                    unit: unit(i[14]),
+                    panel,
+                    wheel,
+                    stop: i[11] != 0,
+                    t_permissive: i[6] != 0,
+                    t_keys: u8::from(i[12] != 0),
+                    confirm: i[13] != 0,
+                },
+                som: som(i[2]),
+                som_changed: i[3] != 0,
+                restricted: i[15] != 0,
+                holder_open: i[16] != 0,
+                axes_state: self::state(i[17]),
+                magazine_moving: i[18] != 0,
+                gen_safe: i[19] != 0,
+            };
+            let (after, out) = step(&blocks, &config, state, &inputs);
+            requests_of_axes(o, &out.axes);
+            requests_of_spindle(o, &out.spindle);
+            requests_of_magazine(o, &out.magazine);
+            o.extend([
+                bit(out.axes.permissive),
+                bit(out.spindle.permissive),
+                bit(out.magazine.permissive),
+                bit(out.keys.machine_keys),
+            ]);
+            after
+        },
+    )
+    // What the example does not look at.
+    .without(&["state_s", "state_t", "moving_a", "moving_s"]))
+}
+
+fn axes(p: &Params, blocks: Blocks) -> Refusable {
+    let config = config(p)?;
+    Ok(Adapter::new(
+        &[
+            "door_open",
+            "t_open",
+            "som",
+            "som_changed",
+            "unit",
+            "pb_panel",
+            "pb_wheel",
+            "axis_key",
+            "nc_start",
+            "stop_key",
+            "state",
+        ],
+        &["request", "activate", "feed", "stop"],
+        domains(p),
+        State::INITIAL,
+        move |state, i, o| {
+            let panel = Keys {
+                permissive: i[5] != 0,
+                axes: u8::from(i[7] != 0),
+                nc_start: i[8] != 0,
+                ..Keys::NONE
+            };
+            let (panel, wheel) = keys(unit(i[4]), panel, Keys::NONE, i[6] != 0);
+            let inputs = Inputs {
+                keys: key_filter::Inputs {
+                    door_open: i[0] != 0,
+                    t_open: i[1] != 0,
+                    unit: unit(i[4]),
+                    panel,
+                    wheel,
+                    stop: i[9] != 0,
+                    ..key_filter::Inputs::default()
+                },
+                som: som(i[2]),
+                som_changed: i[3] != 0,
+                axes_state: self::state(i[10]),
+                gen_safe: true,
+                ..Inputs::default()
+            };
+            let (after, out) = step(&blocks, &config, state, &inputs);
+            requests_of_axes(o, &out.axes);
+            after
+        },
+    ))
+}
+
+fn spindle(p: &Params, blocks: Blocks) -> Refusable {
+    let config = timeless()?;
+    Ok(Adapter::new(
+        &[
+            "door_open",
+            "t_open",
+            "som",
+            "som_changed",
+            "unit",
+            "pb_panel",
+            "pb_wheel",
+            "jog",
+            "start_key",
+            "stop_key",
+            "restricted",
+            "holder_open",
+        ],
+        &["request", "activate", "stop"],
+        domains(p),
+        State::INITIAL,
+        move |state, i, o| {
+            let panel = Keys {
+                permissive: i[5] != 0,
+                ..Keys::NONE
+            };
+            let turning = Keys {
+                jog: i[7] != 0,
+                spindle_start: i[8] != 0,
+                ..Keys::NONE
+            };
+            let (panel, wheel) = keys(unit(i[4]), panel, turning, i[6] != 0);
+            let inputs = Inputs {
+                keys: key_filter::Inputs {
+                    door_open: i[0] != 0,
+                    t_open: i[1] != 0,
+                    unit: unit(i[4]),
+                    panel,
+                    wheel,
+                    stop: i[9] != 0,
+                    ..key_filter::Inputs::default()
+                },
+                som: som(i[2]),
+                som_changed: i[3] != 0,
+                restricted: i[10] != 0,
+                holder_open: i[11] != 0,
+                gen_safe: true,
+                ..Inputs::default()
+            };
+            let (after, out) = step(&blocks, &config, state, &inputs);
+            requests_of_spindle(o, &out.spindle);
+            after
+        },
+    ))
+}
+
+fn magazine(p: &Params, blocks: Blocks) -> Refusable {
+    let config = timeless()?;
+    Ok(Adapter::new(
+        &[
+            "t_open",
+            "pb",
+            "one_key",
+            "confirm",
+            "som_changed",
+            "moving",
+        ],
+        &["request", "activate", "feed", "stop"],
+        domains(p),
+        State::INITIAL,
+        move |state, i, o| {
+            let inputs = Inputs {
+                keys: key_filter::Inputs {
+                    t_open: i[0] != 0,
+                    t_permissive: i[1] != 0,
+                    t_keys: u8::from(i[2] != 0),
+                    confirm: i[3] != 0,
+                    ..key_filter::Inputs::default()
+                },
+                som_changed: i[4] != 0,
+                magazine_moving: i[5] != 0,
+                gen_safe: true,
+                ..Inputs::default()
+            };
+            let (after, out) = step(&blocks, &config, state, &inputs);
+            requests_of_magazine(o, &out.magazine);
+            after
+        },
+    ))
+}

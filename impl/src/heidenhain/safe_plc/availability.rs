@@ -1,0 +1,124 @@
+//! Which safety function an axis or spindle has in which mode (table in 6.1.6).
+
+use crate::heidenhain::types::{Kind, Som};
+
+pub use crate::contract::Stateless as State;
+
+/// The function has no parameters.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Config;
+
+/// A safety function.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Function {
+    /// Safe torque off.
+    #[default]
+    Sto,
+    /// Safe operating stop.
+    Sos,
+    /// Safely limited speed.
+    Sls,
+    /// Safely limited increment.
+    Sli,
+    /// Safely limited position.
+    Slp,
+    /// The safe stops SS0, SS1, SS1F, SS2.
+    Stops,
+    /// Safe brake control.
+    Sbc,
+}
+
+impl Function {
+    /// Every function.
+    pub const ALL: [Self; 7] = [
+        Self::Sto,
+        Self::Sos,
+        Self::Sls,
+        Self::Sli,
+        Self::Slp,
+        Self::Stops,
+        Self::Sbc,
+    ];
+}
+
+/// What is asked.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Inputs {
+    /// What the group consists of.
+    pub kind: Kind,
+    /// The function.
+    pub function: Function,
+    /// The mode.
+    pub som: Som,
+    /// The spindle has a brake.
+    pub has_brake: bool,
+    /// SMP549: the spindle is kept under control after an SS2.
+    pub spindle_sos: bool,
+}
+
+/// The answer.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Outputs {
+    /// The function is there.
+    pub available: bool,
+}
+
+contract! {
+    /// Torque off and the stops are there always.
+    stops_are_always_there ["HFS-MODE-016"]:
+        when |s| matches!(s.inputs.function, Function::Sto | Function::Stops)
+            => s.outputs.available;
+
+    /// Limited speed is no function of automatic operation.
+    limited_speed_from_som_2 ["HFS-MODE-016", "HFS-MODE-003"]:
+        when |s| s.inputs.function == Function::Sls
+            => s.outputs.available == (s.inputs.som != Som::Som1);
+
+    /// The operating stop: axes always, a spindle by its parameter, auxiliary axes from SOM_2 on.
+    operating_stop_by_kind ["HFS-MODE-016"]:
+        when |s| s.inputs.function == Function::Sos
+            => s.outputs.available == match s.inputs.kind {
+                Kind::NcAxes => true,
+                Kind::Spindle => s.inputs.spindle_sos,
+                Kind::Auxiliary => s.inputs.som != Som::Som1,
+            };
+
+    /// Increments are for axes, limited positions for NC axes.
+    increments_and_positions_are_for_axes ["HFS-MODE-016"]:
+        when |s| matches!(s.inputs.function, Function::Sli | Function::Slp)
+            => s.outputs.available
+                == (s.inputs.kind == Kind::NcAxes
+                    || (s.inputs.kind == Kind::Auxiliary && s.inputs.function == Function::Sli));
+
+    /// Brake control: a spindle has it with a brake only.
+    brake_control_needs_a_brake ["HFS-MODE-016"]:
+        when |s| s.inputs.function == Function::Sbc
+            => s.outputs.available == (s.inputs.kind != Kind::Spindle || s.inputs.has_brake);
+}
+
+/// For each function and kind of group the modes it is there in: bit k for SOM_(k+1). As printed, without the notes.
+const TABLE: [[u8; 3]; 7] = [
+    // NC axes, spindles, auxiliary axes
+    [0b1111, 0b1111, 0b1111],
+    [0b1111, 0b0000, 0b1110],
+    [0b1110, 0b1110, 0b1110],
+    [0b1111, 0b0000, 0b1111],
+    [0b1111, 0b0000, 0b0000],
+    [0b1111, 0b1111, 0b1111],
+    [0b1111, 0b0000, 0b1111],
+];
+
+pub(crate) fn transition(state: State, _: &Config, inputs: &Inputs) -> (State, Outputs) {
+    let row = TABLE
+        .get(inputs.function as usize)
+        .copied()
+        .unwrap_or_default();
+    let modes = row.get(inputs.kind as usize).copied().unwrap_or_default();
+    let noted = match inputs.function {
+        Function::Sos => inputs.spindle_sos,
+        Function::Sbc => inputs.has_brake,
+        _ => false,
+    };
+    let available = (modes >> inputs.som as u8) & 1 == 1 || (inputs.kind == Kind::Spindle && noted);
+    (state, Outputs { available })
+}
