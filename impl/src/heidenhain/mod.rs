@@ -30,6 +30,7 @@
 //! | [`brakes`] | brake outputs of a safe PLC | `stop` |
 //! | [`tool_holder`] | opening of the tool holder by a safe PLC | `group` of the cycle before |
 //! | [`acceptance`] | acceptance of changed safe machine parameters | - |
+//! | [`program_check`] | checksum and interface version of the safe PLC program | - |
 //! | [`self_test`] | order of the self-test, its interval | - |
 //! | [`status_bits`] | reactions to the safe status bits of a telegram | - |
 //! | [`sampling`] | forced dynamic sampling of a pair of inputs | - |
@@ -68,6 +69,7 @@ pub mod operating_stop;
 pub mod output_enable;
 pub mod parameters;
 pub mod position_limit;
+pub mod program_check;
 pub mod reference;
 pub mod revolutions;
 pub mod sampling;

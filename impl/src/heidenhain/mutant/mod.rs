@@ -15,6 +15,7 @@ mod composing;
 mod groups;
 mod interface;
 mod machine;
+mod program;
 mod service;
 mod stops;
 mod watching;
@@ -220,6 +221,13 @@ mutants! { heidenhain:
         AcceptanceWithoutPassword "acceptance-without-password" => service::acceptance_without_password;
         /// One press confirms the whole list.
         AcceptanceOnePress "acceptance-one-press" => service::acceptance_one_press;
+    }
+    /// The check of the program with this mutant in it.
+    fn program_check {
+        /// Commissioning forgives another version of the interface too.
+        ProgramCheckAnyVersion "program-check-any-version" => program::program_check_any_version;
+        /// A program whose checksum differs is reported, but runs.
+        ProgramCheckReportsOnly "program-check-reports-only" => program::program_check_reports_only;
     }
     /// The self-test with this mutant in it.
     fn self_test {

@@ -4,6 +4,7 @@ mod composing;
 mod groups;
 mod interface;
 mod machine;
+mod program;
 mod service;
 mod watching;
 
@@ -11,6 +12,7 @@ pub use composing::*;
 pub use groups::*;
 pub use interface::*;
 pub use machine::*;
+pub use program::*;
 pub use service::*;
 pub use watching::*;
 

@@ -4,15 +4,17 @@ mod composing;
 mod groups;
 mod interface;
 mod machine;
+mod program;
 mod service;
 mod watching;
 
 /// The lists of this family.
-pub(super) static ENTRIES: [&[super::Entry]; 6] = [
+pub(super) static ENTRIES: [&[super::Entry]; 7] = [
     interface::ENTRIES,
     groups::ENTRIES,
     machine::ENTRIES,
     watching::ENTRIES,
     service::ENTRIES,
+    program::ENTRIES,
     composing::ENTRIES,
 ];

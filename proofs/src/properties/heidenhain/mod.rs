@@ -34,6 +34,8 @@ monitors! { heidenhain:
     tool_holder
     /// Acceptance of parameters.
     acceptance
+    /// The program of the safe PLC.
+    program_check
     /// Self-test.
     self_test
     /// Status bits.

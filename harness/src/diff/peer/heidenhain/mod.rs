@@ -6,6 +6,7 @@ mod groups;
 mod interface;
 mod machine;
 mod numbers;
+mod program;
 mod service;
 mod watching;
 
@@ -40,6 +41,7 @@ pub(super) static FAMILY: Family = Family {
         ("brakes", "brakes"),
         ("tool_holder", "tool_holder"),
         ("acceptance", "acceptance"),
+        ("program_check", "program_check"),
         ("self_test", "self_test"),
         ("status_bits", "status_bits"),
         ("sampling", "sampling"),
@@ -63,6 +65,7 @@ fn make(machine: &str, params: &Params, mutant: Option<super::Mutant>) -> Made {
         watching::make,
         service::make,
         checks::make,
+        program::make,
     ] {
         if let Some(adapter) = make(machine, params, mutant)? {
             return Ok(Some(adapter));
