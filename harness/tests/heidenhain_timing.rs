@@ -15,7 +15,12 @@ fn json(arguments: &[&str]) -> Value {
     let mut all = arguments.to_vec();
     all.push("--json");
     let output = stillpoint(&all);
-    assert_eq!(output.status.code(), Some(0), "{all:?}: {}", stderr(&output));
+    assert_eq!(
+        output.status.code(),
+        Some(0),
+        "{all:?}: {}",
+        stderr(&output)
+    );
     serde_json::from_str(&stdout(&output)).expect("JSON")
 }
 
@@ -63,7 +68,12 @@ fn both_channels_and_every_function_have_chains() {
         "other CC",
         "comparison",
     ];
-    let nc = ["door front, CC", "door front, MC", "SLS in SOM_2", "SLS in SOM_4"];
+    let nc = [
+        "door front, CC",
+        "door front, MC",
+        "SLS in SOM_2",
+        "SLS in SOM_4",
+    ];
     let moved = ["SOS, speed", "SOS, way", "dv/dt"];
     for name in common {
         for axis in ["X", "Y", "Z", "S", "M"] {
@@ -112,15 +122,25 @@ fn the_summands_give_the_totals_of_the_manual() {
     let machine = changed(
         "hfs-reaction-totals",
         &[
-            ("machine.toml", "SMP525  = \"600 ms\"", "SMP525  = \"420 ms\""),
-            ("machine.toml", "MP7602   = \"21 ms\"", "MP7602   = \"30 ms\""),
+            (
+                "machine.toml",
+                "SMP525  = \"600 ms\"",
+                "SMP525  = \"420 ms\"",
+            ),
+            (
+                "machine.toml",
+                "MP7602   = \"21 ms\"",
+                "MP7602   = \"30 ms\"",
+            ),
         ],
     );
     let json = json(&["reaction", &machine, "--axis", "X"]);
     let stages = ["Sensor and logic", "Detection and request"];
     let sum = |name: &str, wanted: &dyn Fn(&Value) -> bool| -> i64 {
         let list = steps(chain(&json, "X", name)).iter();
-        list.filter(|s| wanted(s)).filter_map(|s| s["time_us"].as_i64()).sum()
+        list.filter(|s| wanted(s))
+            .filter_map(|s| s["time_us"].as_i64())
+            .sum()
     };
     let begin = |name: &str| sum(name, &|s| stages.iter().any(|t| s["stage"] == *t));
     assert_eq!(begin("emergency stop, MC"), 200 + 3_000);
@@ -144,8 +164,12 @@ fn the_summands_give_the_totals_of_the_manual() {
     assert_eq!(printed("door front, CC"), 52_000 + 100_000 + 200_000);
     // At the latest: the start of the SS1 and the timer.
     let last = |name: &str| {
-        let outcomes = chain(&json, "X", name)["outcomes"].as_array().expect("outcomes");
-        outcomes.last().expect("one")["time_us"].as_i64().expect("a time")
+        let outcomes = chain(&json, "X", name)["outcomes"]
+            .as_array()
+            .expect("outcomes");
+        outcomes.last().expect("one")["time_us"]
+            .as_i64()
+            .expect("a time")
     };
     assert_eq!(last("emergency stop, MC"), 3_200 + 420_000);
     assert_eq!(last("emergency stop, CC"), 9_600 + 420_000);
@@ -176,21 +200,38 @@ fn a_summand_that_is_too_short_is_refuted() {
         ("capture", "time  = \"T#22ms\"", "time  = \"T#21ms\""),
         ("splc-mc", "time  = \"2 * MP7602\"", "time  = \"MP7602\""),
         ("splc-cc", "time  = \"T#21ms\"", "time  = \"T#20ms\""),
-        ("peer", "time     = \"4 * monitoring_cycle\"", "time     = \"3 * monitoring_cycle\""),
-        ("brake", "time  = \"MP2308\"", "time  = \"MP2308 - monitoring_cycle\""),
-        ("ss2", "time     = \"CYCLES(ss2_time) * monitoring_cycle\"", "time     = \"T#3ms\""),
+        (
+            "peer",
+            "time     = \"4 * monitoring_cycle\"",
+            "time     = \"3 * monitoring_cycle\"",
+        ),
+        (
+            "brake",
+            "time  = \"MP2308\"",
+            "time  = \"MP2308 - monitoring_cycle\"",
+        ),
+        (
+            "ss2",
+            "time     = \"CYCLES(ss2_time) * monitoring_cycle\"",
+            "time     = \"T#3ms\"",
+        ),
     ] {
         let machine = changed(&format!("hfs-reaction-{name}"), &[(CHAINS, from, to)]);
         let output = stillpoint(&["reaction", &machine, "--axis", "X"]);
         assert_eq!(output.status.code(), Some(1), "{name}: {}", stderr(&output));
         let text = stdout(&output);
-        assert!(text.contains("refuted") && text.contains("slowest case takes"), "{name}: {text}");
+        assert!(
+            text.contains("refuted") && text.contains("slowest case takes"),
+            "{name}: {text}"
+        );
     }
 }
 
 fn ids(json: &Value) -> BTreeSet<String> {
     let tests = json["tests"].as_array().expect("tests").iter();
-    tests.map(|t| t["id"].as_str().expect("an id").to_owned()).collect()
+    tests
+        .map(|t| t["id"].as_str().expect("an id").to_owned())
+        .collect()
 }
 
 /// Tests of the functions and limits, of the doors, permissives, keys, brakes, and of the control's own tests
@@ -200,27 +241,79 @@ fn every_function_and_limit_is_tested() {
     let ids = ids(&json(&["acceptance", MACHINE]));
     let has = |id: &str| assert!(ids.contains(id), "{id}");
     for id in [
-        "PARAMETERS", "SPLC-PROGRAM", "SELF-TEST", "SELF-TEST-DOORS", "SELF-TEST-INTERVAL", "CONFIGURATION",
-        "CONTACT-CHAIN", "OUTPUTS", "DYNAMIC-SAMPLING", "BRAKE-CONTROL", "BRAKE-Z", "NO-BRAKE-X", "DOOR-front",
-        "DOOR-magazine", "DOOR-front-S", "DOOR-magazine-M", "MODE-SOM_1", "MODE-SOM_4", "MODE-CHANGE",
-        "AXES-AT-A-TIME", "PERMISSIVE-NC", "PERMISSIVE-T", "KEYS-S", "UNEXPECTED-START-NC", "STOP-SEQUENCE-S",
-        "STOP-NC", "STOP-OF-SPINDLE-S", "RESTRICTED-S", "TOOL-HOLDER-S", "MAGAZINE-magazine",
+        "PARAMETERS",
+        "SPLC-PROGRAM",
+        "SELF-TEST",
+        "SELF-TEST-DOORS",
+        "SELF-TEST-INTERVAL",
+        "CONFIGURATION",
+        "CONTACT-CHAIN",
+        "OUTPUTS",
+        "DYNAMIC-SAMPLING",
+        "BRAKE-CONTROL",
+        "BRAKE-Z",
+        "NO-BRAKE-X",
+        "DOOR-front",
+        "DOOR-magazine",
+        "DOOR-front-S",
+        "DOOR-magazine-M",
+        "MODE-SOM_1",
+        "MODE-SOM_4",
+        "MODE-CHANGE",
+        "AXES-AT-A-TIME",
+        "PERMISSIVE-NC",
+        "PERMISSIVE-T",
+        "KEYS-S",
+        "UNEXPECTED-START-NC",
+        "STOP-SEQUENCE-S",
+        "STOP-NC",
+        "STOP-OF-SPINDLE-S",
+        "RESTRICTED-S",
+        "TOOL-HOLDER-S",
+        "MAGAZINE-magazine",
     ] {
         has(id);
     }
     for axis in ["X", "Y", "Z", "S", "M"] {
         for id in [
-            "CUT-OUT", "EMERGENCY-STOP", "SLS-SOM_2", "SS1-TIME", "SS2-TIME", "DVDT", "SPEED", "COMPARISON", "MOTOR",
+            "CUT-OUT",
+            "EMERGENCY-STOP",
+            "SLS-SOM_2",
+            "SS1-TIME",
+            "SS2-TIME",
+            "DVDT",
+            "SPEED",
+            "COMPARISON",
+            "MOTOR",
         ] {
             has(&format!("{id}-{axis}"));
         }
     }
     for axis in ["X", "Y", "Z"] {
-        for id in ["SLS-SOM_3", "SLS-SOM_4", "SOS-SPEED", "SOS-WAY", "SS2-WAY", "SLP+", "SLP-", "REFERENCE", "MARK", "POSITION"] {
+        for id in [
+            "SLS-SOM_3",
+            "SLS-SOM_4",
+            "SOS-SPEED",
+            "SOS-WAY",
+            "SS2-WAY",
+            "SLP+",
+            "SLP-",
+            "REFERENCE",
+            "MARK",
+            "POSITION",
+        ] {
             has(&format!("{id}-{axis}"));
         }
     }
-    for id in ["SLP+-S", "SLP+-M", "SLS-SOM_3-M", "MODE-SOM_4-LOCKED", "BRAKE-CONTROL-OFF", "BRAKE-X", "STOP-SEQUENCE-NC"] {
+    for id in [
+        "SLP+-S",
+        "SLP+-M",
+        "SLS-SOM_3-M",
+        "MODE-SOM_4-LOCKED",
+        "BRAKE-CONTROL-OFF",
+        "BRAKE-X",
+        "STOP-SEQUENCE-NC",
+    ] {
         assert!(!ids.contains(id), "{id}");
     }
 }
@@ -234,12 +327,18 @@ fn the_configuration_decides_what_is_tested() {
     );
     let ids = ids(&json(&["acceptance", &machine]));
     assert!(ids.contains("MODE-SOM_4-LOCKED") && ids.contains("BRAKE-CONTROL-OFF"));
-    assert!(!ids.contains("MODE-SOM_4") && !ids.contains("SLS-SOM_4-X") && !ids.contains("BRAKE-CONTROL"));
+    assert!(
+        !ids.contains("MODE-SOM_4")
+            && !ids.contains("SLS-SOM_4-X")
+            && !ids.contains("BRAKE-CONTROL")
+    );
 }
 
 fn test<'a>(json: &'a Value, id: &str) -> &'a Value {
     let list = json["tests"].as_array().expect("tests");
-    list.iter().find(|t| t["id"] == id).unwrap_or_else(|| panic!("no test {id}"))
+    list.iter()
+        .find(|t| t["id"] == id)
+        .unwrap_or_else(|| panic!("no test {id}"))
 }
 
 #[test]
@@ -256,8 +355,14 @@ fn values_times_and_what_a_test_depends_on() {
     assert_eq!(door["expect"][1]["latest_us"], 31_000 + 42_000 + 3_000);
     // A group stands when its slowest axis stands, and depends on all of them.
     let permissive = test(&json, "PERMISSIVE-NC");
-    assert_eq!(permissive["expect"][1]["latest_us"], 6_000 + 42_000 + 400_000);
-    assert_eq!(permissive["depends"]["SMP527"], "X 400 ms, Y 400 ms, Z 300 ms");
+    assert_eq!(
+        permissive["expect"][1]["latest_us"],
+        6_000 + 42_000 + 400_000
+    );
+    assert_eq!(
+        permissive["depends"]["SMP527"],
+        "X 400 ms, Y 400 ms, Z 300 ms"
+    );
     assert_eq!(permissive["depends"]["axes"], "X, Y, Z");
     // None is simulated, and each says why.
     for test in json["tests"].as_array().expect("tests") {
@@ -273,7 +378,11 @@ fn a_changed_parameter_repeats_its_tests() {
     let path = changed(
         "hfs-acceptance-since",
         &[
-            ("machine.toml", "SMP527  = \"300 ms\"", "SMP527  = \"330 ms\""),
+            (
+                "machine.toml",
+                "SMP527  = \"300 ms\"",
+                "SMP527  = \"330 ms\"",
+            ),
             ("machine.toml", "SMP610 = [\"NC\"]", "SMP610 = []"),
         ],
     );
@@ -281,15 +390,23 @@ fn a_changed_parameter_repeats_its_tests() {
     let changes = json["since"]["changes"].as_array().expect("changes");
     let shown: Vec<String> = changes
         .iter()
-        .map(|c| format!("{} {}: {} -> {}", c["of"], c["name"], c["old"], c["new"]).replace('"', ""))
+        .map(|c| {
+            format!("{} {}: {} -> {}", c["of"], c["name"], c["old"], c["new"]).replace('"', "")
+        })
         .collect();
     assert_eq!(
         shown,
-        ["axis Z SMP527: 300 ms -> 330 ms", "group S SMP610: NC -> none"]
+        [
+            "axis Z SMP527: 300 ms -> 330 ms",
+            "group S SMP610: NC -> none"
+        ]
     );
     let repeat: Vec<String> = ids(&json).into_iter().collect();
     assert_eq!(repeat, ["KEYS-NC", "PERMISSIVE-NC", "SS2-TIME-Z"]);
-    assert_eq!(json["since"]["gone"], serde_json::json!(["STOP-SEQUENCE-S"]));
+    assert_eq!(
+        json["since"]["gone"],
+        serde_json::json!(["STOP-SEQUENCE-S"])
+    );
 }
 
 /// What belongs to a complete acceptance test beside the tests (HFS-ACCEPT-001, HFS-ACCEPT-003, HFS-ACCEPT-004,
@@ -317,7 +434,11 @@ fn protocol_in_markdown_and_html() {
     let output = stillpoint(&["acceptance", MACHINE, "--html", &shown]);
     assert_eq!((output.status.code(), output.stdout.len()), (Some(0), 0));
     let page = std::fs::read_to_string(&path).expect("the page");
-    for part in ["<svg", "DOOR-front-X", "personnel authorised by the machine tool builder"] {
+    for part in [
+        "<svg",
+        "DOOR-front-X",
+        "personnel authorised by the machine tool builder",
+    ] {
         assert!(page.contains(part), "no {part}");
     }
     let again = stillpoint(&["acceptance", MACHINE, "--html", &shown]);
@@ -339,11 +460,21 @@ fn a_run_says_that_nothing_was_simulated() {
 fn a_parameter_that_no_test_reads_is_a_fault_of_the_catalogue() {
     let machine = changed(
         "hfs-acceptance-unread",
-        &[("spec/heidenhain-fs/acceptance.toml", "SMP560_10 = ", "SMP560_11 = ")],
+        &[(
+            "spec/heidenhain-fs/acceptance.toml",
+            "SMP560_10 = ",
+            "SMP560_11 = ",
+        )],
     );
     let output = stillpoint(&["acceptance", &machine]);
     assert_eq!(output.status.code(), Some(2));
     let says = stderr(&output);
-    assert!(says.contains("no acceptance test depends on SMP560_10"), "{says}");
-    assert!(says.contains("'SMP560_11' is no parameter without a test"), "{says}");
+    assert!(
+        says.contains("no acceptance test depends on SMP560_10"),
+        "{says}"
+    );
+    assert!(
+        says.contains("'SMP560_11' is no parameter without a test"),
+        "{says}"
+    );
 }

@@ -84,7 +84,11 @@ fn emergency_stop(phase: u32, braking: Option<u32>) -> Moments {
         note(&mut seen.brake_cc, b.brake_closed, now);
         note(&mut seen.off_cc, b.torque_off, now);
         note(&mut seen.off_mc, a.torque_off && a.brake_closed, now);
-        note(&mut seen.ss0, a.level == Stop::Ss0 || b.level == Stop::Ss0, now);
+        note(
+            &mut seen.ss0,
+            a.level == Stop::Ss0 || b.level == Stop::Ss0,
+            now,
+        );
         now += CYCLE;
     }
     seen
@@ -92,17 +96,16 @@ fn emergency_stop(phase: u32, braking: Option<u32>) -> Moments {
 
 /// The latest of each moment over all phases.
 fn worst(braking: Option<u32>) -> Moments {
-    (1..=CYCLE).map(|phase| emergency_stop(phase, braking)).fold(
-        Moments::default(),
-        |worst, seen| Moments {
+    (1..=CYCLE)
+        .map(|phase| emergency_stop(phase, braking))
+        .fold(Moments::default(), |worst, seen| Moments {
             ss1_mc: worst.ss1_mc.max(seen.ss1_mc),
             ss1_cc: worst.ss1_cc.max(seen.ss1_cc),
             brake_cc: worst.brake_cc.max(seen.brake_cc),
             off_cc: worst.off_cc.max(seen.off_cc),
             off_mc: worst.off_mc.max(seen.off_mc),
             ss0: worst.ss0.max(seen.ss0),
-        },
-    )
+        })
 }
 
 /// HFS-TIMING-005, HFS-TIMING-006: the SS1 begins in the cycle in which the signal arrives: at most 3.2 ms (MC) and 9.6 ms (CC)
@@ -121,7 +124,10 @@ fn brake_and_torque_follow_the_standstill() {
     for phase in 1..=CYCLE {
         let seen = emergency_stop(phase, Some(ms(1_000)));
         let stands = seen.ss1_cc + ms(1_000);
-        assert!((stands..stands + CYCLE).contains(&seen.brake_cc), "{seen:?}");
+        assert!(
+            (stands..stands + CYCLE).contains(&seen.brake_cc),
+            "{seen:?}"
+        );
         assert_eq!(seen.off_cc, seen.brake_cc + 67 * CYCLE);
         assert_eq!(seen.off_mc, seen.off_cc + CYCLE);
         assert_eq!(seen.ss0, 0);
@@ -217,8 +223,8 @@ impl SafePlc {
 /// that does not run is found.
 #[test]
 fn two_safe_plcs_in_their_own_cycles_are_no_fault() {
-    for (period, phase_mc, phase_cc) in (1..=10)
-        .flat_map(|p| (0..p).flat_map(move |a| (0..7).map(move |b| (p, a, b))))
+    for (period, phase_mc, phase_cc) in
+        (1..=10).flat_map(|p| (0..p).flat_map(move |a| (0..7).map(move |b| (p, a, b))))
     {
         let plc = |period, phase| SafePlc {
             period,
@@ -256,8 +262,14 @@ fn a_missing_signal_is_the_safe_one() {
         ..none
     };
     for lost in [
-        button::Inputs { contact_a: false, ..both },
-        button::Inputs { contact_b: false, ..both },
+        button::Inputs {
+            contact_a: false,
+            ..both
+        },
+        button::Inputs {
+            contact_b: false,
+            ..both
+        },
     ] {
         permissive.step(&none);
         assert!(permissive.step(&both).valid);
@@ -287,7 +299,14 @@ fn translated(crc_equal: bool, version_equal: bool) -> program_check::Inputs {
 #[test]
 fn a_changed_program_does_not_run() {
     let mut check = program_check::Monitor::new(program_check::Config::new(false).expect("either"));
-    assert!(!check.step(&program_check::Inputs { version_equal: true, ..Default::default() }).good);
+    assert!(
+        !check
+            .step(&program_check::Inputs {
+                version_equal: true,
+                ..Default::default()
+            })
+            .good
+    );
     assert!(check.step(&translated(true, true)).good);
     let changed = check.step(&translated(false, true));
     assert!(!changed.good && changed.message_crc);

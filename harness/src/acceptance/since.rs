@@ -114,7 +114,13 @@ fn changes(old: &Machine, new: &Machine) -> Vec<Change> {
                 let names = |a: &Axis| a.functions.join(", ");
                 one(&mut list, &of, "functions", &names(was), &names(axis));
                 let (before, after) = (&was.interpolates_with, &axis.interpolates_with);
-                one(&mut list, &of, "interpolates_with", &joined(before), &joined(after));
+                one(
+                    &mut list,
+                    &of,
+                    "interpolates_with",
+                    &joined(before),
+                    &joined(after),
+                );
                 values(&mut list, &of, &old.axis_shown(was), &new.axis_shown(axis));
             }
             None => one(&mut list, &of, "axis", "", "new"),

@@ -337,7 +337,10 @@ impl Plan {
         for formula in &self.depends {
             found.extend(ground.elements(formula.text.get_ref()));
         }
-        if let (true, Some(axes)) = (ground.axis.is_none(), ground.group.and(ground.title("axes"))) {
+        if let (true, Some(axes)) = (
+            ground.axis.is_none(),
+            ground.group.and(ground.title("axes")),
+        ) {
             found.insert("axes".to_owned(), axes);
         }
         if let Some(door) = ground.door {
