@@ -4,9 +4,9 @@
 use stillpoint_monitors::heidenhain::program_check;
 use stillpoint_monitors::heidenhain::types::{GroupState, Kind, Som, Stop};
 use stillpoint_monitors::heidenhain::{
-    agreement, both_channels, button, gate, group, som, speed, status_bits, stop,
+    agreement, both_channels, button, cc_link, gate, group, som, speed, status_bits, stop,
 };
-use stillpoint_monitors::kernel::{Cycles, Speed};
+use stillpoint_monitors::kernel::{Cycles, Position, Speed};
 
 /// Steps of the grid in a cycle of the kernel.
 const CYCLE: u32 = 15;
@@ -330,4 +330,43 @@ fn a_program_for_another_version_does_not_run() {
         let out = check.step(&translated(true, false));
         assert!(!out.good && out.message_version);
     }
+}
+
+/// HFS-TIMING-003: the reaction comes with the fourth faulty telegram in a row, 12 ms after the first one began; a sound one in
+/// between begins anew. Until then the drive is taken to move (HFS-ARCH-003).
+#[test]
+fn four_faulty_telegrams_of_another_cc_are_fatal() {
+    let config = cc_link::Config::new(cc_link::Config::MOST).expect("allowed");
+    let mut link = cc_link::Monitor::new(config);
+    let drive = cc_link::Drive {
+        group: Some(2),
+        position: Position(1_234),
+        brake_open: true,
+        torque: true,
+        ..Default::default()
+    };
+    let sound = cc_link::Inputs {
+        sound: true,
+        drive,
+        ..Default::default()
+    };
+    let faulty = cc_link::Inputs::default();
+    assert_eq!(link.step(&sound).drive, drive);
+    for _ in 0..3 {
+        let out = link.step(&faulty);
+        assert!(out.drive.moving && out.drive.position == drive.position);
+        assert_eq!(out.demand, Stop::None);
+    }
+    assert_eq!(link.step(&sound).demand, Stop::None);
+    let demands: Vec<Stop> = (0..5).map(|_| link.step(&faulty).demand).collect();
+    let none = Stop::None;
+    assert_eq!(demands, [none, none, none, Stop::Ss1F, Stop::Ss1F]);
+    assert_eq!(link.step(&sound).demand, Stop::Ss1F, "it stays lost");
+    let fatal = cc_link::Inputs {
+        fatal: true,
+        ..sound
+    };
+    let mut link = cc_link::Monitor::new(config);
+    assert_eq!(link.step(&fatal).demand, Stop::Ss1F);
+    assert!(cc_link::Config::new(4).is_err(), "more than the manual's 12 ms");
 }

@@ -36,7 +36,7 @@ family! { sinumerik:
 family! { heidenhain:
     gate both_channels stop judge group startup axis_release som button switch_on output_enable channel
     speed operating_stop stop_path position_limit revolutions comparison deceleration axis_count
-    reference agreement brakes tool_holder acceptance program_check self_test status_bits sampling self_checks start_checks
+    reference agreement brakes tool_holder acceptance cc_link program_check self_test status_bits sampling self_checks start_checks
 }
 
 /// The lines of the table for a mutant of `monitor`, whose step function `subject` has.
