@@ -188,7 +188,7 @@ fn the_summands_give_the_totals_of_the_manual() {
     assert_eq!(last("door front, CC"), 52_000 + 420_000);
 }
 
-/// Standstill at the emergency stop: 9.6 ms at 5 m/min, then half of the way in the braking time of 280 ms.
+/// Standstill at the emergency stop (HFS-TIMING-004): 9.6 ms at 5 m/min, then half of the way in the braking time of 280 ms.
 #[test]
 fn the_way_ends_where_the_axis_stands() {
     let json = json(&["reaction", MACHINE, "--axis", "X"]);
@@ -488,4 +488,117 @@ fn a_parameter_that_no_test_reads_is_a_fault_of_the_catalogue() {
         says.contains("'SMP560_11' is no parameter without a test"),
         "{says}"
     );
+}
+
+/// What the machine builder has to see to, and the test of the protocol that asks for it.
+#[test]
+fn what_is_not_in_the_kernel_is_asked_for() {
+    let json = json(&["acceptance", MACHINE]);
+    for (requirement, id, asks) in [
+        (
+            "HFS-ACCEPT-001",
+            "SPLC-PROGRAM",
+            "cannot be put into service without the password",
+        ),
+        (
+            "HFS-ACCEPT-002",
+            "PARAMETERS",
+            "asks for a partial acceptance test",
+        ),
+        (
+            "HFS-ACCEPT-003",
+            "EMERGENCY-STOP-X",
+            "each emergency stop button",
+        ),
+        ("HFS-ACCEPT-003", "DOOR-front", "one contact of the door"),
+        (
+            "HFS-ACCEPT-004",
+            "MARK-X",
+            "distance between mark and position",
+        ),
+        (
+            "HFS-ACCEPT-005",
+            "PARAMETER-FILES",
+            "Remove all invalid parameter files",
+        ),
+        (
+            "HFS-CHK-005",
+            "REFERENCE-X",
+            "the display marks it as not checked",
+        ),
+        ("HFS-DVDT-005", "DVDT-X", "\"limit\":\"15 ms\""),
+        ("HFS-GRP-004", "STOP-SEQUENCE-S", "the wait for NC included"),
+        (
+            "HFS-LIM-001",
+            "PARAMETER-FILES",
+            "nothing switches safe machine parameters",
+        ),
+        ("HFS-LIM-005", "CONTACT-CHAIN", "at each relay in turn"),
+        ("HFS-MODE-017", "MODE-SOM_2", "the mode is displayed"),
+        ("HFS-NAV-005", "POSITION-X", "W1044"),
+        (
+            "HFS-NAV-007",
+            "SPEED-X",
+            "longest time outside the tolerance",
+        ),
+        (
+            "HFS-PARAM-003",
+            "PARAMETERS",
+            "with 95148 no SMP can be changed",
+        ),
+        (
+            "HFS-PARAM-006",
+            "PARAMETERS",
+            "with the old value it starts without the password",
+        ),
+        ("HFS-PARAM-008", "PARAMETER-FILES", "MP subfiles"),
+        ("HFS-PARAM-012", "SS1-TIME-X", "\"limit\":\"280 ms\""),
+        (
+            "HFS-PARAM-013",
+            "SS2-TIME-X",
+            "together with the axes it interpolates with",
+        ),
+        ("HFS-PARAM-014", "SS2-WAY-X", "7 mm to 10 mm"),
+        ("HFS-PARAM-015", "POSITION-X", "as small as"),
+        ("HFS-PARAM-016", "MODULO-M", "software limit switches act"),
+        ("HFS-PARAM-020", "MOTOR-X", "no formula"),
+        (
+            "HFS-SLP-007",
+            "SLP+-X",
+            "must end before the mechanical stop",
+        ),
+        ("HFS-SLS-005", "SLS-SOM_2-X", "tool centre point"),
+        ("HFS-SLS-009", "SLS-SOM_3-S", "\"limit\":\"5 rev\""),
+        ("HFS-SOS-007", "SOS-SPEED-X", "its torque is not off"),
+        (
+            "HFS-SS1-012",
+            "EMERGENCY-STOP-X",
+            "no inverter fault while all axes brake together",
+        ),
+        ("HFS-STOP-005", "STOP-NC", "the screen shows the cause"),
+        (
+            "HFS-TEST-027",
+            "SELF-TEST-INTERVAL",
+            "before the interval is over",
+        ),
+        ("HFS-TEST-028", "SELF-TEST-INTERVAL", "8 h or a shift"),
+        (
+            "HFS-TEST-029",
+            "SELF-TEST",
+            "RELAY EXTERNAL DC VOLTAGE MISSING",
+        ),
+        (
+            "HFS-USTART-005",
+            "UNEXPECTED-START-NC",
+            "belong to one group",
+        ),
+    ] {
+        let test = test(&json, id);
+        let named = test["requirements"].as_array().expect("requirements");
+        assert!(
+            named.iter().any(|r| r == requirement),
+            "{id}: {requirement}"
+        );
+        assert!(test.to_string().contains(asks), "{id}: {asks}");
+    }
 }

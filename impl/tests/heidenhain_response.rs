@@ -253,6 +253,12 @@ fn two_safe_plcs_in_their_own_cycles_are_no_fault() {
 fn a_missing_signal_is_the_safe_one() {
     let mut selection = som::Monitor::new(som::Config::new(true).expect("plausible"));
     assert_eq!(selection.step(&som::Inputs::default()).som, Som::Som1);
+    let key_2 = som::Inputs {
+        key_2: true,
+        ..Default::default()
+    };
+    assert_eq!(selection.step(&key_2).som, Som::Som2);
+    assert_eq!(selection.step(&som::Inputs::default()).som, Som::Som1);
     let config = button::Config::new(Cycles::new(100)).expect("plausible");
     let mut permissive = button::Monitor::new(config);
     let none = button::Inputs::default();
@@ -368,5 +374,8 @@ fn four_faulty_telegrams_of_another_cc_are_fatal() {
     };
     let mut link = cc_link::Monitor::new(config);
     assert_eq!(link.step(&fatal).demand, Stop::Ss1F);
-    assert!(cc_link::Config::new(4).is_err(), "more than the manual's 12 ms");
+    assert!(
+        cc_link::Config::new(4).is_err(),
+        "more than the manual's 12 ms"
+    );
 }
