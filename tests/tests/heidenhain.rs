@@ -107,6 +107,7 @@ fn operation_by_the_operator() {
 #[test]
 fn response_times() {
     holds("response.toml");
+    holds("reaction.toml");
 }
 
 #[test]
