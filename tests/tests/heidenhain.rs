@@ -111,6 +111,11 @@ fn response_times() {
 }
 
 #[test]
+fn telegrams_between_controller_computers() {
+    holds("link.toml");
+}
+
+#[test]
 fn both_channels_of_a_group() {
     holds("channels.toml");
 }

@@ -4,6 +4,7 @@ mod cells;
 mod checks;
 mod groups;
 mod interface;
+mod link;
 mod machine;
 mod numbers;
 mod program;
@@ -41,6 +42,7 @@ pub(super) static FAMILY: Family = Family {
         ("brakes", "brakes"),
         ("tool_holder", "tool_holder"),
         ("acceptance", "acceptance"),
+        ("cc_link", "cc_link"),
         ("program_check", "program_check"),
         ("self_test", "self_test"),
         ("status_bits", "status_bits"),
@@ -66,6 +68,7 @@ fn make(machine: &str, params: &Params, mutant: Option<super::Mutant>) -> Made {
         service::make,
         checks::make,
         program::make,
+        link::make,
     ] {
         if let Some(adapter) = make(machine, params, mutant)? {
             return Ok(Some(adapter));
