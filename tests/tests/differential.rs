@@ -14,7 +14,7 @@ use stillpoint_tests::root;
 
 /// The tables compared: those of a machine, or with the parameters of their systems. What several files use is compared with
 /// the parameters of the first one, so the file of a machine's own table stands before those that put it together with others.
-const FILES: [&str; 16] = [
+const FILES: [&str; 17] = [
     "spec/sinumerik-840d/axis.toml",
     "spec/machines/milling-840d.toml",
     "spec/heidenhain-fs/stop.toml",
@@ -28,6 +28,7 @@ const FILES: [&str; 16] = [
     "spec/heidenhain-fs/selftest.toml",
     "spec/heidenhain-fs/status-bits.toml",
     "spec/heidenhain-fs/fields.toml",
+    "spec/heidenhain-fs/link.toml",
     "spec/heidenhain-fs/splc.toml",
     "spec/heidenhain-fs/doors.toml",
     "spec/heidenhain-fs/faults.toml",

@@ -112,6 +112,12 @@ fn operation_by_the_operator() {
 #[test]
 fn response_times() {
     holds("response.toml");
+    holds("reaction.toml");
+}
+
+#[test]
+fn telegrams_between_controller_computers() {
+    holds("link.toml");
 }
 
 #[test]

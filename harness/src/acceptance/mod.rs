@@ -12,7 +12,7 @@ use std::path::Path;
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 use stillpoint_spec::machine::Machine;
-use stillpoint_spec::machine::acceptance::{Expect, Protocol, Test};
+use stillpoint_spec::machine::acceptance::{Expect, Protocol, Simulated, Test};
 
 pub use run::{Error, Ran, on_the_machine, run};
 pub use show::document;
@@ -93,6 +93,10 @@ pub fn to_json(
                 "tolerance_cycles": e.tolerance, "latest_us": us, "latest_cycles": cycles,
             })
         });
+        let reason = match &test.simulated {
+            Simulated::Scenario(_) => None,
+            Simulated::Not(reason) => Some(reason),
+        };
         let measure = test.measure.iter();
         let measure = measure.map(|m| json!({"text": m.text, "unit": m.unit, "limit": m.limit}));
         json!({
@@ -100,7 +104,7 @@ pub fn to_json(
             "title": test.title, "axis": test.axis, "requirements": test.req,
             "requires": test.requires, "steps": test.steps,
             "expect": expect.collect::<Vec<_>>(), "measure": measure.collect::<Vec<_>>(),
-            "depends": test.depends,
+            "simulated": reason.is_none(), "not_simulated": reason, "depends": test.depends,
         })
     });
     let mut value = json!({

@@ -10,6 +10,7 @@ use super::{Ran, on_the_machine};
 pub(super) fn results(ran: &[Ran], tests: &[&Test]) -> (Block, Block) {
     let bad = ran.iter().filter(|r| !r.holds).count();
     let (tone, head) = match bad {
+        0 if ran.is_empty() => (Tone::Open, "No test was simulated".to_owned()),
         0 => (
             Tone::Good,
             "Every simulated test gives what is expected".to_owned(),
@@ -25,7 +26,7 @@ pub(super) fn results(ran: &[Ran], tests: &[&Test]) -> (Block, Block) {
     };
     let not = on_the_machine(tests);
     let about = format!(
-        "{} of {} tests were run on the production monitors of both channels with a simple axis; {} only the real machine can show. This shows that configuration and monitors fit the test; it is no test of the machine. ",
+        "{} of {} tests were run on the production monitors of both channels with a simple axis; {} were not, each for its reason. This shows that configuration and monitors fit the test; it is no test of the machine. ",
         ran.len(),
         tests.len(),
         not.len()

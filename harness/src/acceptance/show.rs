@@ -121,8 +121,10 @@ fn configuration(machine: &Machine, protocol: &Protocol) -> Block {
         let mut row = vec![
             vec![Inline::Strong(axis.name.clone())],
             vec![Inline::text(&axis.title)],
-            vec![Inline::Text(functions)],
         ];
+        if machine.has_functions() {
+            row.push(vec![Inline::Text(functions)]);
+        }
         row.extend(
             protocol
                 .axis_records
@@ -131,7 +133,10 @@ fn configuration(machine: &Machine, protocol: &Protocol) -> Block {
         );
         rows.push(row);
     }
-    let mut heads = vec!["Axis", "What it is", "Functions"];
+    let mut heads = vec!["Axis", "What it is"];
+    if machine.has_functions() {
+        heads.push("Functions");
+    }
     heads.extend(protocol.axis_records.iter().map(String::as_str));
     let mut blocks = vec![Block::table(&heads, rows)];
     blocks.push(details("Control", &machine.control_shown()));
@@ -139,6 +144,13 @@ fn configuration(machine: &Machine, protocol: &Protocol) -> Block {
         blocks.push(details(
             &format!("Axis {}", axis.name),
             &machine.axis_shown(axis),
+        ));
+    }
+    for group in &machine.axis_groups {
+        let names: Vec<&str> = group.axes.iter().map(|a| a.get_ref().as_str()).collect();
+        blocks.push(details(
+            &format!("Group {} of {}", group.name, names.join(", ")),
+            &machine.group_shown(group),
         ));
     }
     for door in &machine.doors {

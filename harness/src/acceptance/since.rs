@@ -4,12 +4,13 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use serde_json::{Value, json};
 use stillpoint_spec::machine::acceptance::{Protocol, Test};
-use stillpoint_spec::machine::{Axis, AxisKind, Door, Machine, Shown};
+use stillpoint_spec::machine::{Axis, AxisKind, Machine, Shown};
+use toml::Spanned;
 
 /// A difference between two configurations.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Change {
-    /// What it is about: the control, an axis, a door.
+    /// What it is about: the control, an axis, a group, a door.
     pub of: String,
     /// The parameter, with the index of an element; or what else differs.
     pub name: String,
@@ -112,7 +113,14 @@ fn changes(old: &Machine, new: &Machine) -> Vec<Change> {
                 one(&mut list, &of, "kind", kind(was), kind(axis));
                 let names = |a: &Axis| a.functions.join(", ");
                 one(&mut list, &of, "functions", &names(was), &names(axis));
-                one(&mut list, &of, "interpolates_with", &path(was), &path(axis));
+                let (before, after) = (&was.interpolates_with, &axis.interpolates_with);
+                one(
+                    &mut list,
+                    &of,
+                    "interpolates_with",
+                    &joined(before),
+                    &joined(after),
+                );
                 values(&mut list, &of, &old.axis_shown(was), &new.axis_shown(axis));
             }
             None => one(&mut list, &of, "axis", "", "new"),
@@ -129,45 +137,58 @@ fn changes(old: &Machine, new: &Machine) -> Vec<Change> {
             );
         }
     }
-    for door in &new.doors {
-        let of = format!("door {}", door.name);
-        match old.doors.iter().find(|d| d.name == door.name) {
-            Some(was) => {
-                one(&mut list, &of, "axes", &behind(was), &behind(door));
-                values(&mut list, &of, &old.door_shown(was), &new.door_shown(door));
-            }
-            None => one(&mut list, &of, "door", "", "new"),
-        }
-    }
-    for door in &old.doors {
-        if new.doors.iter().all(|d| d.name != door.name) {
-            one(
-                &mut list,
-                &format!("door {}", door.name),
-                "door",
-                "there",
-                "",
-            );
-        }
-    }
+    parts(&mut list, "group", &groups(old), &groups(new));
+    parts(&mut list, "door", &doors(old), &doors(new));
     list
 }
 
-fn kind(axis: &Axis) -> &'static str {
-    match axis.kind {
-        AxisKind::Linear => "linear",
-        AxisKind::Rotary => "rotary",
+/// A group or door: its name, its axes, its values.
+type Part<'a> = (&'a str, &'a [Spanned<String>], Vec<Shown>);
+
+fn groups(machine: &Machine) -> Vec<Part<'_>> {
+    let groups = machine.axis_groups.iter();
+    groups
+        .map(|g| (g.name.as_str(), g.axes.as_slice(), machine.group_shown(g)))
+        .collect()
+}
+
+fn doors(machine: &Machine) -> Vec<Part<'_>> {
+    let doors = machine.doors.iter();
+    doors
+        .map(|d| (d.name.as_str(), d.axes.as_slice(), machine.door_shown(d)))
+        .collect()
+}
+
+/// Groups or doors.
+fn parts(list: &mut Vec<Change>, noun: &str, old: &[Part<'_>], new: &[Part<'_>]) {
+    for (name, axes, shown) in new {
+        let of = format!("{noun} {name}");
+        match old.iter().find(|(n, _, _)| n == name) {
+            Some((_, were, was)) => {
+                one(list, &of, "axes", &joined(were), &joined(axes));
+                values(list, &of, was, shown);
+            }
+            None => one(list, &of, noun, "", "new"),
+        }
+    }
+    for (name, _, _) in old {
+        if new.iter().all(|(n, _, _)| n != name) {
+            one(list, &format!("{noun} {name}"), noun, "there", "");
+        }
     }
 }
 
-fn path(axis: &Axis) -> String {
-    let names = axis.interpolates_with.iter().map(|n| n.get_ref().as_str());
-    names.collect::<Vec<_>>().join(", ")
+fn kind(axis: &Axis) -> &'static str {
+    match (axis.kind, axis.spindle) {
+        (_, true) => "spindle",
+        (AxisKind::Linear, _) => "linear",
+        (AxisKind::Rotary, _) => "rotary",
+    }
 }
 
-fn behind(door: &Door) -> String {
-    let names = door.axes.iter().map(|n| n.get_ref().as_str());
-    names.collect::<Vec<_>>().join(", ")
+fn joined(names: &[Spanned<String>]) -> String {
+    let names: Vec<&str> = names.iter().map(|n| n.get_ref().as_str()).collect();
+    names.join(", ")
 }
 
 fn one(list: &mut Vec<Change>, of: &str, name: &str, old: &str, new: &str) {

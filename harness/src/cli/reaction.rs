@@ -6,7 +6,7 @@ use clap::Args;
 use stillpoint::check::{Settings, check};
 use stillpoint::reaction::{self, Error, Wishes};
 use stillpoint::subject::{self, Readings};
-use stillpoint_spec::machine::{self, families};
+use stillpoint_spec::machine::{self, Run, families};
 
 use super::limits::LimitOptions;
 use super::progress::Line;
@@ -66,7 +66,11 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     };
     reaction::check_wishes(&machine, &wishes)?;
     let reactions = machine.reactions()?;
-    let subject = subject::of_runs(file, machine.clone(), &reactions.runs, &Readings::new())?;
+    // What no chain shown can name need not be explored.
+    let shown =
+        |run: &&Run| wishes.axes.is_empty() || run.axes.iter().any(|a| wishes.axes.contains(a));
+    let runs: Vec<Run> = reactions.runs.iter().filter(shown).cloned().collect();
+    let subject = subject::of_runs(file, machine.clone(), &runs, &Readings::new())?;
     let settings = Settings {
         threads: arguments.limits.threads,
         memory: arguments.limits.memory,

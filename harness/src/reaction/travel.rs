@@ -41,6 +41,10 @@ pub fn end(steps: &[Step], outcome: &Outcome, accelerates: usize, motion: Motion
             end.way += up(speed * time, 2 * MINUTE);
             continue;
         }
+        if outcome.brakes.is_some_and(|stage| stage < step.stage) {
+            // It stands.
+            continue;
+        }
         let gain = match step.stage < accelerates {
             true => i128::from(motion.acceleration),
             false => 0,
@@ -100,6 +104,13 @@ mod tests {
         assert_eq!((braked.time, braked.way), (330_000, 3_000 + 15_000));
         let free = end(&steps, &outcome(4, None), 2, STEADY);
         assert_eq!(free.way, 33_000);
+    }
+
+    #[test]
+    fn an_axis_that_has_braked_stands() {
+        let steps = [step(2, Some(300_000), 0, 0), step(3, Some(100_000), 0, 0)];
+        let braked = end(&steps, &outcome(4, Some(2)), 2, STEADY);
+        assert_eq!((braked.time, braked.way), (400_000, 15_000));
     }
 
     #[test]

@@ -1,8 +1,10 @@
 //! Comparison of one item between the channels: they may differ for less than a window.
 //!
-//! The two safe PLCs run in cycles of their own, so that what they hand over changes at different times (up to 22 cycles of
-//! 3 ms; the faster one takes one of them at least, so that no regular difference lasts for all of them). How a difference is answered in the meantime, by the stricter of both values, is the business of whoever reads
-//! them. Which stop a fault raises depends on the item: SS1F for the flag "axis checked", SS1 for all others.
+//! The two safe PLCs run in cycles of their own, that of MP7602 in the MC and 21 ms in the CC (HFS-SPLC-003), so that what
+//! they hand over changes at different times (up to 22 cycles of 3 ms; the faster one takes one of them at least, so that no
+//! regular difference lasts for all of them). How a difference is answered in the meantime, by the stricter of both values, is
+//! the business of whoever reads them. Which stop a fault raises depends on the item: SS1F for the flag "axis checked", SS1
+//! for all others.
 //!
 //! Recommended readings of the manual implemented here: AMB-49 22 cycles.
 

@@ -28,6 +28,7 @@
 //! | [`axis_count`] | how many axes move at a time with the door open | `group` of the cycle before |
 //! | [`reference`] | referencing of an axis up to "axis checked" | - |
 //! | [`agreement`] | one item compared between the channels, with its window | both channels |
+//! | [`cc_link`] | telegrams between two controller computers, of one drive | - |
 //! | [`brakes`] | brake outputs of a safe PLC | `stop` |
 //! | [`tool_holder`] | opening of the tool holder by a safe PLC | `group` of the cycle before |
 //! | [`acceptance`] | acceptance of changed safe machine parameters | - |
@@ -67,6 +68,7 @@ pub mod axis_release;
 pub mod both_channels;
 pub mod brakes;
 pub mod button;
+pub mod cc_link;
 pub mod channel;
 pub mod comparison;
 pub mod deceleration;

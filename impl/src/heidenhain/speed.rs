@@ -1,5 +1,8 @@
 //! Safely limited speed (SLS) of one axis or spindle: the limit of the mode in force plus 5 %.
 //!
+//! The cycle after the group has taken the state of an open door, a speed above its limit is SS1: the last 3 ms of the
+//! response to the door in MC and CC (HFS-TIMING-007, HFS-TIMING-008).
+//!
 //! Which limit counts follows from the monitoring state of the group, also while a stop brakes it. A violation raises SS1 in
 //! the same cycle, with no time to slow down. Restricted spindle operation has no 5 %. A limit of 0 is a wrong parameter,
 //! which channel B finds.

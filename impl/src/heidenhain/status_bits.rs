@@ -1,5 +1,8 @@
 //! What the main computer (MC) and the controller computer (CC) do on the safe status bits of a telegram.
 //!
+//! A reaction is that of the cycle in which the bit arrives: the 3.2 ms of the MC and the 9.6 ms of the CC after an emergency stop
+//! button are the way of the signal and one cycle (HFS-TIMING-005, HFS-TIMING-006).
+//!
 //! Every participant of the bus may set a bit; most are active as 0, hence the minus in their names. Of several active bits
 //! the highest reaction counts. Outputs of a panel or I/O assembly are switched off only where the fault is.
 

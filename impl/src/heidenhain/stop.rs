@@ -6,6 +6,11 @@
 //! waits until the groups listed in SMP610 stand still. A stop that lasts longer than its time becomes the next higher one,
 //! in each channel alone.
 //!
+//! A stop begins in the cycle of its demand, so that its time counts from the signal that asked for it (HFS-TIMING-005,
+//! HFS-TIMING-006). In the cycle after the drives have come to stand channel B closes the brakes (-BRK_REL.B.x), MP2308 later
+//! it takes the torque (-STO.B.x), and channel A takes its own and closes its brakes (-STO.A.x, -BRK_REL.A.x) in the cycle
+//! of the report (HFS-TIMING-010, HFS-TIMING-011).
+//!
 //! Only a higher stop displaces a running one, and no stop ends because its cause does (HFS-STOP-002, HFS-STOP-003). Further
 //! readings of the manual implemented here: AMB-02 MACHINE (an SS1 after a failed SS2 is found by the kernel), AMB-06 BOTH
 //! (SS2 waits as well), AMB-07 STO_O, AMB-44 EDGE (the restart is a fresh edge, found outside), AMB-73 FROM_REQUEST.

@@ -45,6 +45,15 @@ pub(super) struct Family {
     pub logic: IndexMap<String, Slot>,
 }
 
+impl Family {
+    /// A named expression over the values of an axis or of a group.
+    pub fn named(&self, name: &str) -> Option<&Formula> {
+        let mut all = self.lets.iter().chain(&self.group_lets);
+        all.find(|(known, _)| known == name)
+            .map(|(_, formula)| formula)
+    }
+}
+
 /// The names that expressions of each scope may read.
 #[derive(Debug, Default)]
 pub(super) struct Known {

@@ -1,5 +1,5 @@
-//! What the formulas and texts of a family's further data (reaction chains, acceptance tests) are about: one axis, a door,
-//! a door and an axis behind it, or the whole machine, with the values that can be read there.
+//! What the formulas and texts of a family's further data (reaction chains, acceptance tests) are about: one axis, a group of
+//! axes, a door, a door and an axis behind it, or the whole machine, with the values that can be read there.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -12,7 +12,7 @@ use super::eval::{Values, eval, names};
 use super::family::{Family, Formula, Quantity};
 use super::family_file::Check;
 use super::plausible::insert;
-use super::{Axis, AxisKind, Door, Machine, Settings};
+use super::{Axis, AxisKind, Door, Group, Machine, Settings};
 use crate::diag::{Diagnostic, Result};
 use crate::lang::ast::{Expr, Kind};
 use crate::text::read_text;
@@ -70,6 +70,8 @@ pub(super) enum About {
     Machine,
     /// Once for each axis.
     Axis,
+    /// Once for each axis group that the machine file declares.
+    Group,
     /// Once for each door.
     Door,
     /// Once for each door and each axis behind it.
@@ -85,8 +87,11 @@ impl About {
         known.extend(family.lets.iter().map(|(name, _)| name.clone()));
         known.push("enabled_any".to_owned());
         if matches!(self, Self::Axis | Self::DoorAxis) {
-            known.extend(["kind", "LINEAR", "ROTARY", PATH, OTHERS].map(str::to_owned));
+            known.extend(["kind", "spindle", "LINEAR", "ROTARY", PATH, OTHERS].map(str::to_owned));
             known.extend(family.axis.keys().cloned());
+        }
+        if matches!(self, Self::Group | Self::Machine) {
+            known.extend(family.known.whole.iter().cloned());
         }
         if matches!(self, Self::Door | Self::DoorAxis) {
             known.extend(family.door.keys().cloned());
@@ -98,9 +103,10 @@ impl About {
     pub fn titles(self) -> &'static [&'static str] {
         match self {
             Self::Machine => &["machine", "axes"],
-            Self::Axis => &["machine", "axis", "partners", OTHERS],
+            Self::Axis => &["machine", "axis", "group", "partners", OTHERS],
+            Self::Group => &["machine", "group", "axes"],
             Self::Door => &["machine", "door", "axes"],
-            Self::DoorAxis => &["machine", "door", "axis", "axes"],
+            Self::DoorAxis => &["machine", "door", "axis", "group", "axes"],
         }
     }
 }
@@ -110,6 +116,8 @@ impl About {
 pub(super) struct Ground<'a> {
     pub machine: &'a Machine,
     pub axis: Option<&'a Axis>,
+    /// The group itself, or that of the axis.
+    pub group: Option<&'a Group>,
     pub door: Option<&'a Door>,
     /// Values by name: also functions, named expressions and `k`.
     pub values: Values,
@@ -120,6 +128,7 @@ pub(super) fn grounds<'a>(machine: &'a Machine, about: About) -> Vec<Ground<'a>>
     let whole = Ground {
         machine,
         axis: None,
+        group: None,
         door: None,
         values: common(machine),
     };
@@ -128,6 +137,7 @@ pub(super) fn grounds<'a>(machine: &'a Machine, about: About) -> Vec<Ground<'a>>
         let partners = i64::try_from(axis.interpolates_with.len()).unwrap_or(i64::MAX);
         let mut ground = Ground {
             axis: Some(axis),
+            group: machine.axis_groups.iter().find(|g| g.has(&axis.name)),
             values: values.clone(),
             ..whole.clone()
         };
@@ -138,8 +148,21 @@ pub(super) fn grounds<'a>(machine: &'a Machine, about: About) -> Vec<Ground<'a>>
     };
     let mut list = Vec::new();
     match about {
-        About::Machine => list.push(whole),
+        About::Machine => {
+            // What axes, groups and doors have is a list here.
+            let mut values = machine.basis.judged.machine.clone();
+            values.extend(whole.values.clone());
+            list.push(Ground { values, ..whole });
+        }
         About::Axis => list.extend(axes().map(of_axis)),
+        About::Group => {
+            let groups = machine.axis_groups.iter().zip(&machine.basis.judged.groups);
+            list.extend(groups.map(|(group, values)| Ground {
+                group: Some(group),
+                values: values.clone(),
+                ..whole.clone()
+            }));
+        }
         About::Door => list.extend(machine.doors.iter().map(|door| whole.clone().behind(door))),
         About::DoorAxis => {
             for door in &machine.doors {
@@ -235,6 +258,7 @@ impl<'a> Ground<'a> {
         match name {
             "machine" => Some(self.machine.name.clone()),
             "axis" => self.axis.map(|a| a.name.clone()),
+            "group" => self.group.map(|g| g.name.clone()),
             "door" => self.door.map(|d| d.name.clone()),
             "partners" => self.axis.map(partners),
             OTHERS => {
@@ -242,26 +266,47 @@ impl<'a> Ground<'a> {
                 Some(names.join(", "))
             }
             "axes" => {
-                let all = self.machine.axes.iter().map(|a| a.name.as_str());
-                let axes = all.filter(|name| self.door.is_none_or(|d| d.has(name)));
-                Some(axes.collect::<Vec<_>>().join(", "))
+                let names: Vec<&str> = self.members().map(|a| a.name.as_str()).collect();
+                Some(names.join(", "))
             }
             _ => None,
         }
     }
 
-    /// The values of parameters that can be read here: of the door, the axis, the control.
+    /// The axis, the axes of the group or behind the door, or all of them.
+    pub fn members(&self) -> impl Iterator<Item = &'a Axis> {
+        let (machine, axis, group, door) = (self.machine, self.axis, self.group, self.door);
+        machine.axes.iter().filter(move |a| match (axis, door) {
+            (Some(axis), _) => axis.name == a.name,
+            (None, Some(door)) => door.has(&a.name),
+            (None, None) => group.is_none_or(|g| g.has(&a.name)),
+        })
+    }
+
+    /// The values of parameters that can be read here: of the door, the axis, the group, the control.
     fn settings(&self) -> impl Iterator<Item = &'a Settings> {
         let door = self.door.map(|d| &d.values);
         let axis = self.axis.map(|a| &a.values);
+        let group = self.group.map(|g| &g.values);
         let control = &self.machine.control;
-        door.into_iter().chain(axis).chain([control])
+        door.into_iter().chain(axis).chain(group).chain([control])
     }
 
-    /// The value of a parameter as its user writes it.
+    /// The value of a parameter as its user writes it; that of an axis, where there are several, for each that has it.
     pub fn shown(&self, name: &str, index: usize) -> Option<String> {
-        let setting = self.settings().find_map(|s| s.get(name))?;
-        Some(setting.shown.get(index)?.replace('"', ""))
+        let plain = |text: &String| text.replace('"', "");
+        if let Some(setting) = self.settings().find_map(|s| s.get(name)) {
+            return setting.shown.get(index).map(plain);
+        }
+        if self.axis.is_some() {
+            return None;
+        }
+        let of_member = |a: &Axis| {
+            let shown = a.values.get(name)?.shown.get(index).map(plain)?;
+            Some(format!("{} {shown}", a.name))
+        };
+        let all: Vec<String> = self.members().filter_map(of_member).collect();
+        (!all.is_empty()).then(|| all.join(", "))
     }
 
     /// All elements of an array by name: `VELO_OVR_FACTOR[3]` and `80 %`. Nothing for what is no array.

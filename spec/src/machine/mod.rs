@@ -233,6 +233,11 @@ impl Machine {
         params.map_or_else(Vec::new, |params| shown(params, &group.values))
     }
 
+    /// Whether axes of this family have functions to be enabled.
+    pub fn has_functions(&self) -> bool {
+        !self.basis.family.functions.is_empty()
+    }
+
     /// What a function of an axis is, in words.
     pub fn function_text(&self, name: &str) -> &str {
         let functions = &self.basis.family.functions;

@@ -12,7 +12,7 @@ use toml::Spanned;
 use super::entry::{Premise, Reader};
 use super::family::{Explore, Family, Formula};
 use super::family_file::{Check, ExploreData};
-use super::ground::{About, DataFile, Ground};
+use super::ground::{About, DataFile, Ground, read_names};
 use super::runs;
 use super::template::{Template, Words};
 use super::units::Dimension;
@@ -80,7 +80,7 @@ pub struct Step {
     pub text: String,
     /// The formula as the data have it.
     pub formula: String,
-    /// The parameters in the formula: name and value.
+    /// The parameters in the formula and in the named expressions that it reads: name and value.
     pub values: Vec<(String, String)>,
     /// The greatest time in microseconds; none: it has to be measured.
     pub time: Option<i64>,
@@ -345,11 +345,16 @@ impl StepPlan {
         let mut values: Vec<(String, String)> = Vec::new();
         let formulas = [&self.time, &self.length, &self.margin];
         for formula in formulas.into_iter().flatten() {
-            let read = ground.reads(&formula.expr).into_iter();
-            values.extend(
-                read.filter(|(name, _)| values.iter().all(|(n, _)| n != name))
-                    .collect::<Vec<_>>(),
-            );
+            let named = read_names(&formula.expr);
+            let family = &ground.machine.basis.family;
+            let named = named.iter().filter_map(|name| family.named(name));
+            for formula in [formula].into_iter().chain(named) {
+                let read = ground.reads(&formula.expr).into_iter();
+                values.extend(
+                    read.filter(|(name, _)| values.iter().all(|(n, _)| n != name))
+                        .collect::<Vec<_>>(),
+                );
+            }
         }
         let time = value(&self.time)?;
         let formula = self.time.as_ref().map(|f| f.text.get_ref().clone());

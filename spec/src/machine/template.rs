@@ -91,10 +91,14 @@ impl Template {
                     out.push_str(&ground.quantity(*quantity, value));
                 }
                 Piece::Value(expr, None) => {
-                    let value = ground.eval(file, expr, self.span.clone())?;
                     let own = matches!(expr.kind, Kind::Name(_) | Kind::Index(_, _));
-                    let shown = ground.reads(expr).into_values().next().filter(|_| own);
-                    out.push_str(&shown.unwrap_or_else(|| value.to_string()));
+                    match ground.reads(expr).into_values().next().filter(|_| own) {
+                        Some(shown) => out.push_str(&shown),
+                        None => {
+                            let value = ground.eval(file, expr, self.span.clone())?;
+                            out.push_str(&value.to_string());
+                        }
+                    }
                 }
             }
         }

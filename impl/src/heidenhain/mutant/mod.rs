@@ -14,6 +14,7 @@ macro_rules! variants {
 mod composing;
 mod groups;
 mod interface;
+mod link;
 mod machine;
 mod safe_plc;
 mod service;
@@ -230,6 +231,13 @@ mutants! { heidenhain:
         AcceptanceWithoutPassword "acceptance-without-password" => service::acceptance_without_password;
         /// One press confirms the whole list.
         AcceptanceOnePress "acceptance-one-press" => service::acceptance_one_press;
+    }
+    /// The telegrams between CCs with this mutant in them.
+    fn cc_link {
+        /// One faulty telegram more than allowed is tolerated.
+        CcLinkOneTooMany "cc-link-one-too-many" => link::cc_link_one_too_many;
+        /// While telegrams are faulty the drive is taken to be as it was.
+        CcLinkTrustsTheLast "cc-link-trusts-the-last" => link::cc_link_trusts_the_last;
     }
     /// The self-test with this mutant in it.
     fn self_test {

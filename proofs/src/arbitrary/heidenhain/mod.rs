@@ -3,6 +3,7 @@
 mod composing;
 mod groups;
 mod interface;
+mod link;
 mod machine;
 mod safe_plc;
 mod service;
@@ -11,6 +12,7 @@ mod watching;
 pub use composing::*;
 pub use groups::*;
 pub use interface::*;
+pub use link::*;
 pub use machine::*;
 pub use safe_plc::*;
 pub use service::*;

@@ -3,18 +3,20 @@
 mod composing;
 mod groups;
 mod interface;
+mod link;
 mod machine;
 mod safe_plc;
 mod service;
 mod watching;
 
 /// The lists of this family.
-pub(super) static ENTRIES: [&[super::Entry]; 7] = [
+pub(super) static ENTRIES: [&[super::Entry]; 8] = [
     interface::ENTRIES,
     groups::ENTRIES,
     machine::ENTRIES,
     watching::ENTRIES,
     service::ENTRIES,
+    link::ENTRIES,
     composing::ENTRIES,
     safe_plc::ENTRIES,
 ];

@@ -34,6 +34,8 @@ monitors! { heidenhain:
     tool_holder
     /// Acceptance of parameters.
     acceptance
+    /// Telegrams between controller computers.
+    cc_link
     /// Self-test.
     self_test
     /// Status bits.

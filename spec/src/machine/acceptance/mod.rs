@@ -129,6 +129,8 @@ struct FileData {
     #[serde(default)]
     words: IndexMap<String, Vec<String>>,
     untested: IndexMap<Spanned<String>, String>,
+    /// Why a test that says nothing about it is not simulated; none: each test has to say.
+    not_simulated: Option<Spanned<String>>,
     part: Vec<Part>,
     test: Vec<TestData>,
 }
@@ -147,7 +149,8 @@ impl Machine {
         let words: Vec<_> = data.words.into_iter().collect();
         let mut plans = Vec::new();
         for test in data.test {
-            plans.extend(plan(&mut check, test, family, &words, &data.part));
+            let not = data.not_simulated.as_ref();
+            plans.extend(plan(&mut check, test, family, &words, &data.part, not));
         }
         complete(&mut check, family, &plans, &data.untested);
         check.findings.finish(())?;
@@ -182,8 +185,8 @@ fn complete(
 ) {
     let mut read: BTreeSet<String> = plans.iter().flat_map(Plan::reads).collect();
     loop {
-        let lets = family.lets.iter().filter(|(name, _)| read.contains(name));
-        let more: BTreeSet<String> = lets.flat_map(|(_, f)| read_names(&f.expr)).collect();
+        let lets = read.iter().filter_map(|name| family.named(name));
+        let more: BTreeSet<String> = lets.flat_map(|f| read_names(&f.expr)).collect();
         if more.is_subset(&read) {
             break;
         }

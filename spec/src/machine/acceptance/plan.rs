@@ -112,6 +112,7 @@ pub(super) fn plan(
     family: &Family,
     words: &[(String, Vec<String>)],
     parts: &[Part],
+    not_simulated: Option<&Spanned<String>>,
 ) -> Option<Plan> {
     let Some(part) = parts.iter().position(|p| p.name == *data.part.get_ref()) else {
         let names: Vec<&str> = parts.iter().map(|p| p.name.as_str()).collect();
@@ -156,7 +157,11 @@ pub(super) fn plan(
             when: reader.formula(entry.when)?,
         });
     }
-    let simulate = reader.simulate(data.id.span(), data.simulate, data.hardware)?;
+    let hardware = match data.simulate.is_empty() {
+        true => data.hardware.or_else(|| not_simulated.cloned()),
+        false => data.hardware,
+    };
+    let simulate = reader.simulate(data.id.span(), data.simulate, hardware)?;
     Some(Plan {
         part,
         premise,
@@ -314,7 +319,7 @@ impl Plan {
             if !seen.insert(name.clone()) {
                 continue;
             }
-            if let Some((_, formula)) = family.lets.iter().find(|(n, _)| *n == name) {
+            if let Some(formula) = family.named(&name) {
                 found.extend(ground.reads(&formula.expr));
                 open.extend(read_names(&formula.expr));
             }
@@ -331,6 +336,12 @@ impl Plan {
         // An array named as a whole.
         for formula in &self.depends {
             found.extend(ground.elements(formula.text.get_ref()));
+        }
+        if let (true, Some(axes)) = (
+            ground.axis.is_none(),
+            ground.group.and(ground.title("axes")),
+        ) {
+            found.insert("axes".to_owned(), axes);
         }
         if let Some(door) = ground.door {
             let axes: Vec<&str> = door.axes.iter().map(|a| a.get_ref().as_str()).collect();

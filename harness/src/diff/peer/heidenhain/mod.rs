@@ -4,6 +4,7 @@ mod cells;
 mod checks;
 mod groups;
 mod interface;
+mod link;
 mod machine;
 mod numbers;
 mod operation;
@@ -43,6 +44,7 @@ pub(super) static FAMILY: Family = Family {
         ("brakes", "brakes"),
         ("tool_holder", "tool_holder"),
         ("acceptance", "acceptance"),
+        ("cc_link", "cc_link"),
         ("self_test", "self_test"),
         ("status_bits", "status_bits"),
         ("sampling", "sampling"),
@@ -82,6 +84,7 @@ fn make(machine: &str, params: &Params, mutant: Option<super::Mutant>) -> Made {
         checks::make,
         safe_plc::make,
         operation::make,
+        link::make,
     ] {
         if let Some(adapter) = make(machine, params, mutant)? {
             return Ok(Some(adapter));
