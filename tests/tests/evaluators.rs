@@ -44,7 +44,7 @@ fn bind(system: ir::System, params: &[(&str, i64)]) -> Bound {
 }
 
 /// So many reachable cycles are all compared; after each further so many, half as many states are picked.
-const STEP: u64 = 100_000;
+const STEP: u64 = 25_000;
 
 /// Both evaluators, cycle by cycle.
 struct Both<'a> {

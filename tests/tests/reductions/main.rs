@@ -34,6 +34,9 @@ pub(crate) const TIMERS: Reductions = Reductions {
     timers: true,
 };
 
+/// The one system with that many transitions that is compared here: what the reductions gain shows in it.
+pub(crate) const YARDSTICK: &str = "bench/two-axis/two_axis";
+
 /// All systems of a text.
 pub(crate) fn systems(text: &str) -> Vec<Bound> {
     let source: Arc<str> = text.into();

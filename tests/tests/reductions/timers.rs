@@ -1,28 +1,21 @@
 //! Values of a timer stored as intervals: the same exploration in less memory.
 
 use stillpoint_model::Storage;
-use stillpoint_spec::Spec;
 use stillpoint_tests::specification_files;
 
-use super::{TIMERS, compare, full, of, reduced};
-
-/// Systems with more work than this are left out: their check takes seconds, twice.
-const MOST: u128 = 200_000_000;
+use super::shipped::{small, whole};
+use super::{TIMERS, YARDSTICK, compare, reduced};
 
 #[test]
 fn timers_as_intervals_change_nothing_but_memory() {
     let mut stored = 0;
     for path in specification_files() {
-        let spec = Spec::load(&path).unwrap_or_else(|e| panic!("{e}"));
-        for bound in of(&spec) {
+        for bound in small(&path) {
             let name = &bound.system.name;
             if stillpoint_spec::timers::countdowns(&bound.system).is_empty() {
                 continue;
             }
-            let whole = full(&bound, false);
-            if whole.report.transitions > MOST {
-                continue;
-            }
+            let whole = whole(&bound);
             let part = reduced(&bound, false, TIMERS);
             compare(&bound, &whole, &part, name);
             let (plain, timers) = (&whole.report, &part.report);
@@ -37,7 +30,7 @@ fn timers_as_intervals_change_nothing_but_memory() {
                 "{name}: {} states, {} bytes in place of {}",
                 timers.states, timers.memory, plain.memory
             );
-            if name == "bench/two-axis/two_axis" {
+            if name == YARDSTICK {
                 // Timers of 501 ticks: some two thousandths of the states have an interval each.
                 assert!(timers.memory < timers.states / 4, "{}", timers.memory);
             }
