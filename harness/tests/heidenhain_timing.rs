@@ -115,7 +115,7 @@ fn everything_that_names_a_property_is_proven() {
     let json = all_chains();
     let chains = json["chains"].as_array().expect("chains").iter();
     let claims: Vec<&Value> = chains
-        .flat_map(|c| steps(c))
+        .flat_map(steps)
         .filter(|s| !s["property"].is_null())
         .collect();
     assert!(claims.len() > 200, "{}", claims.len());
