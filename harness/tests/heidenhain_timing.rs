@@ -115,7 +115,7 @@ fn everything_that_names_a_property_is_proven() {
     let json = all_chains();
     let chains = json["chains"].as_array().expect("chains").iter();
     let claims: Vec<&Value> = chains
-        .flat_map(|c| steps(c))
+        .flat_map(steps)
         .filter(|s| !s["property"].is_null())
         .collect();
     assert!(claims.len() > 200, "{}", claims.len());
@@ -231,8 +231,9 @@ fn a_summand_that_is_too_short_is_refuted() {
         let output = stillpoint(&["reaction", &machine, "--axis", "X"]);
         assert_eq!(output.status.code(), Some(1), "{name}: {}", stderr(&output));
         let text = stdout(&output);
+        let words: Vec<&str> = text.split_whitespace().collect();
         assert!(
-            text.contains("refuted") && text.contains("slowest case takes"),
+            text.contains("refuted") && words.join(" ").contains("slowest case takes"),
             "{name}: {text}"
         );
     }
