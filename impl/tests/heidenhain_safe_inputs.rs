@@ -162,7 +162,7 @@ fn magazine_with_its_own_switch_on_key() {
     assert!(out.t_drives && !out.drives && !out.voltage);
 }
 
-/// HFS-API-027, HFS-API-028, HFS-API-030, HFS-API-016, HFS-FAULT-006, HFS-MODE-021: each field alone; an unknown number in any of them.
+/// HFS-API-027, HFS-API-028, HFS-API-030, HFS-API-016, HFS-BCT-005, HFS-FAULT-006, HFS-MODE-021: each field alone; an unknown number in any of them.
 #[test]
 fn general_fields_are_copies_or_void() {
     let calm = general_fields::Inputs {
@@ -172,6 +172,10 @@ fn general_fields_are_copies_or_void() {
     let take = |inputs| general_fields::Monitor::new(general_fields::Config).step(&inputs);
     assert_eq!(take(calm), general_fields::Outputs::default());
     assert!(take(general_fields::Inputs { chain: 1, ..calm }).chain);
+    assert!(
+        take(general_fields::Inputs { brakes: 0, ..calm }).brakes,
+        "active at 0"
+    );
     assert!(take(general_fields::Inputs { voltage: 1, ..calm }).voltage);
     assert!(take(general_fields::Inputs { keys: 1, ..calm }).keys);
     assert!(take(general_fields::Inputs { feed: 1, ..calm }).feed);

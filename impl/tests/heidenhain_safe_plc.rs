@@ -294,3 +294,55 @@ fn imports_of_the_plc_move_nothing() {
         );
     }
 }
+
+/// HFS-API-004: auxiliary axes in the normal working space: the keylock decides, and their motion key needs the permissive.
+#[test]
+fn auxiliary_axes_in_the_working_space() {
+    let step = |door_open, som, panel| {
+        spindle_logic::Monitor::new(spindle_logic::Config).step(&spindle_logic::Inputs {
+            door_open,
+            som,
+            panel,
+            jog: true,
+            jog_held: true,
+            gen_safe: true,
+            ..Default::default()
+        })
+    };
+    assert_eq!(step(false, Som::Som1, false).request, GroupState::Auto);
+    assert_eq!(step(true, Som::Som1, true).request, GroupState::Sos);
+    assert!(!step(true, Som::Som1, true).activate);
+    assert_eq!(step(true, Som::Som3, true).request, GroupState::Sls3);
+    assert!(step(true, Som::Som3, true).activate && !step(true, Som::Som3, false).activate);
+}
+
+/// HFS-REF-004, HFS-REF-005, HFS-REF-015: a reference run behind the open door by NC start with the permissive, never by a
+/// direction key; behind the closed one by either.
+#[test]
+fn reference_run() {
+    let config = axes_logic::Config::new(Cycles::new(48), true, false).expect("plausible");
+    let run = |door_open, keys, nc_start| {
+        let calm = axes_logic::Inputs {
+            door_open,
+            som: Som::Som2,
+            unit: Unit::Reference,
+            panel: true,
+            gen_safe: true,
+            ..Default::default()
+        };
+        let mut plc = axes_logic::Monitor::new(config);
+        plc.step(&calm);
+        let out = plc.step(&axes_logic::Inputs {
+            keys,
+            nc_start,
+            start_held: nc_start,
+            key_held: true,
+            ..calm
+        });
+        (out.activate, out.feed)
+    };
+    assert_eq!(run(true, 0b11, false), (false, 0));
+    assert_eq!(run(true, 0, true), (true, axes_logic::ALL_AXES));
+    assert_eq!(run(false, 0b11, false), (true, axes_logic::ALL_AXES));
+    assert_eq!(run(false, 0, true), (true, axes_logic::ALL_AXES));
+}

@@ -485,3 +485,33 @@ fn closing_the_door_starts_nothing() {
         (GroupState::Auto, GroupState::Auto)
     );
 }
+
+/// HFS-AXG-016: what ends in SS2 concerns its group alone: the magazine runs on behind its closed door, while the axes behind
+/// their open one are stopped by a key; and an SS1 of the magazine does not become one of the axes.
+#[test]
+fn stops_of_one_group_leave_the_others() {
+    let mut m = Machine::new(false, false, true);
+    m.inputs.keys.confirm = true;
+    m.cycle();
+    m.moves[T] = true;
+    m.inputs.keys.door_open = true;
+    m.cycle();
+    m.panel().axes = 1;
+    m.cycle();
+    m.axis_moves[0] = true;
+    m.inputs.keys.stop = true;
+    m.cycle();
+    assert_eq!(m.stop(A), SS2);
+    assert_eq!((m.state(T), m.stop(T)), (GroupState::Auto, NO_STOP));
+    m.axis_moves[0] = false;
+    (m.panel().axes, m.inputs.keys.stop) = (0, false);
+    m.cycles(3);
+    assert_eq!(
+        (m.state(A), m.state(T)),
+        (GroupState::Sos, GroupState::Auto)
+    );
+    m.inputs.keys.t_open = true;
+    m.cycle();
+    assert_eq!(m.stop(T).0, Stop::Ss1, "its own door");
+    assert!(m.stop(A).0 < Stop::Ss1);
+}

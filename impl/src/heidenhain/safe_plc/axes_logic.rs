@@ -223,7 +223,7 @@ contract! {
             => s.outputs.request == GroupState::Auto;
 
     /// With the door closed the activation comes with a new key and stays until the door opens.
-    closed_door_activates_by_a_new_key ["HFS-API-006", "HFS-P-13"]:
+    closed_door_activates_by_a_new_key ["HFS-API-006", "HFS-P-13", "HFS-REF-005"]:
         when |s| !s.inputs.door_open
             => s.outputs.activate == (s.before.latch || (!s.before.open && s.inputs.key_held && !s.before.keyed));
 
@@ -274,7 +274,7 @@ contract! {
             => s.outputs.feed == if s.inputs.permissive() { ALL_AXES } else { 0 };
 
     /// While axes are homed or tested a running program enables them all, a key none.
-    reference_run_enables_by_program ["HFS-API-015", "HFS-REF-004"]:
+    reference_run_enables_by_program ["HFS-API-015", "HFS-REF-004", "HFS-REF-015"]:
         when |s| s.inputs.door_open && s.inputs.unit == Unit::Reference && !s.config.manual
             => s.outputs.feed == if s.after.program { ALL_AXES } else { 0 };
 

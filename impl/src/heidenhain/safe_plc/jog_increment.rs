@@ -108,7 +108,7 @@ contract! {
     /// Where it runs to its end, the feed stays after the key is released, until the motion has ended.
     feed_stays_to_the_end ["HFS-SEQ-005"]:
         when |s| s.config.to_end && s.before.jog == Jog::Runs
-            => s.outputs.feed == !s.inputs.done;
+            => s.outputs.feed != s.inputs.done;
 
     /// It ends by itself, and with it the feed.
     increment_ends_by_itself ["HFS-SLI-002", "HFS-SEQ-005"]:

@@ -2,7 +2,8 @@
 //! is always given (HFS-API-016): activation and stop protect against a motion that nobody expects.
 //!
 //! Steps after [`key_filter`](crate::heidenhain::key_filter) and [`tool_holder`](crate::heidenhain::tool_holder). With the door
-//! open no program starts the spindle: only its own keys activate, together with the permissive.
+//! open no program starts the spindle: only its own keys activate, together with the permissive. Auxiliary axes that are reached
+//! from the normal working space follow the same rules, with their motion key for the jog key (HFS-API-004).
 //!
 //! Recommended reading of the manual implemented here: AMB-52 ON (the open magazine door stops the spindle too).
 
@@ -198,7 +199,7 @@ contract! {
 
     /// With its door open alone: SS2 by the stop key, a change of the mode and a jog key that is released, else nothing; one
     /// cycle is enough.
-    open_door_stops_by_event ["HFS-API-022", "HFS-API-019", "HFS-SS2-009", "HFS-SEQ-001", "HFS-SEQ-002", "HFS-KSW-003"]:
+    open_door_stops_by_event ["HFS-API-022", "HFS-API-019", "HFS-SS2-009", "HFS-FAULT-024", "HFS-SEQ-001", "HFS-SEQ-002", "HFS-KSW-003"]:
         when |s| s.inputs.door_open && !s.inputs.t_open && s.inputs.som != Som::Som1
             => s.outputs.stop == if s.inputs.stop || s.inputs.som_changed || (s.before.jogged && !s.inputs.jog_held) {
                 Stop::Ss2
