@@ -34,9 +34,9 @@ family! { sinumerik:
 }
 
 family! { heidenhain:
-    gate both_channels stop report judge group startup axis_release som button switch_on output_enable channel
+    gate both_channels stop report neighbour global_sto judge group startup axis_release som button switch_on output_enable channel
     speed operating_stop stop_path position_limit revolutions comparison deceleration axis_count
-    reference agreement brakes tool_holder acceptance self_test status_bits sampling self_checks start_checks
+    reference agreement brakes tool_holder acceptance self_test cut_out holding_brake status_bits sampling self_checks start_checks
 }
 
 /// The lines of the table for a mutant of `monitor`, whose step function `subject` has.

@@ -159,6 +159,11 @@ contract! {
                 AxisRef::NotHomed | AxisRef::Checked => false,
             };
 
+    /// The position is found by homing in both channels, reference marks passed or absolute value read, and by nothing else.
+    homing_gives_the_position ["HFS-REF-002"]:
+        when |s| s.config.safe_axis && s.before.axis == AxisRef::NotHomed && !s.inputs.power_on
+            => s.after.axis == if s.inputs.homed { AxisRef::Homed } else { AxisRef::NotHomed };
+
     /// The comparison decides in the cycle after the homing: checked, or to be checked by a person.
     comparison_decides ["HFS-P-41", "HFS-REF-007", "HFS-REF-010", "HFS-REF-012"]:
         when |s| s.config.safe_axis && s.before.axis == AxisRef::Homed && !s.inputs.power_on
