@@ -213,7 +213,7 @@ contract! {
             => s.outputs.may_move == (s.inputs.unit == Unit::Reference);
 
     /// An axis without a group moves always and stops nothing.
-    axis_without_group_is_free ["HFS-NS-001", "HFS-NS-002", "HFS-CHK-007"]:
+    axis_without_group_is_free ["HFS-NS-001", "HFS-NS-002", "HFS-NS-003", "HFS-CHK-007"]:
         when |s| !s.config.safe_axis
             => s.outputs.may_move && !s.outputs.untested && !s.outputs.ax_safe && !s.outputs.checked
                 && s.outputs.demand == Stop::None;
