@@ -13,15 +13,17 @@ use stillpoint_monitors::sinumerik::mutant::Mutant as Sinumerik;
 use stillpoint_tests::root;
 
 /// The tables compared: those of a machine, or with the parameters of their systems.
-const FILES: [&str; 13] = [
+const FILES: [&str; 15] = [
     "spec/sinumerik-840d/axis.toml",
     "spec/machines/milling-840d.toml",
+    "spec/heidenhain-fs/cutout.toml",
     "spec/heidenhain-fs/doors.toml",
     "spec/heidenhain-fs/faults.toml",
     "spec/heidenhain-fs/group.toml",
     "spec/heidenhain-fs/interface.toml",
     "spec/heidenhain-fs/mode.toml",
     "spec/heidenhain-fs/monitors.toml",
+    "spec/heidenhain-fs/operation.toml",
     "spec/heidenhain-fs/outputs.toml",
     "spec/heidenhain-fs/reference.toml",
     "spec/heidenhain-fs/selftest.toml",
