@@ -56,7 +56,7 @@ impl Machine {
     }
 
     /// What the other groups of a channel make of one.
-    fn from_others(&self, own: usize, channel: usize) -> Stop {
+    fn of_the_others(&self, own: usize, channel: usize) -> Stop {
         (0..3)
             .filter(|g| *g != own)
             .map(|g| {
@@ -96,7 +96,7 @@ impl Machine {
                         Stop::None
                     },
                     told: other.tells,
-                    machine: self.from_others(g, c),
+                    machine: self.of_the_others(g, c),
                     listed_still: g != SPINDLE || !self.moving[AXES],
                     peer_off: other.stop.torque_off,
                     permit: self.switch_on,

@@ -64,7 +64,8 @@ fn requested<S: Source>(source: &mut S) -> Option<Step> {
     .ok()?;
     let group = group_state(source, config.group())?;
     // Which limits of other modes are left makes no difference to the channel: all of them, or none.
-    if !group.left.is_none() && !(group.left.sls_2 && group.left.sls_3 && group.left.sls_4) {
+    let all = group.left.sls_2 && group.left.sls_3 && group.left.sls_4;
+    if !(all || group.left.is_none()) {
         return None;
     }
     let state = channel::State {
