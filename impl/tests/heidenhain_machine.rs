@@ -113,6 +113,41 @@ fn control_voltage_needs_an_edge_and_the_chain() {
     assert!(!voltage.step(&dropped).sto_a_g);
 }
 
+/// HFS-TEST-013, HFS-STO-008: a brake that is supplied too early keeps the drives off; the signal of the spindles is off while
+/// they stand behind an open door.
+#[test]
+fn control_voltage_needs_closed_brakes() {
+    let mut voltage = switch_on::Monitor::new(switch_on::Config::STANDARD);
+    let key = switch_on::Inputs {
+        cvo: true,
+        chain: true,
+        t_brk: true,
+        may_on: true,
+        ..Default::default()
+    };
+    voltage.step(&switch_on::Inputs { cvo: false, ..key });
+    for _ in 0..66 {
+        assert_eq!(voltage.step(&key).demand, Stop::None);
+    }
+    let out = voltage.step(&key);
+    assert!(out.fault && out.demand == Stop::Ss1 && !out.sto_a_g);
+    let good = switch_on::Inputs {
+        t_brk: false,
+        ..key
+    };
+    voltage.step(&switch_on::Inputs { cvo: false, ..good });
+    voltage.step(&good);
+    let out = voltage.step(&good);
+    assert!(out.sto_a_g && out.stos_a_g);
+    let rests = switch_on::Inputs {
+        spindle_rests: true,
+        ..good
+    };
+    let out = voltage.step(&rests);
+    assert!(out.sto_a_g && !out.stos_a_g);
+    assert!(voltage.step(&good).stos_a_g);
+}
+
 /// HFS-API-032, HFS-API-039: which stop takes the outputs, and when.
 #[test]
 fn outputs_go_at_standstill_or_at_the_deadline() {

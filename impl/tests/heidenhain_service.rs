@@ -3,7 +3,8 @@
 use stillpoint_monitors::heidenhain::reference::AxisRef;
 use stillpoint_monitors::heidenhain::types::{GroupState, Som, Stop, Unit};
 use stillpoint_monitors::heidenhain::{
-    acceptance, agreement, axis_count, reference, sampling, self_test, start_checks, tool_holder,
+    acceptance, agreement, axis_count, cut_out, holding_brake, reference, sampling, self_test,
+    start_checks, tool_holder,
 };
 use stillpoint_monitors::kernel::Cycles;
 
@@ -269,4 +270,108 @@ fn a_mixed_group_keeps_the_control_out_of_service() {
     });
     monitor.step(&sorted);
     assert_eq!(monitor.state().start, start_checks::Start::InService);
+}
+
+/// HFS-PARAM-022, HFS-BRT-007: SMP2230 is 0.1 to 30.0, or 0 for no test.
+#[test]
+fn the_test_torque_has_its_range() {
+    for (tenths, tested) in [
+        (0, Some(false)),
+        (1, Some(true)),
+        (300, Some(true)),
+        (301, None),
+    ] {
+        let made = holding_brake::Config::new(tenths).ok();
+        assert_eq!(made.map(|config| config.is_tested()), tested, "{tenths}");
+    }
+}
+
+/// HFS-BRT-006, HFS-BRT-002: torque known, brake closed, drive off, test torque; the brake slips and the drive takes the axis.
+#[test]
+fn a_brake_that_slips_is_defective_until_it_is_tested_in_a_safe_place() {
+    let mut brake =
+        holding_brake::Monitor::new(holding_brake::Config::new(10).expect("in the range"));
+    let start = holding_brake::Inputs {
+        start: true,
+        ..Default::default()
+    };
+    let done = holding_brake::Inputs {
+        done: true,
+        ..Default::default()
+    };
+    assert!(brake.step(&start).controlled);
+    let closes = brake.step(&done);
+    assert!(closes.closed && closes.controlled);
+    let off = brake.step(&done);
+    assert!(off.closed && !off.controlled);
+    assert_eq!(brake.step(&done).step, holding_brake::Phase::TestTorque);
+    let slips = holding_brake::Inputs {
+        too_far: true,
+        current: true,
+        ..done
+    };
+    let bad = brake.step(&slips);
+    assert!(bad.step == holding_brake::Phase::Defective && bad.controlled && !bad.passed);
+    assert_eq!(brake.step(&start).step, holding_brake::Phase::Defective);
+    let safe = holding_brake::Inputs {
+        safe_now: true,
+        ..start
+    };
+    assert_eq!(brake.step(&safe).step, holding_brake::Phase::TorqueKnown);
+}
+
+/// HFS-STO-003, HFS-TEST-010, HFS-BCT-004, HFS-BCT-005: the whole test with sound feedback, and its beginning with an axis that
+/// leaves its place.
+#[test]
+fn the_cut_out_test_ends_with_the_voltage_on() {
+    let [relay, ready, off] = [2, 2, 2].map(Cycles::new);
+    let config = cut_out::Config::new(relay, ready, off, false, false).expect("plausible");
+    let mut test = cut_out::Monitor::new(config);
+    let idle = cut_out::Inputs::default();
+    let mut out = test.step(&cut_out::Inputs {
+        start: true,
+        ..idle
+    });
+    assert!(out.brake_a && out.brake_b);
+    let mut watched = [false; 2];
+    let mut cycles = 0;
+    while !out.done {
+        let inputs = cut_out::Inputs {
+            t_brk: out.brake_a && out.brake_b,
+            chain: !out.sto_a_g,
+            ready: out.on_mc && out.on_cc,
+            ..idle
+        };
+        out = test.step(&inputs);
+        watched = [watched[0] | out.watch_mc, watched[1] | out.watch_cc];
+        assert!(!out.stos_a_g && out.others == Stop::None);
+        cycles += 1;
+        assert!(cycles < 20, "{:?}", out.step);
+    }
+    assert!(out.sto_a_g && watched == [true; 2]);
+    let mut test = cut_out::Monitor::new(config);
+    test.step(&cut_out::Inputs {
+        start: true,
+        ..idle
+    });
+    let moved = cut_out::Inputs {
+        moved: true,
+        ..idle
+    };
+    let out = test.step(&moved);
+    assert!(out.ask_place && out.step == cut_out::Phase::Idle && !out.brake_a && !out.brake_b);
+    // A brake that channel A cannot close: SS0 of the tested axes, SS1F of the others.
+    let supplied = cut_out::Inputs {
+        t_brk: true,
+        ..idle
+    };
+    test.step(&cut_out::Inputs {
+        start: true,
+        ..supplied
+    });
+    let stops: Vec<_> = (0..3).map(|_| test.step(&supplied)).collect();
+    assert_eq!(
+        stops.iter().map(|out| (out.tested, out.others)).next_back(),
+        Some((Stop::Ss0, Stop::Ss1F))
+    );
 }

@@ -278,3 +278,51 @@ fn values_round_to_the_earlier_reaction() {
         Ok(parameters::Options::default())
     );
 }
+
+/// HFS-NAV-004, HFS-ARCH-012: each channel compares with an encoder of its own. One that freezes while the axis moves is found
+/// by its channel alone, which is enough.
+#[test]
+fn a_frozen_encoder_is_found_by_the_channel_that_has_it() {
+    let config = comparison::Config::new(
+        false,
+        Distance(10),
+        Percent::new(50).expect("in the range"),
+        Cycles::new(4),
+    )
+    .expect("plausible");
+    for frozen in 0..2 {
+        // The MC with the encoder of the position, the CC with that of the motor.
+        let mut channels = [
+            comparison::Monitor::new(config),
+            comparison::Monitor::new(config),
+        ];
+        let mut found = [false; 2];
+        for cycle in 1..=4_u32 {
+            for (channel, monitor) in channels.iter_mut().enumerate() {
+                let stands = channel == frozen;
+                let inputs = comparison::Inputs {
+                    state: GroupState::Sls2,
+                    deviation: Distance(if stands { 5 * cycle } else { 0 }),
+                    nominal: 5,
+                    actual: if stands { 0 } else { 5 },
+                };
+                found[channel] |= monitor.step(&inputs).demand == Stop::Ss1;
+            }
+        }
+        assert_eq!(found, [frozen == 0, frozen == 1]);
+    }
+}
+
+/// HFS-SS1-003: MP2590 counts when it is at least MP1060, else that one; 0 is the limit of current.
+#[test]
+fn the_emergency_ramp_is_at_least_that_of_normal_operation() {
+    use parameters::Ramp::{Current, Deceleration};
+    for (mp2590, mp1060, ramp) in [
+        (3_000, 1_000, Deceleration(3_000)),
+        (1_000, 1_000, Deceleration(1_000)),
+        (400, 1_000, Deceleration(1_000)),
+        (0, 1_000, Current),
+    ] {
+        assert_eq!(parameters::emergency_ramp(mp2590, mp1060), ramp);
+    }
+}

@@ -14,7 +14,7 @@ use stillpoint_tests::root;
 
 /// The tables compared: those of a machine, or with the parameters of their systems. What several files use is compared with
 /// the parameters of the first one, so the file of a machine's own table stands before those that put it together with others.
-const FILES: [&str; 17] = [
+const FILES: [&str; 18] = [
     "spec/sinumerik-840d/axis.toml",
     "spec/machines/milling-840d.toml",
     "spec/heidenhain-fs/stop.toml",
@@ -26,6 +26,7 @@ const FILES: [&str; 17] = [
     "spec/heidenhain-fs/outputs.toml",
     "spec/heidenhain-fs/reference.toml",
     "spec/heidenhain-fs/selftest.toml",
+    "spec/heidenhain-fs/cutout.toml",
     "spec/heidenhain-fs/status-bits.toml",
     "spec/heidenhain-fs/fields.toml",
     "spec/heidenhain-fs/link.toml",

@@ -8,18 +8,21 @@
 //!
 //! Recommended readings of the manual implemented here: AMB-49 22 cycles.
 
+use crate::heidenhain::types::Stop;
 use crate::kernel::{ConfigError, Cycles};
 
-/// The window.
+/// The window, and the stop of the item.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Config {
     window: Cycles,
+    fatal: bool,
 }
 
 impl Config {
     /// The response time of the safe PLC (HFS-TIMING-002), for which the channels may differ: 22 cycles.
     pub const PUBLISHED: Self = Self {
         window: Cycles::new(22),
+        fatal: false,
     };
 
     /// `window`: the number of cycles of difference in a row that is a fault.
@@ -30,7 +33,19 @@ impl Config {
         if window.is_zero() {
             Err(ConfigError::NoDelay)
         } else {
-            Ok(Self { window })
+            Ok(Self {
+                window,
+                fatal: false,
+            })
+        }
+    }
+
+    /// The same for the flag "axis checked", whose difference is SS1F.
+    #[must_use]
+    pub const fn fatal(self) -> Self {
+        Self {
+            fatal: true,
+            ..self
         }
     }
 }
@@ -67,6 +82,8 @@ pub struct Inputs {
 pub struct Outputs {
     /// They have differed for a whole window.
     pub fault: bool,
+    /// The stop to be raised: SS1F for the flag "axis checked", SS1 for everything else.
+    pub demand: Stop,
 }
 
 contract! {
@@ -85,6 +102,11 @@ contract! {
         when |s| !s.inputs.differ
             => !s.outputs.fault && s.after == State::INITIAL;
 
+    /// A fault raises SS1, that of the flag "axis checked" SS1F; nothing else raises a stop.
+    fault_stops_the_machine ["HFS-KDV-001", "HFS-KDV-006", "HFS-CHK-006", "HFS-P-31"]:
+        when |s| s.outputs.fault || s.outputs.demand != Stop::None
+            => s.outputs.fault && s.outputs.demand == if s.config.fatal { Stop::Ss1F } else { Stop::Ss1 };
+
     /// The count stays within the window.
     state_stays_consistent ["HFS-KDV-005"]:
         when |s| s.before.invariant(&s.config)
@@ -99,5 +121,10 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
         cycles: Cycles::new(state.cycles.count().saturating_add(1)).min(config.window),
     };
     let fault = after.cycles == config.window;
-    (after, Outputs { fault })
+    let demand = match (fault, config.fatal) {
+        (false, _) => Stop::None,
+        (true, false) => Stop::Ss1,
+        (true, true) => Stop::Ss1F,
+    };
+    (after, Outputs { fault, demand })
 }

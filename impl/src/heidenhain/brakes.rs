@@ -42,7 +42,7 @@ impl Axis {
 pub struct Outputs {
     /// The output of the single axis.
     pub own: bool,
-    /// The output shared by the others.
+    /// The output shared by the others; so is -BRK.A.G formed of the releases of its axes (HFS-SBC-009).
     pub collected: bool,
 }
 
@@ -53,7 +53,7 @@ contract! {
             => s.outputs.own == s.inputs.own.release;
 
     /// In operation a shared output releases only when all its axes ask for it.
-    all_must_ask ["HFS-P-28", "HFS-SBC-005"]:
+    all_must_ask ["HFS-P-28", "HFS-SBC-005", "HFS-SBC-009"]:
         when |s| !s.inputs.test && s.inputs.shared[0].drive && s.inputs.shared[1].drive
             => s.outputs.collected == (s.inputs.shared[0].release && s.inputs.shared[1].release);
 
@@ -63,7 +63,7 @@ contract! {
             => s.outputs.collected == (s.inputs.shared[0].release || s.inputs.shared[1].release);
 
     /// Without any request no brake is released: a fault in the test closes them all.
-    no_release_without_request ["HFS-SBC-008"]:
+    no_release_without_request ["HFS-SBC-008", "HFS-ARCH-007"]:
         when |s| !s.inputs.own.release && !s.inputs.shared[0].release && !s.inputs.shared[1].release
             => s.outputs == Outputs::default();
 

@@ -112,7 +112,7 @@ contract! {
             => s.inputs.pressed() && !s.inputs.power_on && s.before.button != Button::Jammed;
 
     /// An open contact ends the permission at once.
-    open_contact_ends_it ["HFS-PB-001", "HFS-PB-006"]:
+    open_contact_ends_it ["HFS-PB-001", "HFS-PB-006", "HFS-ARCH-007"]:
         when |s| !s.inputs.pressed() && !s.inputs.power_on
             => s.after.button == Button::Released && !s.outputs.valid && !s.outputs.jammed;
 

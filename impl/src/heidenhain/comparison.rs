@@ -4,6 +4,9 @@
 //! closed, and always for a spindle, speeds are compared: the actual speed must be within the tolerance at least once in
 //! each window of time. Without torque nothing is compared. A failed comparison raises SS1.
 //!
+//! Each channel looks at an encoder of its own: the CC at that of the motor, the MC at that of the position, or, where there is
+//! none, at a value derived from the motor's for this purpose (HFS-NAV-004). So an encoder that fails is seen by one of the two.
+//!
 //! Recommended readings of the manual implemented here: AMB-17/18 TABLE, which comparison applies follows from table 4.8.15.
 
 use crate::heidenhain::types::{GroupState, Stop};

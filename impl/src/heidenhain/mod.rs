@@ -15,6 +15,8 @@
 //! | [`axis_release`] | feed enable of one axis in a released group, with an SS2 of its own | `group` of the cycle before |
 //! | [`stop`] | stop reaction of one axis group: SS2, SS1D, SS1, SS1F, SS0 with their timers | `judge`, all monitors |
 //! | [`report`] | what one channel tells the other of its stop and its causes | `stop` |
+//! | [`neighbour`] | what the stop of one group makes of the others | `stop` of the cycle before |
+//! | [`global_sto`] | -STO.A.G while one axis is in SS0 and the others brake | `stop` of every group |
 //! | [`group`] | monitoring state of one axis group | `stop` |
 //! | [`switch_on`] | control voltage on: edge, chain of contacts, -STO.A.G | `stop` of every group |
 //! | [`output_enable`] | `NN_GenOutputEnable` | `stop` of every group |
@@ -43,6 +45,8 @@
 //! | [`group_motion`], [`availability`], [`f_limited`] | `NN_AxGrpInMotion`; table of the safety functions; soft key F LIMITED | - |
 //! | [`safe_plc`] | the requests of the three groups wired to a program | - |
 //! | [`self_test`] | order of the self-test, its interval | - |
+//! | [`cut_out`] | part of the self-test: brake control, contact chain, each channel alone, safe outputs | `self_test` |
+//! | [`holding_brake`] | part of the self-test: holding brake of an axis | `self_test` |
 //! | [`status_bits`] | reactions to the safe status bits of a telegram | - |
 //! | [`sampling`] | forced dynamic sampling of a pair of inputs | - |
 //! | [`self_checks`] | reactions to faults that the kernel finds in itself | - |
@@ -71,12 +75,16 @@ pub mod button;
 pub mod cc_link;
 pub mod channel;
 pub mod comparison;
+pub mod cut_out;
 pub mod deceleration;
 pub mod gate;
+pub mod global_sto;
 pub mod group;
+pub mod holding_brake;
 pub mod judge;
 #[cfg(feature = "mutants")]
 pub mod mutant;
+pub mod neighbour;
 pub mod operating_stop;
 pub mod output_enable;
 pub mod parameters;

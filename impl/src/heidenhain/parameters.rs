@@ -232,3 +232,23 @@ impl Options {
         })
     }
 }
+
+/// How steep the emergency braking ramp is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ramp {
+    /// The drive brakes at the limit of its current.
+    Current,
+    /// By this deceleration, in the unit of the two parameters (mm/s2 or degrees/s2, or their multiples).
+    Deceleration(u32),
+}
+
+/// The emergency braking ramp of MP2590, of which MP1060, the acceleration of normal operation, is the least: HFS-SS1-003. 0 in
+/// MP2590 is the limit of current. Neither is a safe parameter, so any value is taken: what the ramp comes to is watched by
+/// the times of SS1 and by dv/dt.
+pub const fn emergency_ramp(mp2590: u32, mp1060: u32) -> Ramp {
+    match mp2590 {
+        0 => Ramp::Current,
+        steep if steep >= mp1060 => Ramp::Deceleration(steep),
+        _ => Ramp::Deceleration(mp1060),
+    }
+}

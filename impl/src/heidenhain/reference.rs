@@ -164,6 +164,11 @@ contract! {
                 AxisRef::NotHomed | AxisRef::Checked => false,
             };
 
+    /// The position is found by homing in both channels, reference marks passed or absolute value read, and by nothing else.
+    homing_gives_the_position ["HFS-REF-002"]:
+        when |s| s.config.safe_axis && s.before.axis == AxisRef::NotHomed && !s.inputs.power_on
+            => s.after.axis == if s.inputs.homed { AxisRef::Homed } else { AxisRef::NotHomed };
+
     /// The comparison decides in the cycle after the homing: checked, or to be checked by a person.
     comparison_decides ["HFS-P-41", "HFS-REF-007", "HFS-REF-010", "HFS-REF-012"]:
         when |s| s.config.safe_axis && s.before.axis == AxisRef::Homed && !s.inputs.power_on
@@ -213,7 +218,7 @@ contract! {
             => s.outputs.may_move == (s.inputs.unit == Unit::Reference);
 
     /// An axis without a group moves always and stops nothing.
-    axis_without_group_is_free ["HFS-NS-001", "HFS-NS-002", "HFS-CHK-007"]:
+    axis_without_group_is_free ["HFS-NS-001", "HFS-NS-002", "HFS-NS-003", "HFS-CHK-007"]:
         when |s| !s.config.safe_axis
             => s.outputs.may_move && !s.outputs.untested && !s.outputs.ax_safe && !s.outputs.checked
                 && s.outputs.demand == Stop::None;

@@ -318,6 +318,29 @@ contract! {
         when |s| s.outputs.cut_out_done
             => matches!(s.after.phase, Phase::HoldingBrakes | Phase::Passed);
 
+    /// Part 1 begins by itself, without control voltage: configuration, internal monitors, contact chain, emergency stop
+    /// circuit. Part 2 follows with the voltage on: keys, doors, brake control, cut-out channels, holding brakes.
+    parts_follow_each_other ["HFS-TEST-002", "HFS-TEST-007"]:
+        when |s| s.after.phase != s.before.phase && s.after.phase != Phase::Failed && !s.inputs.power_on
+            => match s.after.phase {
+                Phase::Configuration => s.before.phase == Phase::DrivesOff,
+                Phase::Internal => s.before.phase == Phase::Configuration,
+                Phase::Chain => s.before.phase == Phase::Internal,
+                Phase::EsCircuit => s.before.phase == Phase::Chain,
+                Phase::VoltageOff => s.before.phase == Phase::EsCircuit,
+                Phase::VoltageOn => s.before.phase == Phase::VoltageOff && !s.inputs.cvo,
+                Phase::Keys => s.before.phase == Phase::VoltageOn && s.inputs.cvo,
+                Phase::Doors => s.before.phase == Phase::Keys && s.inputs.keys_free,
+                Phase::BrakeControl => s.before.phase == Phase::Doors && s.inputs.doors(&s.config),
+                Phase::CutOut => matches!(s.before.phase, Phase::BrakeControl | Phase::Doors)
+                    && s.inputs.doors(&s.config),
+                Phase::HoldingBrakes => matches!(s.before.phase, Phase::CutOut | Phase::Passed)
+                    && s.inputs.doors(&s.config),
+                Phase::DrivesOff => s.before.phase == Phase::HoldingBrakes,
+                Phase::Passed => matches!(s.before.phase, Phase::HoldingBrakes | Phase::CutOut),
+                Phase::Failed => true,
+            };
+
     /// The state stays consistent.
     state_stays_consistent ["HFS-TEST-001"]:
         when |s| s.before.invariant(&s.config)

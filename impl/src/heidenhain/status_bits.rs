@@ -107,12 +107,12 @@ contract! {
             => s.outputs.mc == Stop::Ss1F && s.outputs.cc == Stop::Ss1F;
 
     /// The DC-link voltage, unless masked, and -N0 stop in the CC.
-    power_failure_stops_in_the_cc ["HFS-STAT-005", "HFS-FAULT-021"]:
+    power_failure_stops_in_the_cc ["HFS-STAT-001", "HFS-STAT-005", "HFS-FAULT-021"]:
         when |s| s.inputs.n0 || (s.inputs.pf_dc && !s.inputs.masked)
             => s.outputs.cc >= Stop::Ss1;
 
     /// The MC does not stop for these two bits itself.
-    power_failure_alone_is_no_stop_of_the_mc ["HFS-FAULT-021"]:
+    power_failure_alone_is_no_stop_of_the_mc ["HFS-STAT-001", "HFS-FAULT-021"]:
         when |s| (s.inputs.n0 || s.inputs.pf_dc) && s.inputs.common() == Stop::None
             => s.outputs.mc == Stop::None;
 
@@ -137,7 +137,7 @@ contract! {
             };
 
     /// Safe outputs are switched off only where the fault is.
-    outputs_are_switched_off_locally ["HFS-STAT-006", "HFS-STAT-008"]:
+    outputs_are_switched_off_locally ["HFS-STAT-001", "HFS-STAT-006", "HFS-STAT-008"]:
         when |s| s.outputs.spl_off || s.outputs.smop_off
             => (!s.outputs.spl_off || s.inputs.spl_wd || s.inputs.pf_board)
                 && (!s.outputs.smop_off || s.inputs.smop_wd || s.inputs.pf_board);

@@ -99,12 +99,16 @@ pub struct Inputs {
     pub cvo: bool,
     /// `PP_GenFB_NCC`: all contacts of the chain are closed.
     pub chain: bool,
+    /// T.BRK: the brakes are supplied; `PP_GenTBRK` is 0 then.
+    pub t_brk: bool,
     /// The kernel switches -STO.A.G off: emergency stop, SS0, SS1F, or all safe groups in STO.
     pub dropped: bool,
     /// Stops have ended, there is no cause of SS1 or higher, and no main switch is needed.
     pub may_on: bool,
     /// The self-test runs.
     pub testing: bool,
+    /// The door of the spindle is open and it stands.
+    pub spindle_rests: bool,
 }
 
 /// The outputs of one cycle.
@@ -114,7 +118,9 @@ pub struct Outputs {
     pub voltage: Voltage,
     /// -STO.A.G is 1.
     pub sto_a_g: bool,
-    /// The chain has not closed in time.
+    /// -STOS.A.G is 1: the power modules of the spindles are enabled too.
+    pub stos_a_g: bool,
+    /// The chain has not closed in time, or a brake is supplied.
     pub fault: bool,
     /// The stop that follows: SS1, in the self-test SS1F.
     pub demand: Stop,
@@ -127,14 +133,16 @@ contract! {
             => s.inputs.cvo && !s.before.seen && s.inputs.may_on && !s.inputs.dropped
                 && s.after.voltage == Voltage::ChainCheck && s.after.timer == s.config.t_chain;
 
-    /// -STO.A.G comes on only after the chain was found closed in the time.
-    chain_before_torque ["HFS-NCC-001", "HFS-P-06"]:
+    /// -STO.A.G comes on only after the chain was found closed in the time, and no brake supplied.
+    chain_before_torque ["HFS-NCC-001", "HFS-TEST-013", "HFS-P-06"]:
         when |s| s.outputs.sto_a_g && s.before.voltage != Voltage::On
-            => s.before.voltage == Voltage::ChainCheck && s.inputs.chain && s.inputs.may_on && !s.inputs.dropped;
+            => s.before.voltage == Voltage::ChainCheck && s.inputs.chain && !s.inputs.t_brk && s.inputs.may_on
+                && !s.inputs.dropped;
 
-    /// A chain that does not close in time is a fault: SS1, in the self-test SS1F.
-    open_chain_is_a_fault ["HFS-NCC-001", "HFS-NCC-002", "HFS-FAULT-010"]:
-        when |s| s.before.voltage == Voltage::ChainCheck && s.before.timer.count() == 1 && !s.inputs.chain
+    /// A chain that does not close in time, or a brake that is supplied, is a fault: SS1, in the self-test SS1F.
+    open_chain_is_a_fault ["HFS-NCC-001", "HFS-NCC-002", "HFS-TEST-013", "HFS-FAULT-010"]:
+        when |s| s.before.voltage == Voltage::ChainCheck && s.before.timer.count() == 1
+            && (!s.inputs.chain || s.inputs.t_brk)
             && s.inputs.may_on && !s.inputs.dropped
             => s.outputs.fault && s.after.voltage == Voltage::Off
                 && s.outputs.demand == (if s.inputs.testing { Stop::Ss1F } else { Stop::Ss1 });
@@ -159,6 +167,11 @@ contract! {
         when |s| s.outputs.demand != Stop::None
             => s.outputs.fault || (s.before.voltage == Voltage::On && s.before.seen && !s.inputs.cvo);
 
+    /// -STOS.A.G is off with -STO.A.G and behind an open door while the spindle stands, else on with it.
+    spindle_signal_follows ["HFS-STO-008"]:
+        when |s| s.outputs.stos_a_g || s.outputs.sto_a_g || s.inputs.spindle_rests
+            => s.outputs.stos_a_g == (s.outputs.sto_a_g && !s.inputs.spindle_rests);
+
     /// -STO.A.G stays on until a stop drops it.
     voltage_stays_on ["HFS-P-33", "HFS-STO-004"]:
         when |s| s.before.voltage == Voltage::On && !s.inputs.dropped
@@ -174,7 +187,7 @@ contract! {
 pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (State, Outputs) {
     let edge = inputs.cvo && !state.seen;
     let left = state.timer.tick();
-    let closed = inputs.chain && inputs.may_on;
+    let closed = inputs.chain && !inputs.t_brk && inputs.may_on;
     let (voltage, timer) = match state.voltage {
         _ if inputs.dropped => (Voltage::Off, Cycles::ZERO),
         Voltage::Off if edge && inputs.may_on => (Voltage::ChainCheck, config.t_chain),
@@ -204,6 +217,7 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
     let outputs = Outputs {
         voltage,
         sto_a_g: voltage == Voltage::On,
+        stos_a_g: voltage == Voltage::On && !inputs.spindle_rests,
         fault,
         demand,
     };

@@ -143,7 +143,7 @@ pub struct Inputs {
     pub monitors: Stop,
     /// What the other channel tells of the group ([`Outputs::tells`] of it).
     pub told: Stop,
-    /// An SS1 of another group, or an emergency stop, concerns the whole machine.
+    /// The highest of what the other groups make of this one ([`crate::heidenhain::neighbour`]), and the emergency stop.
     pub machine: Stop,
     /// The last axis has come to rest after it lost its feed enable.
     pub at_rest: bool,

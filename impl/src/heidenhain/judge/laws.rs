@@ -68,7 +68,7 @@ contract! {
             => s.outputs.asks_ss1;
 
     /// A spindle that turns without permissive in SOM_2 or SOM_3, or at the handwheel in SOM_4, stops after the axes.
-    spindle_without_permissive_stops ["HFS-AXG-014", "HFS-PB-003", "HFS-FAULT-016", "HFS-MODE-004"]:
+    spindle_without_permissive_stops ["HFS-AXG-014", "HFS-PB-003", "HFS-FAULT-016", "HFS-MODE-004", "HFS-SS2-010"]:
         when |s| s.config.kind() == Kind::Spindle && s.inputs.moving && !s.inputs.permissive
             && (matches!(s.inputs.state, GroupState::Sls2 | GroupState::Sls3)
                 || (s.inputs.state == GroupState::Sls4 && s.inputs.unit == Unit::Handwheel))

@@ -19,6 +19,7 @@ mod machine;
 mod safe_plc;
 mod service;
 mod stops;
+mod testing;
 mod watching;
 
 mutants! { heidenhain:
@@ -55,6 +56,20 @@ mutants! { heidenhain:
         ReportFallsSilent "report-falls-silent" => stops::report_falls_silent;
         /// A stop that has ended is told on and on.
         ReportNeverEnds "report-never-ends" => stops::report_never_ends;
+    }
+    /// What a stop makes of other groups, with this mutant in it.
+    fn neighbour {
+        /// An SS0 stays with its group.
+        NeighbourKeepsSs0 "neighbour-keeps-ss0" => stops::neighbour_keeps_ss0;
+        /// Every SS1 stops the machine.
+        NeighbourEverySs1 "neighbour-every-ss1" => stops::neighbour_every_ss1;
+    }
+    /// The signal -STO.A.G with this mutant in it.
+    fn global_sto {
+        /// It falls with the SS0.
+        GlobalStoAtOnce "global-sto-at-once" => stops::global_sto_at_once;
+        /// There is no latest time.
+        GlobalStoNeverLate "global-sto-never-late" => stops::global_sto_never_late;
     }
     /// The judgement with this mutant in it.
     fn judge {
@@ -208,6 +223,8 @@ mutants! { heidenhain:
         AgreementEarly "agreement-early" => service::agreement_early;
         /// The window is not whole again when the channels agree.
         AgreementAddsUp "agreement-adds-up" => service::agreement_adds_up;
+        /// A difference of the flag "axis checked" is SS1 only.
+        AgreementNeverFatal "agreement-never-fatal" => service::agreement_never_fatal;
     }
     /// The brake outputs with this mutant in them.
     fn brakes {
@@ -247,6 +264,22 @@ mutants! { heidenhain:
         SelfTestBadBrakePasses "self-test-bad-brake-passes" => service::self_test_bad_brake_passes;
         /// A passed test is good for ever.
         SelfTestNeverOverdue "self-test-never-overdue" => service::self_test_never_overdue;
+    }
+    /// The test of the cut-out channels with this mutant in it.
+    fn cut_out {
+        /// While the CC alone has no torque nobody watches.
+        CutOutUnwatched "cut-out-unwatched" => testing::cut_out_unwatched;
+        /// A power module that stays ready passes.
+        CutOutPassesReady "cut-out-passes-ready" => testing::cut_out_passes_ready;
+        /// An axis that moves does not break the brake test off.
+        CutOutMovesOn "cut-out-moves-on" => testing::cut_out_moves_on;
+    }
+    /// The test of a holding brake with this mutant in it.
+    fn holding_brake {
+        /// A path too long passes when the current has risen.
+        HoldingBrakeSlips "holding-brake-slips" => testing::holding_brake_slips;
+        /// The drive lets go while the brake closes.
+        HoldingBrakeLetsGo "holding-brake-lets-go" => testing::holding_brake_lets_go;
     }
     /// The forced dynamic sampling with this mutant in it.
     fn sampling {

@@ -83,6 +83,12 @@ variants! {
         (after, outputs)
     }
 
+    agreement_never_fatal: agreement |state, config, inputs| {
+        let (after, mut outputs) = agreement::transition(state, config, inputs);
+        outputs.demand = outputs.demand.min(Stop::Ss1);
+        (after, outputs)
+    }
+
     self_test_doors_overlooked: self_test |state, config, inputs| {
         let inputs = self_test::Inputs { doors_shut: true, ..*inputs };
         self_test::transition(state, config, &inputs)

@@ -1,7 +1,7 @@
 //! Wrong variants of the stop reaction.
 
 use crate::heidenhain::types::{Phase, Stop};
-use crate::heidenhain::{report, stop};
+use crate::heidenhain::{global_sto, neighbour, report, stop};
 use crate::kernel::Cycles;
 
 pub(super) fn stop_reloads_timer(
@@ -64,5 +64,28 @@ variants! {
     report_never_ends: report |state, config, inputs| {
         let phase = Phase::Run;
         report::transition(state, config, &report::Inputs { phase, ..*inputs })
+    }
+
+    neighbour_keeps_ss0: neighbour |state, config, inputs| {
+        let level = if inputs.level == Stop::Ss0 { Stop::None } else { inputs.level };
+        neighbour::transition(state, config, &neighbour::Inputs { level, ..*inputs })
+    }
+
+    neighbour_every_ss1: neighbour |state, config, inputs| {
+        let wide = true;
+        neighbour::transition(state, config, &neighbour::Inputs { wide, ..*inputs })
+    }
+
+    global_sto_at_once: global_sto |state, config, inputs| {
+        let others_off = true;
+        global_sto::transition(state, config, &global_sto::Inputs { others_off, ..*inputs })
+    }
+
+    global_sto_never_late: global_sto |state, config, inputs| {
+        let mut state = state;
+        if state.timer.count() == 1 {
+            state.timer = Cycles::ZERO;
+        }
+        global_sto::transition(state, config, inputs)
     }
 }

@@ -131,7 +131,7 @@ contract! {
             => !s.outputs.on_contour && !s.outputs.emergency_ramp && s.outputs.brake_listed;
 
     /// An SS1D brakes when the listed groups stand.
-    ss1d_brakes_after_the_listed_groups ["HFS-SS1D-001", "HFS-SS1D-002", "HFS-GRP-003"]:
+    ss1d_brakes_after_the_listed_groups ["HFS-SS1D-001", "HFS-SS1D-002", "HFS-GRP-003", "HFS-SS2-010"]:
         when |s| s.inputs.demand == Stop::Ss1D && s.before.level < Stop::Ss1D && s.inputs.listed_still
             && !s.inputs.main_switch
             => s.outputs.emergency_ramp;
@@ -168,6 +168,12 @@ contract! {
     requested_ss1_is_not_wide ["HFS-SS1-001", "HFS-P-36"]:
         when |s| s.outputs.wide
             => s.before.wide || (s.inputs.wide_cause && s.inputs.demand == Stop::Ss1) || s.before.timer.count() == 1;
+
+    /// SS1 and SS1F alike begin on the emergency ramp, in the cycle of their cause, whatever was running below them.
+    ss1_brakes_on_the_emergency_ramp ["HFS-SS1-002", "HFS-SS1F-001"]:
+        when |s| matches!(s.inputs.demand, Stop::Ss1 | Stop::Ss1F) && !s.inputs.main_switch
+            && !ramp(s.before.phase) && s.before.phase != Phase::TorqueOff
+            => s.outputs.emergency_ramp && s.after.level == s.inputs.demand;
 
     /// The torque of an SS1D that is off needs no drive-on; that of every higher stop does.
     soft_end_is_that_of_ss1d ["HFS-SS1D-003", "HFS-STO-006"]:

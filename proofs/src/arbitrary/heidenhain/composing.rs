@@ -62,8 +62,14 @@ fn requested<S: Source>(source: &mut S) -> Option<Step> {
         Cycles::new(2),
     )
     .ok()?;
+    let group = group_state(source, config.group())?;
+    // Which limits of other modes are left makes no difference to the channel: all of them, or none.
+    let all = group.left.sls_2 && group.left.sls_3 && group.left.sls_4;
+    if !(all || group.left.is_none()) {
+        return None;
+    }
     let state = channel::State {
-        group: group_state(source, config.group())?,
+        group,
         ..channel::State::INITIAL
     };
     let codes = [0, 1, 3, 4, 5, 6, 7, 8];

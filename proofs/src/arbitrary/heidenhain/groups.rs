@@ -1,7 +1,9 @@
 //! Stop and monitoring state of an axis group.
 
 use stillpoint_monitors::heidenhain::types::{GroupState, Left, Phase, Stop, Unit};
-use stillpoint_monitors::heidenhain::{axis_release, group, judge, report, startup, stop};
+use stillpoint_monitors::heidenhain::{
+    axis_release, global_sto, group, judge, neighbour, report, startup, stop,
+};
 
 use super::kind;
 use crate::source::Source;
@@ -109,6 +111,35 @@ pub fn report<S: Source>(
         found: source.any_of(&Stop::ALL),
     };
     Some((report::State::INITIAL, config, inputs))
+}
+
+/// Any stop of another group.
+pub fn neighbour<S: Source>(
+    source: &mut S,
+) -> Option<(neighbour::State, neighbour::Config, neighbour::Inputs)> {
+    let config = neighbour::Config::new(source.any_bool()).ok()?;
+    let inputs = neighbour::Inputs {
+        level: source.any_of(&Stop::ALL),
+        phase: source.any_of(&Phase::ALL),
+        wide: source.any_bool(),
+    };
+    Some((neighbour::State::INITIAL, config, inputs))
+}
+
+/// Any step of -STO.A.G.
+pub fn global_sto<S: Source>(
+    source: &mut S,
+) -> Option<(global_sto::State, global_sto::Config, global_sto::Inputs)> {
+    let t_off = source.any_delay(global_sto::Config::LONGEST);
+    let config = global_sto::Config::new(t_off).ok()?;
+    let on = source.any_bool();
+    let timer = source.any_cycles(t_off);
+    let state = global_sto::State { on, timer };
+    let inputs = global_sto::Inputs {
+        ss0: source.any_bool(),
+        others_off: source.any_bool(),
+    };
+    state.invariant(&config).then_some((state, config, inputs))
 }
 
 /// Any modes left in motion.

@@ -66,9 +66,11 @@ pub fn switch_on<S: Source>(
     let inputs = switch_on::Inputs {
         cvo: source.any_bool(),
         chain: source.any_bool(),
+        t_brk: source.any_bool(),
         dropped: source.any_bool(),
         may_on: source.any_bool(),
         testing: source.any_bool(),
+        spindle_rests: source.any_bool(),
     };
     state.invariant(&config).then_some((state, config, inputs))
 }

@@ -5,8 +5,8 @@ use stillpoint_monitors::heidenhain::sampling::Pulse;
 use stillpoint_monitors::heidenhain::start_checks::Start;
 use stillpoint_monitors::heidenhain::types::{GroupState, Som, Unit};
 use stillpoint_monitors::heidenhain::{
-    acceptance, agreement, brakes, reference, sampling, self_checks, self_test, start_checks,
-    status_bits, tool_holder,
+    acceptance, agreement, brakes, cut_out, holding_brake, reference, sampling, self_checks,
+    self_test, start_checks, status_bits, tool_holder,
 };
 use stillpoint_monitors::kernel::Cycles;
 
@@ -51,6 +51,11 @@ pub fn agreement<S: Source>(
 ) -> Option<(agreement::State, agreement::Config, agreement::Inputs)> {
     let window = source.any_delay(LONGEST);
     let config = agreement::Config::new(window).ok()?;
+    let config = if source.any_bool() {
+        config.fatal()
+    } else {
+        config
+    };
     let state = agreement::State {
         cycles: source.any_cycles(window),
     };
@@ -273,4 +278,58 @@ pub fn start_checks<S: Source>(
         feed_constant: source.any_bool(),
     };
     Some((state, config, inputs))
+}
+
+/// Any step of the test of the cut-out channels.
+pub fn cut_out<S: Source>(
+    source: &mut S,
+) -> Option<(cut_out::State, cut_out::Config, cut_out::Inputs)> {
+    let longest = cut_out::Config::LONGEST;
+    let config = cut_out::Config::new(
+        source.any_delay(longest),
+        source.any_delay(longest),
+        source.any_delay(longest),
+        source.any_bool(),
+        source.any_bool(),
+    )
+    .ok()?;
+    let step = source.any_of(&cut_out::Phase::ALL);
+    let state = cut_out::State {
+        step,
+        timer: source.any_cycles(config.time(step)),
+        ask: step == cut_out::Phase::Idle && source.any_bool(),
+    };
+    let inputs = cut_out::Inputs {
+        power_on: source.any_bool(),
+        start: source.any_bool(),
+        t_brk: source.any_bool(),
+        chain: source.any_bool(),
+        ready: source.any_bool(),
+        outputs: source.any_bool(),
+        moved: source.any_bool(),
+    };
+    state.invariant(&config).then_some((state, config, inputs))
+}
+
+/// Any step of the test of a holding brake.
+pub fn holding_brake<S: Source>(
+    source: &mut S,
+) -> Option<(
+    holding_brake::State,
+    holding_brake::Config,
+    holding_brake::Inputs,
+)> {
+    let factor = source.any_of(&[0, 1, holding_brake::Config::HIGHEST]);
+    let config = holding_brake::Config::new(factor).ok()?;
+    let state = holding_brake::State {
+        step: source.any_of(&holding_brake::Phase::ALL),
+    };
+    let inputs = holding_brake::Inputs {
+        start: source.any_bool(),
+        done: source.any_bool(),
+        too_far: source.any_bool(),
+        current: source.any_bool(),
+        safe_now: source.any_bool(),
+    };
+    state.invariant(&config).then_some((state, config, inputs))
 }

@@ -16,6 +16,18 @@ inventory! {
         domain_text: "complete: every input",
         caveat: "that the telegram arrives is watched by the watchdogs; when it arrives is in the tables",
     }]
+    [contract hfs_neighbour_contract on heidenhain::neighbour {
+        property: "every clause of the contract between groups: SS0, SS1F and wide SS1 spread, a wait brakes the listed ones, nothing else crosses",
+        domain: NARROW,
+        domain_text: "complete: every configuration and input",
+        caveat: "one pair of groups; that a group takes the highest of all others is outside",
+    }]
+    [contract hfs_global_sto_contract on heidenhain::global_sto {
+        property: "every clause of the contract of -STO.A.G after an SS0: end of the others, latest time, main switch",
+        domain: Domain { delays: &[1, 2, 4], highest_speed: 0 },
+        domain_text: "SMP2172 of 1, 2 or 4 cycles; every consistent state; every input",
+        caveat: "longer times only under Kani and in samples",
+    }]
     [contract hfs_judge_contract on heidenhain::judge {
         property: "every clause of the judgement's contract: bad requests, mode changes, motion, permissive, operating unit, self-test",
         domain: NARROW,

@@ -40,6 +40,18 @@ inventory! {
         domain_text: "interval of 2 cycles; every consistent state and input",
         caveat: "what a step tests is outside",
     }]
+    [contract hfs_cut_out_contract on heidenhain::cut_out {
+        property: "every clause of the contract of the cut-out test: order, feedback of each channel alone, times, faults, end state",
+        domain: Domain { delays: &[1, 2, 3], highest_speed: 0 },
+        domain_text: "times of 1, 2 or 3 cycles each; either option; every consistent state; every input",
+        caveat: "longer times only under Kani and in samples",
+    }]
+    [contract hfs_holding_brake_contract on heidenhain::holding_brake {
+        property: "every clause of the contract of the holding-brake test: order, path, current, faults that stay",
+        domain: NARROW,
+        domain_text: "SMP2230 of 0, 0.1 and 30.0; every consistent state; every input",
+        caveat: "path and current are measured outside",
+    }]
     [contract hfs_status_bits_contract on heidenhain::status_bits {
         property: "every clause of the status bits' contract: the reaction table of MC and CC",
         domain: NARROW,

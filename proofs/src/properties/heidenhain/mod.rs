@@ -38,6 +38,10 @@ monitors! { heidenhain:
     cc_link
     /// Self-test.
     self_test
+    /// Test of the cut-out channels.
+    cut_out
+    /// Test of a holding brake.
+    holding_brake
     /// Status bits.
     status_bits
     /// Forced dynamic sampling.
@@ -50,6 +54,10 @@ monitors! { heidenhain:
     stop
     /// What the other channel is told.
     report
+    /// What a stop makes of other groups.
+    neighbour
+    /// -STO.A.G after an SS0.
+    global_sto
     /// Requests, operating mode and permissive.
     judge
     /// Monitoring state.

@@ -1,7 +1,7 @@
 //! How the states of the monitors lie in cells.
 
 use stillpoint_monitors::heidenhain::{
-    axis_release, button, group, judge, output_enable, som, startup, stop, switch_on,
+    axis_release, button, global_sto, group, judge, output_enable, som, startup, stop, switch_on,
 };
 
 use super::numbers::{self, *};
@@ -39,6 +39,10 @@ cells! {
         voltage = |c| value(&switch_on::Voltage::ALL, c), |v| ordinal(&switch_on::Voltage::ALL, v);
         timer = cycles, cell;
         seen = truthy, i32::from;
+    }
+    global_sto::State, 2 {
+        on = truthy, i32::from;
+        timer = cycles, cell;
     }
     output_enable::State, 2 {
         enabled = truthy, i32::from;

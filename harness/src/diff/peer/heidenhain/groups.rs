@@ -1,7 +1,9 @@
 //! Stop and monitoring state of an axis group.
 
 use stillpoint_monitors::heidenhain::mutant::Mutant;
-use stillpoint_monitors::heidenhain::{axis_release, group, judge, report, startup, stop as stops};
+use stillpoint_monitors::heidenhain::{
+    axis_release, global_sto, group, judge, neighbour, report, startup, stop as stops,
+};
 
 use super::numbers::{self, *};
 use crate::diff::peer::adapter::Adapter;
@@ -13,6 +15,8 @@ pub(super) fn make(machine: &str, p: &Params, mutant: Option<Mutant>) -> Made {
     Ok(Some(match machine {
         "stop" => stops(p, mutant)?,
         "report" => report(mutant)?,
+        "neighbour" => neighbour(p, mutant)?,
+        "global_sto" => global_sto(p, mutant)?,
         "judge" => judge(p, mutant)?,
         "group" => group(p, mutant)?,
         "startup" => startup(p, mutant)?,
@@ -102,6 +106,44 @@ fn report(mutant: Option<Mutant>) -> Refusable {
             };
             let (_, out) = next(report::State::INITIAL, &config, &inputs);
             o.push(stop_rank(out.told));
+        },
+    ))
+}
+
+fn neighbour(p: &Params, mutant: Option<Mutant>) -> Refusable {
+    let config = neighbour::Config::new(p.is("listed"))?;
+    let next = mutant.map_or(neighbour::next as neighbour::Next, Mutant::neighbour);
+    Ok(Adapter::stateless(
+        &["level", "phase", "wide"],
+        &["demand"],
+        move |i, o| {
+            let inputs = neighbour::Inputs {
+                level: stop(i[0]),
+                phase: phase(i[1]),
+                wide: i[2] != 0,
+            };
+            let (_, out) = next(neighbour::State::INITIAL, &config, &inputs);
+            o.push(stop_rank(out.demand));
+        },
+    ))
+}
+
+fn global_sto(p: &Params, mutant: Option<Mutant>) -> Refusable {
+    let config = global_sto::Config::new(p.time("t_off"))?;
+    let next = mutant.map_or(global_sto::next as global_sto::Next, Mutant::global_sto);
+    Ok(Adapter::new(
+        &["ss0", "others_off"],
+        &["on"],
+        vec![truth(), upto(p.value("t_off"))],
+        global_sto::State::INITIAL,
+        move |state, i, o| {
+            let inputs = global_sto::Inputs {
+                ss0: i[0] != 0,
+                others_off: i[1] != 0,
+            };
+            let (after, out) = next(state, &config, &inputs);
+            o.push(bit(out.on));
+            after
         },
     ))
 }

@@ -71,22 +71,33 @@ fn switch_on(p: &Params, mutant: Option<Mutant>) -> Refusable {
     let config = switch_on::Config::new(p.time("t_chain"))?;
     let next = mutant.map_or(switch_on::next as switch_on::Next, Mutant::switch_on);
     Ok(Adapter::new(
-        &["cvo", "chain", "dropped", "may_on", "testing"],
-        &["voltage", "sto_a_g", "fault", "demand"],
+        &[
+            "cvo",
+            "chain",
+            "t_brk",
+            "dropped",
+            "may_on",
+            "testing",
+            "spindle_rests",
+        ],
+        &["voltage", "sto_a_g", "stos_a_g", "fault", "demand"],
         vec![upto(2), upto(p.value("t_chain")), truth()],
         switch_on::State::INITIAL,
         move |state, i, o| {
             let inputs = switch_on::Inputs {
                 cvo: i[0] != 0,
                 chain: i[1] != 0,
-                dropped: i[2] != 0,
-                may_on: i[3] != 0,
-                testing: i[4] != 0,
+                t_brk: i[2] != 0,
+                dropped: i[3] != 0,
+                may_on: i[4] != 0,
+                testing: i[5] != 0,
+                spindle_rests: i[6] != 0,
             };
             let (after, out) = next(state, &config, &inputs);
             o.extend([
                 rank(&switch_on::Voltage::ALL, out.voltage),
                 bit(out.sto_a_g),
+                bit(out.stos_a_g),
                 bit(out.fault),
                 stop_rank(out.demand),
             ]);

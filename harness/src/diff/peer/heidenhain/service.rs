@@ -3,7 +3,7 @@
 use stillpoint_monitors::heidenhain::mutant::Mutant;
 use stillpoint_monitors::heidenhain::reference::AxisRef;
 use stillpoint_monitors::heidenhain::{
-    acceptance, agreement, brakes, reference, self_test, tool_holder,
+    acceptance, agreement, brakes, cut_out, holding_brake, reference, self_test, tool_holder,
 };
 
 use super::numbers::*;
@@ -19,6 +19,8 @@ pub(super) fn make(machine: &str, p: &Params, mutant: Option<Mutant>) -> Made {
         "tool_holder" => tool_holder(mutant),
         "acceptance" => acceptance(p, mutant)?,
         "self_test" => self_test(p, mutant)?,
+        "cut_out" => cut_out(p, mutant)?,
+        "holding_brake" => holding_brake(p, mutant)?,
         _ => return Ok(None),
     }))
 }
@@ -28,6 +30,14 @@ fn count(cell: i32) -> u16 {
 }
 
 cells! {
+    cut_out::State, 3 {
+        step = |c| value(&cut_out::Phase::ALL, c), |s| ordinal(&cut_out::Phase::ALL, s);
+        timer = cycles, cell;
+        ask = truthy, i32::from;
+    }
+    holding_brake::State, 1 {
+        step = |c| value(&holding_brake::Phase::ALL, c), |s| ordinal(&holding_brake::Phase::ALL, s);
+    }
     reference::State, 2 {
         axis = |c| value(&AxisRef::ALL, c), |a| ordinal(&AxisRef::ALL, a);
         saved = truthy, i32::from;
@@ -104,16 +114,21 @@ fn reference(p: &Params, mutant: Option<Mutant>) -> Refusable {
 
 fn agreement(p: &Params, mutant: Option<Mutant>) -> Refusable {
     let config = agreement::Config::new(p.time("window"))?;
+    let config = if p.is("fatal") {
+        config.fatal()
+    } else {
+        config
+    };
     let next = mutant.map_or(agreement::next as agreement::Next, Mutant::agreement);
     Ok(Adapter::new(
         &["differ"],
-        &["fault"],
+        &["fault", "demand"],
         vec![upto(p.value("window"))],
         agreement::State::INITIAL,
         move |state, i, o| {
             let inputs = agreement::Inputs { differ: i[0] != 0 };
             let (after, out) = next(state, &config, &inputs);
-            o.push(bit(out.fault));
+            o.extend([bit(out.fault), stop_rank(out.demand)]);
             after
         },
     ))
@@ -262,6 +277,104 @@ fn self_test(p: &Params, mutant: Option<Mutant>) -> Refusable {
                 bit(out.cut_out_done),
                 stop_rank(out.demand),
                 rank(&self_test::Phase::ALL, after.phase),
+            ]);
+            after
+        },
+    ))
+}
+
+fn cut_out(p: &Params, mutant: Option<Mutant>) -> Refusable {
+    let config = cut_out::Config::new(
+        p.time("t_relay"),
+        p.time("t_ready"),
+        p.time("t_off"),
+        p.is("no_control"),
+        p.is("no_outputs"),
+    )?;
+    let next = mutant.map_or(cut_out::next as cut_out::Next, Mutant::cut_out);
+    let longest = p
+        .value("t_relay")
+        .max(p.value("t_ready"))
+        .max(p.value("t_off"));
+    Ok(Adapter::new(
+        &[
+            "power_on", "start", "t_brk", "chain", "ready", "outputs", "moved",
+        ],
+        &[
+            "step",
+            "brake_a",
+            "brake_b",
+            "sto_a_g",
+            "stos_a_g",
+            "on_mc",
+            "on_cc",
+            "watch_mc",
+            "watch_cc",
+            "ask_place",
+            "done",
+            "fault",
+            "tested",
+            "others",
+        ],
+        vec![upto(11), upto(longest), truth()],
+        cut_out::State::INITIAL,
+        move |state, i, o| {
+            let inputs = cut_out::Inputs {
+                power_on: i[0] != 0,
+                start: i[1] != 0,
+                t_brk: i[2] != 0,
+                chain: i[3] != 0,
+                ready: i[4] != 0,
+                outputs: i[5] != 0,
+                moved: i[6] != 0,
+            };
+            let (after, out) = next(state, &config, &inputs);
+            o.extend([
+                rank(&cut_out::Phase::ALL, out.step),
+                bit(out.brake_a),
+                bit(out.brake_b),
+                bit(out.sto_a_g),
+                bit(out.stos_a_g),
+                bit(out.on_mc),
+                bit(out.on_cc),
+                bit(out.watch_mc),
+                bit(out.watch_cc),
+                bit(out.ask_place),
+                bit(out.done),
+                bit(out.fault),
+                stop_rank(out.tested),
+                stop_rank(out.others),
+            ]);
+            after
+        },
+    ))
+}
+
+fn holding_brake(p: &Params, mutant: Option<Mutant>) -> Refusable {
+    let config = holding_brake::Config::new(count(p.value("factor")))?;
+    let next = mutant.map_or(
+        holding_brake::next as holding_brake::Next,
+        Mutant::holding_brake,
+    );
+    Ok(Adapter::new(
+        &["start", "done", "too_far", "current", "safe_now"],
+        &["hold", "closed", "controlled", "passed"],
+        vec![upto(7)],
+        holding_brake::State::INITIAL,
+        move |state, i, o| {
+            let inputs = holding_brake::Inputs {
+                start: i[0] != 0,
+                done: i[1] != 0,
+                too_far: i[2] != 0,
+                current: i[3] != 0,
+                safe_now: i[4] != 0,
+            };
+            let (after, out) = next(state, &config, &inputs);
+            o.extend([
+                rank(&holding_brake::Phase::ALL, out.step),
+                bit(out.closed),
+                bit(out.controlled),
+                bit(out.passed),
             ]);
             after
         },
