@@ -1,7 +1,7 @@
 //! Response times of HEIDENHAIN Functional Safety: the monitors between signals that arrive on a grid of 200 us, at every phase of
 //! the kernel's cycle of 3 ms.
 
-use stillpoint_monitors::heidenhain::types::{GroupState, Kind, Som, Stop};
+use stillpoint_monitors::heidenhain::types::{GroupState, Kind, Left, Som, Stop};
 use stillpoint_monitors::heidenhain::{
     agreement, both_channels, button, cc_link, gate, group, som, speed, status_bits, stop,
 };
@@ -153,7 +153,7 @@ fn an_open_door_stops_in_the_next_cycle() {
     let config = group::Config::new(Kind::NcAxes).expect("plausible");
     let automatic = group::State {
         state: GroupState::Auto,
-        both: false,
+        left: Left::NONE,
     };
     let mut group = group::Monitor::resume(config, automatic).expect("consistent");
     let limits = speed::Limits {
@@ -167,7 +167,7 @@ fn an_open_door_stops_in_the_next_cycle() {
     for cycle in 0..4 {
         let seen = speed.step(&speed::Inputs {
             state,
-            both: false,
+            left: Left::NONE,
             speed: Speed(2_500),
         });
         let stop = cc.stop.step(&stop::Inputs {
