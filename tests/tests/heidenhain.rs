@@ -94,6 +94,7 @@ fn tests_of_chain_channels_outputs_and_brakes() {
     holds("cutout.toml");
 }
 
+/// Among them: exactly one master CC (HFS-ARCH-002); what a changed parameter needs (HFS-PARAM-009).
 #[test]
 fn safe_inputs_and_general_fields() {
     holds("fields.toml");
