@@ -2,11 +2,11 @@
 
 mod common;
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use serde_json::Value;
 
-use common::{root, stdout, stillpoint};
+use common::{copied, stdout, stillpoint};
 
 const MILLING: &str = "spec/machines/milling-840d.toml";
 
@@ -110,35 +110,20 @@ fn proven_is_what_was_explored_with_the_times_of_the_axis() {
     }
 }
 
-/// A copy of the repository's data in which one file is changed.
-fn changed(name: &str, file: &str, from: &str, to: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-    let _ = std::fs::remove_dir_all(&folder);
-    let family = folder.join("spec/sinumerik-840d");
-    std::fs::create_dir_all(&family).expect("a folder");
-    std::fs::create_dir_all(folder.join("spec/machines")).expect("a folder");
-    for entry in std::fs::read_dir(root().join("spec/sinumerik-840d")).expect("the family") {
-        let path = entry.expect("an entry").path();
-        let name = path.file_name().expect("a name");
-        std::fs::copy(&path, family.join(name)).expect("copied");
-    }
-    std::fs::copy(root().join(MILLING), folder.join(MILLING)).expect("copied");
-    let path = folder.join("spec").join(file);
-    let text = std::fs::read_to_string(&path).expect("readable");
-    assert!(text.contains(from), "{file} has no {from}");
-    std::fs::write(&path, text.replacen(from, to, 1)).expect("written");
-    folder.join(MILLING)
+/// A copy of the milling machine and of its family in which a text of the chains is replaced.
+fn changed(name: &str, from: &str, to: &str) -> String {
+    let replace = [("spec/sinumerik-840d/reaction-chain.toml", from, to)];
+    copied(name, MILLING, "spec/sinumerik-840d", &replace)
 }
 
 #[test]
 fn a_summand_shorter_than_the_explored_bound_is_refuted() {
     let machine = changed(
         "reaction-refuted",
-        "sinumerik-840d/reaction-chain.toml",
         "time     = \"CYCLES(STOP_SWITCH_TIME_C) * monitoring_cycle\"",
         "time     = \"(CYCLES(STOP_SWITCH_TIME_C) - 1) * monitoring_cycle\"",
     );
-    let output = stillpoint(&["reaction", &machine.display().to_string()]);
+    let output = stillpoint(&["reaction", &machine]);
     assert_eq!(output.status.code(), Some(1), "{output:?}");
     let text = stdout(&output);
     assert!(text.contains("refuted"), "{text}");
@@ -149,11 +134,10 @@ fn a_summand_shorter_than_the_explored_bound_is_refuted() {
 fn a_fault_of_the_data_names_its_place() {
     let machine = changed(
         "reaction-unknown",
-        "sinumerik-840d/reaction-chain.toml",
         "length = \"STANDSTILL_TOL\"",
         "length = \"STANDSTIL_TOL\"",
     );
-    let output = stillpoint(&["reaction", &machine.display().to_string()]);
+    let output = stillpoint(&["reaction", &machine]);
     assert_eq!(output.status.code(), Some(2));
     let text = String::from_utf8_lossy(&output.stderr);
     assert!(

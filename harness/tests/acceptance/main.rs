@@ -9,9 +9,11 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use common::{root, stdout, stillpoint};
+use common::{copied, stdout, stillpoint};
 
 const MILLING: &str = "spec/machines/milling-840d.toml";
+const FAMILY: &str = "spec/sinumerik-840d";
+const CATALOGUE: &str = "spec/sinumerik-840d/acceptance.toml";
 
 fn json(arguments: &[&str]) -> Value {
     let mut all = vec!["acceptance"];
@@ -37,24 +39,13 @@ fn test<'a>(json: &'a Value, id: &str) -> &'a Value {
         .unwrap_or_else(|| panic!("no test {id}"))
 }
 
-/// A copy of the milling machine with something replaced, in a folder of the repository's data.
+/// A copy of the milling machine with something replaced, and of its family.
 fn milling(name: &str, replace: &[(&str, &str)]) -> String {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-    let _ = std::fs::remove_dir_all(&folder);
-    let family = folder.join("spec/sinumerik-840d");
-    std::fs::create_dir_all(&family).expect("a folder");
-    for entry in std::fs::read_dir(root().join("spec/sinumerik-840d")).expect("the family") {
-        let path = entry.expect("an entry").path();
-        std::fs::copy(&path, family.join(path.file_name().expect("a name"))).expect("copied");
-    }
-    let mut text = std::fs::read_to_string(root().join(MILLING)).expect("readable");
-    for (from, to) in replace {
-        assert!(text.contains(from), "no {from}");
-        text = text.replacen(from, to, 1);
-    }
-    let path = folder.join("milling-840d.toml");
-    std::fs::write(&path, text).expect("written");
-    path.display().to_string()
+    let replace: Vec<_> = replace
+        .iter()
+        .map(|(from, to)| (MILLING, *from, *to))
+        .collect();
+    copied(name, MILLING, FAMILY, &replace)
 }
 
 /// The list of tests and their parts (S840D-ACCEPT-751).
@@ -292,17 +283,9 @@ fn bad_input_is_refused() {
 
 #[test]
 fn a_parameter_that_no_test_reads_is_a_fault_of_the_catalogue() {
-    let file = milling("acceptance-unread", &[]);
-    let catalogue = Path::new(&file)
-        .with_file_name("spec")
-        .join("sinumerik-840d/acceptance.toml");
-    let text = std::fs::read_to_string(&catalogue).expect("readable");
-    let changed = text.replace(
-        "[\"VELO_OVR_FACTOR\", \"VELO_SWITCH_DELAY\"]",
-        "[\"VELO_SWITCH_DELAY\"]",
-    );
-    assert_ne!(text, changed);
-    std::fs::write(&catalogue, changed).expect("written");
+    let read = "[\"VELO_OVR_FACTOR\", \"VELO_SWITCH_DELAY\"]";
+    let replace = [(CATALOGUE, read, "[\"VELO_SWITCH_DELAY\"]")];
+    let file = copied("acceptance-unread", MILLING, FAMILY, &replace);
     let output = stillpoint(&["acceptance", &file]);
     assert_eq!(output.status.code(), Some(2));
     let says = String::from_utf8_lossy(&output.stderr).into_owned();

@@ -1,14 +1,13 @@
 //! `--run`: every test of the monitors on the simulated axis, and that each of them can fail.
 
 use std::collections::BTreeSet;
-use std::path::Path;
 
 use stillpoint::acceptance::{Ran, run};
 use stillpoint_spec::machine::acceptance::{Protocol, Simulated, Test};
 use stillpoint_spec::machine::{self, Machine};
 
-use super::common::{stderr, stdout, stillpoint};
-use super::{MILLING, json, milling};
+use super::common::{copied, stderr, stdout, stillpoint};
+use super::{CATALOGUE, FAMILY, MILLING, json, milling};
 
 /// The milling machine with other functions: cams, override, setpoint limit, STOP A, B and E of the stages (X); the pulses
 /// cancelled over the drive bus, stops for the whole channel (Y); a spindle with slip; a door that asks for SBH.
@@ -307,18 +306,10 @@ fn each_kind_fails_with_a_broken_expectation() {
 
 #[test]
 fn a_test_that_fails_is_told_with_its_diagram() {
-    let file = milling("acceptance-run", &[]);
-    let catalogue = Path::new(&file)
-        .with_file_name("spec")
-        .join("sinumerik-840d/acceptance.toml");
-    let text = std::fs::read_to_string(&catalogue).expect("readable");
-    // An axis that stays below its limit is not stopped.
-    let slow = text.replace(
-        "{VELO_LIMIT[k] + MAX(VELO_LIMIT[k] / 10, 60000) : speed}",
-        "{VELO_LIMIT[k] / 2 : speed}",
-    );
-    assert_ne!(text, slow);
-    std::fs::write(&catalogue, slow).expect("written");
+    // An axis that stays below its limit is not stopped; two tests drive it.
+    let fast = "{VELO_LIMIT[k] + MAX(VELO_LIMIT[k] / 10, 60000) : speed}";
+    let slow = [(CATALOGUE, fast, "{VELO_LIMIT[k] / 2 : speed}"); 2];
+    let file = copied("acceptance-run", MILLING, FAMILY, &slow);
     let output = stillpoint(&["acceptance", &file, "--run"]);
     assert_eq!(output.status.code(), Some(1));
     let said = stdout(&output);
@@ -327,9 +318,12 @@ fn a_test_that_fails_is_told_with_its_diagram() {
         "{said}"
     );
     // A test needs a scenario or a reason, and has only one of them.
-    let both = text.replace("hardware = \"the buttons", "# hardware = \"the buttons");
-    assert_ne!(text, both);
-    std::fs::write(&catalogue, both).expect("written");
+    let bare = [(
+        CATALOGUE,
+        "hardware = \"the buttons",
+        "# hardware = \"the buttons",
+    )];
+    let file = copied("acceptance-bare", MILLING, FAMILY, &bare);
     let output = stillpoint(&["acceptance", &file]);
     assert_eq!(output.status.code(), Some(2));
     let said = stderr(&output);

@@ -41,6 +41,30 @@ pub fn status(output: &Output) -> i32 {
     output.status.code().expect("no signal ended it")
 }
 
+/// A copy of a machine file and of the folder of its family, in a folder of this name: the path of the copied machine. Both are
+/// named from the root of the workspace, like the files in which then, one after the other, a text is replaced where it stands
+/// first.
+pub fn copied(name: &str, machine: &str, family: &str, replace: &[(&str, &str, &str)]) -> String {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _ = std::fs::remove_dir_all(&folder);
+    let copy = |path: &Path| {
+        let to = folder.join(path);
+        std::fs::create_dir_all(to.parent().expect("a folder")).expect("a folder");
+        std::fs::copy(root().join(path), to).expect("copied");
+    };
+    copy(Path::new(machine));
+    for entry in std::fs::read_dir(root().join(family)).expect("the family") {
+        copy(&Path::new(family).join(entry.expect("an entry").file_name()));
+    }
+    for (file, from, to) in replace {
+        let path = folder.join(file);
+        let text = std::fs::read_to_string(&path).expect("readable");
+        assert!(text.contains(from), "{file} has no {from}");
+        std::fs::write(&path, text.replacen(from, to, 1)).expect("written");
+    }
+    folder.join(machine).display().to_string()
+}
+
 /// A folder of one test, gone with the value.
 pub struct Folder(pub PathBuf);
 

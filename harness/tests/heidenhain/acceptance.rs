@@ -104,7 +104,7 @@ fn every_function_and_limit_is_tested() {
 fn the_configuration_decides_what_is_tested() {
     let machine = changed(
         "hfs-acceptance-bits",
-        &[("machine.toml", "SMP560_0 = true", "SMP560_3 = true")],
+        &[(MACHINE, "SMP560_0 = true", "SMP560_3 = true")],
     );
     let ids = ids(&json(&["acceptance", &machine]));
     assert!(ids.contains("MODE-SOM_4-LOCKED") && ids.contains("BRAKE-CONTROL-OFF"));
@@ -159,12 +159,8 @@ fn a_changed_parameter_repeats_its_tests() {
     let path = changed(
         "hfs-acceptance-since",
         &[
-            (
-                "machine.toml",
-                "SMP527  = \"300 ms\"",
-                "SMP527  = \"330 ms\"",
-            ),
-            ("machine.toml", "SMP610 = [\"NC\"]", "SMP610 = []"),
+            (MACHINE, "SMP527  = \"300 ms\"", "SMP527  = \"330 ms\""),
+            (MACHINE, "SMP610 = [\"NC\"]", "SMP610 = []"),
         ],
     );
     let json = json(&["acceptance", &path, "--since", MACHINE]);

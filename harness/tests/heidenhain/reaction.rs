@@ -97,16 +97,8 @@ fn the_summands_give_the_totals_of_the_manual() {
     let machine = changed(
         "hfs-reaction-totals",
         &[
-            (
-                "machine.toml",
-                "SMP525  = \"600 ms\"",
-                "SMP525  = \"420 ms\"",
-            ),
-            (
-                "machine.toml",
-                "MP7602   = \"21 ms\"",
-                "MP7602   = \"30 ms\"",
-            ),
+            (MACHINE, "SMP525  = \"600 ms\"", "SMP525  = \"420 ms\""),
+            (MACHINE, "MP7602   = \"21 ms\"", "MP7602   = \"30 ms\""),
         ],
     );
     let json = json(&["reaction", &machine, "--axis", "X"]);

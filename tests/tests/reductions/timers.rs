@@ -10,7 +10,7 @@ use super::{TIMERS, YARDSTICK, compare, reduced};
 fn timers_as_intervals_change_nothing_but_memory() {
     let mut stored = 0;
     for path in specification_files() {
-        for bound in small(&path) {
+        for bound in small(&path).0 {
             let name = &bound.system.name;
             if stillpoint_spec::timers::countdowns(&bound.system).is_empty() {
                 continue;

@@ -27,7 +27,7 @@ pub mod working_space;
 
 use self::key_filter::Keys;
 use crate::contract::Stateless;
-use crate::heidenhain::types::{GroupState, Som};
+use crate::heidenhain::types::{GroupState, Som, Unit};
 use crate::kernel::{ConfigError, Cycles, DurationTooLong};
 use core::num::NonZeroU32;
 
@@ -52,6 +52,17 @@ const MICROSECONDS: NonZeroU32 = match NonZeroU32::new(1000) {
     Some(thousand) => thousand,
     None => NonZeroU32::MIN,
 };
+
+/// The permissive that counts in a working space: that of the unit in use, and none while both doors are open (HFS-PB-004,
+/// HFS-API-026).
+pub(crate) fn permissive(unit: Unit, panel: bool, wheel: bool, both_doors_open: bool) -> bool {
+    let one = if unit == Unit::Handwheel {
+        wheel
+    } else {
+        panel
+    };
+    one && !both_doors_open
+}
 
 /// The position of an axis for a safety function of the program: `NN_AxPosition` in 0.0001 mm or 0.0001 degrees, reference
 /// system, and none unless `NN_AxSafe` says that it is reliable (HFS-API-034).

@@ -95,12 +95,8 @@ pub struct Inputs {
 impl Inputs {
     /// The permissive that counts: one unit's, and none while both doors are open.
     pub fn permissive(&self) -> bool {
-        let one = if self.unit == Unit::Handwheel {
-            self.wheel
-        } else {
-            self.panel
-        };
-        one && !(self.door_open && self.t_open)
+        let both_doors_open = self.door_open && self.t_open;
+        super::permissive(self.unit, self.panel, self.wheel, both_doors_open)
     }
 
     /// Whether the spindle may be released with the door open.

@@ -5,7 +5,7 @@ use stillpoint_monitors::heidenhain::{
 };
 
 use super::numbers::{self, *};
-use crate::diff::peer::adapter::{Cells, cells};
+use crate::diff::peer::adapter::cells;
 
 cells! {
     stop::State, 5 {
@@ -18,6 +18,10 @@ cells! {
     judge::State, 2 {
         modes = |c| value(&judge::Modes::ALL, c), |m| ordinal(&judge::Modes::ALL, m);
         place = |c| value(&judge::Place::ALL, c), |p| ordinal(&judge::Place::ALL, p);
+    }
+    group::State, 2 {
+        state = state, |s| ordinal(&GroupState::ALL, s);
+        left = left, bits;
     }
     startup::State, 1 {
         timer = cycles, cell;
@@ -50,36 +54,16 @@ cells! {
     }
 }
 
-/// The monitoring state, and a cell for each mode left in motion.
-impl Cells for group::State {
-    const COUNT: usize = 4;
-
-    fn load(cells: &[i32]) -> Self {
-        let cell = |k: usize| cells.get(k).copied().unwrap_or(0);
-        Self {
-            state: state(cell(0)),
-            left: Left {
-                sls_2: truthy(cell(1)),
-                sls_3: truthy(cell(2)),
-                sls_4: truthy(cell(3)),
-            },
-        }
+/// The modes left in motion from the bits of a cell.
+fn left(bits: i32) -> Left {
+    let has = |bit: i32| bits & (1 << bit) != 0;
+    Left {
+        sls_2: has(0),
+        sls_3: has(1),
+        sls_4: has(2),
     }
+}
 
-    fn store(self, cells: &mut [i32]) {
-        let Left {
-            sls_2,
-            sls_3,
-            sls_4,
-        } = self.left;
-        let own = [
-            ordinal(&GroupState::ALL, self.state),
-            i32::from(sls_2),
-            i32::from(sls_3),
-            i32::from(sls_4),
-        ];
-        for (cell, value) in cells.iter_mut().zip(own) {
-            *cell = value;
-        }
-    }
+fn bits(left: Left) -> i32 {
+    i32::from(left.sls_2) | i32::from(left.sls_3) << 1 | i32::from(left.sls_4) << 2
 }

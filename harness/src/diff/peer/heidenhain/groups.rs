@@ -223,7 +223,7 @@ fn group(p: &Params, mutant: Option<Mutant>) -> Refusable {
             "spindle_stop",
         ],
         &["state", "with_2", "with_3", "with_4", "may_move"],
-        vec![upto(7), truth(), truth(), truth()],
+        vec![upto(7), upto(7)],
         group::State::INITIAL,
         move |state, i, o| {
             let inputs = group::Inputs {

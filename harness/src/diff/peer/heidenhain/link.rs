@@ -24,10 +24,6 @@ cells! {
     }
 }
 
-fn small(cell: i32) -> u8 {
-    u8::try_from(cell).unwrap_or(u8::MAX)
-}
-
 /// A drive from the five bits that the table has of it.
 fn drive(bits: i32) -> cc_link::Drive {
     let has = |bit: i32| bits & (1 << bit) != 0;

@@ -87,24 +87,26 @@ fn domains(p: &Params) -> Vec<stillpoint_model::Domain> {
     all
 }
 
-/// The keys of the spindle are those of the unit in use; the axis keys and NC start those of the panel.
-fn keys(unit: Unit, panel: Keys, turning: Keys, wheel: bool) -> (Keys, Keys) {
+/// The unit in use with its keys, and nothing else: those of the spindle are of that unit, the axis keys and NC start of the panel.
+fn keys(unit: Unit, panel: Keys, turning: Keys, wheel: bool) -> key_filter::Inputs {
     let on_wheel = unit == Unit::Handwheel;
     let turn = |here: bool| if here { turning } else { Keys::NONE };
     let (at_panel, at_wheel) = (turn(!on_wheel), turn(on_wheel));
-    (
-        Keys {
+    key_filter::Inputs {
+        unit,
+        panel: Keys {
             jog: at_panel.jog,
             spindle_start: at_panel.spindle_start,
             ..panel
         },
-        Keys {
+        wheel: Keys {
             permissive: wheel,
             jog: at_wheel.jog,
             spindle_start: at_wheel.spindle_start,
             ..Keys::NONE
         },
-    )
+        ..key_filter::Inputs::default()
+    }
 }
 
 /// A feed enable of the only axis.
@@ -198,18 +200,15 @@ fn program(p: &Params, blocks: Blocks) -> Refusable {
                 spindle_start: i[10] != 0,
                 ..Keys::NONE
             };
-            let (panel, wheel) = keys(unit(i[14]), panel, turning, i[5] != 0);
             let inputs = Inputs {
                 keys: key_filter::Inputs {
                     door_open: i[0] != 0,
                     t_open: i[1] != 0,
-                    unit: unit(i[14]),
-                    panel,
-                    wheel,
                     stop: i[11] != 0,
                     t_permissive: i[6] != 0,
                     t_keys: u8::from(i[12] != 0),
                     confirm: i[13] != 0,
+                    ..keys(unit(i[14]), panel, turning, i[5] != 0)
                 },
                 som: som(i[2]),
                 som_changed: i[3] != 0,
@@ -262,16 +261,12 @@ fn axes(p: &Params, blocks: Blocks) -> Refusable {
                 nc_start: i[8] != 0,
                 ..Keys::NONE
             };
-            let (panel, wheel) = keys(unit(i[4]), panel, Keys::NONE, i[6] != 0);
             let inputs = Inputs {
                 keys: key_filter::Inputs {
                     door_open: i[0] != 0,
                     t_open: i[1] != 0,
-                    unit: unit(i[4]),
-                    panel,
-                    wheel,
                     stop: i[9] != 0,
-                    ..key_filter::Inputs::default()
+                    ..keys(unit(i[4]), panel, Keys::NONE, i[6] != 0)
                 },
                 som: som(i[2]),
                 som_changed: i[3] != 0,
@@ -316,16 +311,12 @@ fn spindle(p: &Params, blocks: Blocks) -> Refusable {
                 spindle_start: i[8] != 0,
                 ..Keys::NONE
             };
-            let (panel, wheel) = keys(unit(i[4]), panel, turning, i[6] != 0);
             let inputs = Inputs {
                 keys: key_filter::Inputs {
                     door_open: i[0] != 0,
                     t_open: i[1] != 0,
-                    unit: unit(i[4]),
-                    panel,
-                    wheel,
                     stop: i[9] != 0,
-                    ..key_filter::Inputs::default()
+                    ..keys(unit(i[4]), panel, turning, i[6] != 0)
                 },
                 som: som(i[2]),
                 som_changed: i[3] != 0,
