@@ -2,7 +2,7 @@
 //!
 //! One increment is one micrometre of a linear axis or one thousandth of a degree of a rotary axis. Every conversion says
 //! to which side it rounds. Limits, tolerances and thresholds of speed and distance round **down**: no converted value
-//! permits more than the exact one. For a comparison `value > limit` of whole increments rounding down loses nothing
+//! permits more than the exact one. The one exception says so ([`Scale::way_up`]). For a comparison `value > limit` of whole increments rounding down loses nothing
 //! either: a whole number is above the exact limit exactly when it is above the limit rounded down.
 
 use core::num::NonZeroU32;
@@ -56,17 +56,39 @@ impl Scale {
     /// # Errors
     /// [`ConfigError::ValueTooLarge`] when the result needs more than 32 bits, or the calculation more than 64.
     pub const fn speed_from_thousandths(self, per_minute: u64) -> Result<Speed, ConfigError> {
-        // Increments per unit * microseconds / (60e6 us * 1000), in lowest terms: 1e3 or 360e3 over 60e9.
-        let (numerator, denominator) = match self.axis {
-            Axis::Linear => (1, 60_000_000),
-            Axis::Rotary => (3, 500_000),
-        };
+        let (numerator, denominator) = self.ratio();
         match per_minute.checked_mul(self.cycle_us.get() as u64 * numerator) {
             Some(product) => match narrow(product / denominator) {
                 Ok(increments) => Ok(Speed(increments)),
                 Err(error) => Err(error),
             },
             None => Err(ConfigError::ValueTooLarge),
+        }
+    }
+
+    /// The way at a speed in thousandths of mm/min or rev/min in a number of cycles, rounded **up**: a way that somebody who is
+    /// no faster does not exceed.
+    ///
+    /// # Errors
+    /// [`ConfigError::ValueTooLarge`] when the result needs more than 32 bits.
+    pub const fn way_up(self, per_minute: u32, cycles: u32) -> Result<Distance, ConfigError> {
+        let (numerator, denominator) = self.ratio();
+        // Numbers of 32, 15, 2 and 32 bits.
+        let product =
+            per_minute as u128 * self.cycle_us.get() as u128 * numerator as u128 * cycles as u128;
+        let increments = product.div_ceil(denominator as u128);
+        if increments > u32::MAX as u128 {
+            Err(ConfigError::ValueTooLarge)
+        } else {
+            Ok(Distance(increments as u32))
+        }
+    }
+
+    /// Increments per unit * microseconds / (60e6 us * 1000), in lowest terms: 1e3 or 360e3 over 60e9.
+    const fn ratio(self) -> (u64, u64) {
+        match self.axis {
+            Axis::Linear => (1, 60_000_000),
+            Axis::Rotary => (3, 500_000),
         }
     }
 }

@@ -6,7 +6,7 @@ use stillpoint_monitors::sinumerik::code::Code;
 use stillpoint_monitors::sinumerik::fault::FaultState;
 use stillpoint_monitors::sinumerik::level::Level;
 use stillpoint_monitors::sinumerik::pair::{Config, Inputs};
-use stillpoint_monitors::sinumerik::parameters::{Encoders, Parameters};
+use stillpoint_monitors::sinumerik::parameters::Parameters;
 use stillpoint_monitors::sinumerik::selection::Mode;
 
 use crate::machine::{Machine, both, idle, levels, parameters, referenced};
@@ -100,59 +100,6 @@ fn agreements_differ_too_long() {
         machine.first(300, |o| o.drive.code == Code::AGREEMENT_DIFFERS),
         Some(11 + 167)
     );
-}
-
-/// S840D-SLIP-502, S840D-SLIP-504, S840D-KDV-505: an axis with slip and two encoders. The position item (item 2) moves
-/// both channels by half of the difference; a slip beyond the tolerance is STOP F with code 3, and is corrected as well.
-#[test]
-fn slip_is_synchronised() {
-    let mut slipping = Parameters {
-        function_enable: 0b1001,
-        ..Parameters::default()
-    };
-    slipping.installation.encoders = Encoders::Two;
-    let mut machine = Machine::powered(&slipping, false, None);
-    // 6 mm/min are 1 um a cycle: the tolerance of one comparison is 1 um.
-    machine.inputs.drive.position = Position(1);
-    let outputs = machine.at(2);
-    assert!(outputs.nck.code.is_none());
-    assert_eq!(
-        (outputs.nck.position, outputs.drive.position),
-        (Position(0), Position(1))
-    );
-    machine.inputs.drive.position = Position(41);
-    let outputs = machine.at(85);
-    assert_eq!(
-        (outputs.nck.position, outputs.drive.position),
-        (Position(0), Position(41))
-    );
-    let outputs = machine.at(86);
-    assert_eq!(outputs.nck.code, Code::POSITION);
-    assert_eq!(
-        (outputs.nck.position, outputs.drive.position),
-        (Position(20), Position(21))
-    );
-    assert_eq!(outputs.nck.channel.fault.fault, FaultState::Latched);
-    let outputs = machine.once(|local| local.reset = true);
-    assert!(outputs.nck.reset_taken && !outputs.nck.channel.start_inhibit);
-    assert!(machine.at(170).nck.code.is_none());
-}
-
-/// S840D-SLIP-502: the feed of a cycle is no slip: the positions compared are of one instant.
-#[test]
-fn feed_is_no_slip() {
-    let mut slipping = Parameters {
-        function_enable: 0b1001,
-        ..Parameters::default()
-    };
-    slipping.installation.encoders = Encoders::Two;
-    let mut machine = Machine::powered(&slipping, false, None);
-    for _ in 0..300 {
-        machine.both(|local| local.position.0 += 1_000);
-        let outputs = machine.step();
-        assert!(outputs.nck.code.is_none());
-        assert_eq!(outputs.nck.position, machine.inputs.nck.position);
-    }
 }
 
 /// S840D-KDV-504, S840D-ACK-001: power-on begins the comparison anew; what was told before it counts no more.

@@ -4,5 +4,6 @@ mod comparison;
 mod laws;
 mod machine;
 mod position;
+mod slip;
 mod stops;
 mod tests_of_paths;

@@ -5,6 +5,7 @@ use super::{Config, Exchange, Inputs, Outputs, Side, State, TestResult, Told};
 use crate::kernel::Position;
 use crate::sinumerik::alarm::{self, Alarm, Alarms};
 use crate::sinumerik::code::Code;
+use crate::sinumerik::compare::list::Rule;
 use crate::sinumerik::gear::GearIndex;
 use crate::sinumerik::interface::{Sga, Sge};
 use crate::sinumerik::level::{ExternalStop, InternalStop};
@@ -89,7 +90,7 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
         results_2: lists.list_2.bits(),
         position,
         speed: channel_out.motion.speed,
-        reference: channel_out.selection.reference,
+        reference: standstill_reference(&state, inputs, &channel, compared.slip),
         external: channel_out.external.request.max(passed),
         over: monitors
             .channel
@@ -98,6 +99,7 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
             .factor,
         turned: (channel.selection.mode == Mode::SbhForced)
             != (state.channel.selection.mode == Mode::SbhForced),
+        set: referenced.reference.1.compare_due || unparked(&state, local.power_on, &channel),
     };
     let test = if channel_out.test.passed {
         TestResult::Passed
@@ -127,6 +129,7 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
         fault: channel_out.fault.interlock,
         braking: channel.stop.phase == Phase::Braking,
         agreed: referenced.agreement.1.agreed,
+        set: told.set,
         changing: compared.compare.1.changing || told.turned,
         cams: own_cams,
         test,
@@ -158,6 +161,31 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
     };
     outputs.alarms = alarms(&state, config, inputs, &outputs);
     (after, outputs)
+}
+
+/// The reference of the operating stop, captured with the correction of that cycle, so that the limits made of it agree in
+/// both channels also where their measured positions have drifted apart before. The monitor keeps to the measured one.
+fn standstill_reference(
+    state: &State,
+    inputs: &Inputs,
+    channel: &channel::State,
+    slip: slip::State,
+) -> Position {
+    let standstill = |mode| matches!(mode, Mode::Sbh | Mode::SbhForced);
+    let (before, after) = (state.channel.selection.mode, channel.selection.mode);
+    let forced = before == Mode::Sbh && after == Mode::SbhForced;
+    if !standstill(after) {
+        channel.selection.reference
+    } else if standstill(before) && !forced && !inputs.local.power_on {
+        state.told.reference
+    } else {
+        slip.correct(channel.selection.reference)
+    }
+}
+
+/// The first position after parking was read in this cycle.
+const fn unparked(state: &State, power_on: bool, channel: &channel::State) -> bool {
+    !power_on && !state.channel.motion.known && channel.motion.known
 }
 
 /// RESET may be taken: neither channel brakes, and both have latched the same.
@@ -256,12 +284,15 @@ fn compare_channels(state: &State, config: &Config, inputs: &Inputs) -> Compared
         ),
         Some(config) => {
             let due_now = !power_on && due.code() == Code::POSITION;
+            // What referencing and parking leave between the channels is corrected, and is no slip (S840D-SLIP-502). Both
+            // channels do it in the same cycle, also where only one of them has been set anew.
+            let set = !power_on && (state.told.set || inputs.other.set);
             let (slip, out) = slip::next(
                 state.slip,
                 config,
                 &slip::Inputs {
                     power_on,
-                    due: due_now,
+                    due: due_now || set,
                     own: state.channel.motion.last,
                     other: inputs.other.snapshot.position,
                 },
@@ -271,6 +302,7 @@ fn compare_channels(state: &State, config: &Config, inputs: &Inputs) -> Compared
             } else {
                 told::differs(due, &state.told, &inputs.other, monitors)
             };
+            let differs = differs && !(set && due.rule() == Rule::Tolerance);
             (slip, differs)
         }
     };

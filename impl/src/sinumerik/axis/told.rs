@@ -35,6 +35,8 @@ pub struct Exchange {
     pub braking: bool,
     /// The user agreement.
     pub agreed: bool,
+    /// The actual value was set anew in this cycle: the axis was referenced, or parking has ended. Both channels synchronise.
+    pub set: bool,
     /// An own input signal has changed within t_chg, or the forced operating stop has begun or ended (cross comparison).
     pub changing: bool,
     /// The own results of the cams (cam synchronisation).
@@ -58,7 +60,7 @@ pub struct Told {
     pub position: Position,
     /// The actual speed.
     pub speed: Speed,
-    /// The reference of the operating stop.
+    /// The reference of the operating stop, corrected as the position was when it was captured.
     pub reference: Position,
     /// The external stop request, that of the other channel included.
     pub external: ExternalStop,
@@ -66,6 +68,8 @@ pub struct Told {
     pub over: FactorIndex,
     /// The forced operating stop began or ended in the cycle: for the comparison like a change of a signal.
     pub turned: bool,
+    /// The actual value was set anew in the cycle: the axis was referenced, or parking has ended.
+    pub set: bool,
 }
 
 impl Told {
@@ -79,6 +83,7 @@ impl Told {
         external: ExternalStop::None,
         over: FactorIndex::NONE,
         turned: false,
+        set: false,
     };
 
     /// The whole snapshot, with the limits of the cycle and the parameters (S840D-TIMING-512, S840D-KDV-508).
@@ -106,7 +111,8 @@ impl Told {
 /// Whether an item differs between what this channel and the other one told in the last cycle.
 ///
 /// Result list 2 is compared with the tolerances of its monitors: around a cam, and around n_x, the channels may see
-/// different states (S840D-SN-005, S840D-SN-006, S840D-NX-001); around the end of the modulo range, where one channel may
+/// different states (S840D-SN-005, S840D-SN-006, S840D-NX-001), with slip at speeds that differ by as much as is tolerated
+/// (S840D-NX-002, S840D-SLIP-505); around the end of the modulo range, where one channel may
 /// have been folded and the other not, every cam. Their positions are compared there as everywhere (code 3).
 pub(super) fn differs(item: Item, own: &Told, other: &Exchange, config: &Configuration) -> bool {
     if item.code() == Code::RESULTS_2 {
@@ -140,7 +146,7 @@ fn tolerated(position: Position, speed: Speed, config: &Configuration) -> u32 {
     if range.folds() && folded.distance(range.lower()) <= tolerance {
         bits |= CAMS;
     }
-    if speed.0.abs_diff(config.words.velo_x.0) <= tolerance.0 {
+    if speed.0.abs_diff(config.words.velo_x.0) <= config.speed_tolerance.0 {
         bits |= N_X;
     }
     bits

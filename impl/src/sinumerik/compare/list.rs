@@ -100,7 +100,8 @@ pub static CLASSES: [Item; 6] = items(&[(1, 1), (2, 2), (3, 3), (5, 5), (44, 44)
 pub enum Tolerance {
     /// SAFE_POS_TOL.
     Position(Distance),
-    /// With synchronisation of the actual values: SAFE_SLIP_VELO_TOL as the way in one comparison.
+    /// With synchronisation of the actual values: the slip that SAFE_SLIP_VELO_TOL tolerates from one comparison of the
+    /// positions, in which they are synchronised, to the next one.
     Slip(Distance),
 }
 
@@ -184,8 +185,8 @@ pub struct Parameters {
     pub cam_tol: Distance,
     /// SAFE_POS_TOL, code 31.
     pub pos_tol: Distance,
-    /// SAFE_SLIP_VELO_TOL, code 31.
-    pub slip_velo_tol: Speed,
+    /// SAFE_SLIP_VELO_TOL, as the difference that it tolerates, code 31.
+    pub slip_velo_tol: Distance,
     /// SAFE_REFP_POS_TOL, code 32.
     pub refp_pos_tol: Distance,
     /// SAFE_VELO_SWITCH_DELAY, code 33.

@@ -16,6 +16,10 @@ use crate::units::{ModuloRange, Scale};
 /// The user agreements may differ this long (S840D-UA-009).
 const AGREEMENTS_DIFFER_MS: u32 = 2_000;
 
+/// The cycles from one comparison of the positions to the next: one item of the list is compared in each (MD36992).
+#[allow(clippy::cast_possible_truncation)]
+const PASS: u32 = list::ITEMS.len() as u32;
+
 /// The configurations of all monitors of one channel of one axis, from machine data that the manual permits: there is no
 /// way to one but [`Parameters::validate`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,6 +35,8 @@ pub struct Configuration {
     pub(crate) results: results::Config,
     pub(crate) compare: compare::Config,
     pub(crate) tolerance: list::Tolerance,
+    /// By how much the ways of one cycle may differ where both channels compare theirs with n_x.
+    pub(crate) speed_tolerance: Distance,
     pub(crate) modulo: ModuloRange,
     pub(crate) shutdown_test: shutdown_test::Config,
     pub(crate) forced_check: forced_check::Config,
@@ -110,6 +116,15 @@ impl Clock {
         self.scale.speed_from_thousandths(u64::from(thousandths))
     }
 
+    /// The greatest difference of the actual values that a tolerated slip, in thousandths of mm/min or rev/min, leaves after
+    /// a number of cycles (S840D-SLIP-504): the slip of these cycles, rounded up, and the dead band, which covers what stays
+    /// uncorrected and what is lost where each channel rounds its own position. A slip up to the machine datum is so never
+    /// an error; what is tolerated beyond it is less than three increments in these cycles.
+    fn slip(self, thousandths: u32, cycles: u32) -> Result<Distance, ConfigError> {
+        let way = self.scale.way_up(thousandths, cycles)?;
+        Ok(Distance(way.0.saturating_add(slip::DEAD_BAND.0)))
+    }
+
     fn speeds(self, [a, b, c, d]: [u32; 4]) -> Result<[Speed; 4], ConfigError> {
         Ok([
             self.speed(a)?,
@@ -129,7 +144,7 @@ impl Configuration {
     pub(super) fn convert(p: &Parameters) -> Result<Self, ParameterError> {
         let clock = Clock::new(p)?;
         let se_sn_enabled = p.se_sn_enabled();
-        let slip_tol = Distance(clock.speed(p.slip_velo_tol)?.0);
+        let slip_tol = clock.slip(p.slip_velo_tol, PASS)?;
         let slip = if p.enabled(Function::SlipSync) {
             let two = p.installation.encoders == Encoders::Two;
             Some(slip::Config::new(
@@ -161,6 +176,11 @@ impl Configuration {
                 list::Tolerance::Slip(slip_tol)
             } else {
                 list::Tolerance::Position(Distance(p.pos_tol))
+            },
+            speed_tolerance: if slip.is_some() {
+                clock.slip(p.slip_velo_tol, 1)?
+            } else {
+                Distance(p.pos_tol)
             },
             modulo,
             shutdown_test: shutdown_test::Config::new(clock.delay(p.pulse_dis_check_time)?)?,
@@ -284,7 +304,7 @@ fn words(p: &Parameters, clock: Clock) -> Result<list::Parameters, ConfigError> 
         cams: [pair(0), pair(1), pair(2), pair(3)],
         cam_tol: Distance(p.cam_tol),
         pos_tol: Distance(p.pos_tol),
-        slip_velo_tol: clock.speed(p.slip_velo_tol)?,
+        slip_velo_tol: clock.slip(p.slip_velo_tol, PASS)?,
         refp_pos_tol: Distance(p.refp_pos_tol),
         velo_switch_delay: clock.delay(p.velo_switch_delay)?,
         mode_switch_time: clock.delay(p.mode_switch_time)?,
