@@ -6,7 +6,7 @@ use std::fmt::Write;
 use serde_json::{Value, json};
 use stillpoint_spec::catalogue::Scope;
 
-use super::{Matrix, Row, Status, area};
+use super::{Matrix, Row, Sentence, Shown, Status, area};
 
 fn scope_name(scope: Scope) -> &'static str {
     match scope {
@@ -16,10 +16,11 @@ fn scope_name(scope: Scope) -> &'static str {
     }
 }
 
-/// Requirements covered, excepted and open.
+/// Requirements covered, delegated, excepted and open.
 #[derive(Default, Clone, Copy)]
 struct Count {
     covered: usize,
+    delegated: usize,
     excepted: usize,
     open: usize,
     open_core: usize,
@@ -27,13 +28,14 @@ struct Count {
 
 impl Count {
     fn add(&mut self, row: &Row) {
-        match row.status {
+        match row.status() {
             Status::Covered => self.covered += 1,
+            Status::Delegated => self.delegated += 1,
             Status::Excepted => self.excepted += 1,
             Status::Open => self.open += 1,
         }
         self.open_core +=
-            usize::from(row.status == Status::Open && row.requirement.scope == Scope::Core);
+            usize::from(row.status() == Status::Open && row.requirement.scope == Scope::Core);
     }
 }
 
@@ -52,13 +54,13 @@ fn counts(matrix: &Matrix) -> BTreeMap<&str, (Count, BTreeMap<&str, Count>)> {
 pub fn text(matrix: &Matrix) -> String {
     let mut out = String::new();
     let line = |out: &mut String, name: &str, c: Count| {
-        let (a, b, open, core) = (c.covered, c.excepted, c.open, c.open_core);
-        let _ = writeln!(out, "{name:<24}{a:>8}{b:>10}{open:>8}{core:>12}");
+        let (a, b, d, open, core) = (c.covered, c.delegated, c.excepted, c.open, c.open_core);
+        let _ = writeln!(out, "{name:<24}{a:>8}{b:>11}{d:>10}{open:>8}{core:>12}");
     };
     let _ = writeln!(
         out,
-        "{:<24}{:>8}{:>10}{:>8}{:>12}",
-        "", "covered", "excepted", "open", "of it core"
+        "{:<24}{:>8}{:>11}{:>10}{:>8}{:>12}",
+        "", "covered", "delegated", "excepted", "open", "of it core"
     );
     for (family, (all, areas)) in counts(matrix) {
         line(&mut out, family, all);
@@ -75,6 +77,9 @@ pub fn text(matrix: &Matrix) -> String {
     for (id, place) in &matrix.unknown {
         let _ = writeln!(out, "UNKNOWN  {id}, named by {place}, is in no catalogue");
     }
+    for message in &matrix.nowhere {
+        let _ = writeln!(out, "NOWHERE  {message}");
+    }
     out.push_str("\nOpen core requirements and what is missing\n");
     for row in matrix.open_core() {
         let _ = writeln!(
@@ -88,32 +93,67 @@ pub fn text(matrix: &Matrix) -> String {
     out
 }
 
-/// The evidence that an open requirement has not.
+/// The evidence that an open requirement has not, or each of its open sentences.
 fn missing(row: &Row) -> String {
-    let mut list = Vec::new();
-    if row.rules.is_empty() {
-        list.push("rule");
+    if row.sentences.is_empty() {
+        return lacking(row, &row.shown).join(", ");
     }
-    if row.monitors.is_empty() && super::about_monitors(&row.requirement) {
-        list.push("monitor");
+    let mut list: Vec<String> = row
+        .sentences
+        .iter()
+        .filter(|s| s.shown.status == Status::Open)
+        .map(|s| format!("{}: {}", s.name, lacking(row, &s.shown).join(", ")))
+        .collect();
+    if !row.vague.is_empty() {
+        list.push(format!("{} places name no sentence", row.vague.len()));
     }
-    if row.proofs.is_empty() && row.tests.is_empty() {
-        list.push("proof or test");
-    }
-    list.join(", ")
+    list.join("; ")
 }
 
-/// The matrix as JSON: the keys of the design, and the ids that no catalogue has.
+fn lacking(row: &Row, shown: &Shown) -> Vec<&'static str> {
+    let mut list = Vec::new();
+    if shown.rules.is_empty() {
+        list.push("rule");
+    }
+    if shown.monitors.is_empty() && super::about_monitors(&row.requirement) {
+        list.push("monitor");
+    }
+    if shown.proofs.is_empty() && shown.tests.is_empty() {
+        list.push("proof or test");
+    }
+    if list.is_empty() {
+        // A chain alone specifies nothing that a monitor does.
+        list.push("rule of a table");
+    }
+    list
+}
+
+fn evidence(shown: &Shown) -> Value {
+    json!({
+        "status": shown.status.name(), "rules": shown.rules, "monitors": shown.monitors, "proofs": shown.proofs,
+        "tests": shown.tests, "reason": shown.reason,
+    })
+}
+
+fn sentence(sentence: &Sentence) -> Value {
+    let mut value = evidence(&sentence.shown);
+    value["name"] = json!(sentence.name);
+    value["text"] = json!(sentence.text);
+    value
+}
+
+/// The matrix as JSON: the keys of the design, the sentences, what no catalogue has and where a delegation leads nowhere.
 pub fn to_json(matrix: &Matrix) -> Value {
     let rows: Vec<Value> = matrix
         .rows
         .iter()
         .map(|r| {
-            json!({
-                "id": r.requirement.id, "family": r.requirement.family, "scope": scope_name(r.requirement.scope),
-                "status": r.status.name(), "rules": r.rules, "monitors": r.monitors, "proofs": r.proofs,
-                "tests": r.tests, "reason": r.reason,
-            })
+            let mut row = evidence(&r.shown);
+            row["id"] = json!(r.requirement.id);
+            row["family"] = json!(r.requirement.family);
+            row["scope"] = json!(scope_name(r.requirement.scope));
+            row["sentences"] = r.sentences.iter().map(sentence).collect();
+            row
         })
         .collect();
     let unknown: Vec<Value> = matrix
@@ -121,7 +161,9 @@ pub fn to_json(matrix: &Matrix) -> Value {
         .iter()
         .map(|(id, by)| json!({ "id": id, "named_by": by }))
         .collect();
-    json!({ "requirements": rows, "unknown": unknown, "complete": matrix.complete })
+    json!({
+        "requirements": rows, "unknown": unknown, "nowhere": matrix.nowhere, "complete": matrix.complete,
+    })
 }
 
 fn escaped(text: &str) -> String {
@@ -137,16 +179,17 @@ pub fn html(matrix: &Matrix) -> String {
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>Requirement matrix</title>\n<style>\n\
          body { font-family: sans-serif; }\ntable { border-collapse: collapse; }\n\
          td, th { border: 1px solid #999; padding: 2px 6px; text-align: left; vertical-align: top; }\n\
-         .covered { background: #dfd; } .excepted { background: #eee; } .open { background: #fdd; }\n\
+         .covered { background: #dfd; } .delegated { background: #ddf; } .excepted { background: #eee; } .open { background: #fdd; }\n\
          </style>\n</head>\n<body>\n<h1>Requirement matrix</h1>\n\
-         <table>\n<tr><th>family</th><th>covered</th><th>excepted</th><th>open</th><th>open core</th></tr>\n",
+         <table>\n<tr><th>family</th><th>covered</th><th>delegated</th><th>excepted</th><th>open</th><th>open core</th></tr>\n",
     );
     for (family, (c, _)) in counts(matrix) {
         let _ = writeln!(
             out,
-            "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>",
+            "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>",
             escaped(family),
             c.covered,
+            c.delegated,
             c.excepted,
             c.open,
             c.open_core
@@ -165,22 +208,36 @@ pub fn html(matrix: &Matrix) -> String {
          <th>monitors</th><th>proofs</th><th>tests</th><th>reason</th></tr>\n",
     );
     for row in &matrix.rows {
-        let list = |places: &[String]| escaped(&places.join("\n")).replace('\n', "<br>");
-        let status = row.status.name();
-        let _ = writeln!(
-            out,
-            "<tr class=\"{status}\"><td>{}</td><td>{}</td><td>{}</td><td>{status}</td><td>{}</td><td>{}</td><td>{}</td>\
-             <td>{}</td><td>{}</td></tr>",
-            escaped(&row.requirement.id),
-            escaped(&row.requirement.title),
-            scope_name(row.requirement.scope),
-            list(&row.rules),
-            list(&row.monitors),
-            list(&row.proofs),
-            list(&row.tests),
-            escaped(row.reason.as_deref().unwrap_or("")),
+        let (requirement, scope) = (&row.requirement, scope_name(row.requirement.scope));
+        table_row(
+            &mut out,
+            &requirement.id,
+            &requirement.title,
+            scope,
+            &row.shown,
         );
+        for sentence in &row.sentences {
+            let id = format!("{}/{}", requirement.id, sentence.name);
+            table_row(&mut out, &id, &sentence.text, scope, &sentence.shown);
+        }
     }
     out.push_str("</table>\n</body>\n</html>\n");
     out
+}
+
+fn table_row(out: &mut String, id: &str, title: &str, scope: &str, shown: &Shown) {
+    let list = |places: &[String]| escaped(&places.join("\n")).replace('\n', "<br>");
+    let status = shown.status.name();
+    let _ = writeln!(
+        out,
+        "<tr class=\"{status}\"><td>{}</td><td>{}</td><td>{scope}</td><td>{status}</td><td>{}</td><td>{}</td><td>{}</td>\
+         <td>{}</td><td>{}</td></tr>",
+        escaped(id),
+        escaped(title),
+        list(&shown.rules),
+        list(&shown.monitors),
+        list(&shown.proofs),
+        list(&shown.tests),
+        escaped(shown.reason.as_deref().unwrap_or("")),
+    );
 }
