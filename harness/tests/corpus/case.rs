@@ -35,6 +35,9 @@ pub struct Case {
     /// Lines of the place that is followed where this one is not, and why.
     #[serde(default)]
     pub contradicts: Option<String>,
+    /// The keys of `given` that stand in the case itself, not at the head of its file.
+    #[serde(skip)]
+    pub own: Vec<String>,
     /// The file it stands in.
     #[serde(skip)]
     pub file: String,
@@ -57,6 +60,9 @@ pub enum Kind {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct File {
+    /// What is given to every case of the file that does not give it itself.
+    #[serde(default)]
+    given: Table,
     case: Vec<Case>,
 }
 
@@ -65,6 +71,7 @@ impl Case {
     pub fn parse(file: &str, text: &str) -> Self {
         let mut case: Self = toml::from_str(text).unwrap_or_else(|e| panic!("{file}: {e}"));
         file.clone_into(&mut case.file);
+        case.own = case.given.keys().cloned().collect();
         case
     }
 
@@ -135,6 +142,12 @@ pub fn load(family: &str) -> Vec<Case> {
         let file: File = toml::from_str(&text).unwrap_or_else(|e| panic!("{name}: {e}"));
         for mut case in file.case {
             case.file.clone_from(&name);
+            case.own = case.given.keys().cloned().collect();
+            for (key, value) in &file.given {
+                case.given
+                    .entry(key.clone())
+                    .or_insert_with(|| value.clone());
+            }
             if let Some(fault) = case.faults(last_line) {
                 panic!("{}: {fault}", case.place());
             }
@@ -231,11 +244,10 @@ impl<'a> Given<'a> {
         self.need(key, "a number", number)
     }
 
-    /// The keys that nobody asked for.
-    pub fn unread(&self) -> Vec<String> {
+    /// Those of `keys` that nobody asked for.
+    pub fn unread(&self, keys: &[String]) -> Vec<String> {
         let read = self.read.borrow();
-        self.table
-            .keys()
+        keys.iter()
             .filter(|key| !read.contains(*key))
             .cloned()
             .collect()

@@ -16,6 +16,8 @@
 //! reading = "A-07"                     # only where the number holds under one reading of an ambiguous place
 //! ```
 //!
+//! A table `[given]` at the head of a file is given to each of its cases that does not say otherwise.
+//!
 //! A runner (`sinumerik.rs`, `heidenhain.rs`, or modules below them) is a function from what is given to an answer. It must not
 //! know what is expected, and takes no number that the manual prints from anywhere but the case. Where the manual contradicts
 //! itself, both places are cases: the one that is not followed has `expect` as the code answers and says so in `contradicts`.
@@ -84,7 +86,7 @@ fn judge(case: &Case, runner: Runner) -> Vec<String> {
         Err(error) => return vec![format!("{}: {error}", case.place())],
     };
     let mut wrong: Vec<String> = given
-        .unread()
+        .unread(&case.own)
         .into_iter()
         .map(|key| format!("{}: given {key} is not read by {}", case.place(), case.run))
         .collect();

@@ -10,6 +10,8 @@ use stillpoint_monitors::sinumerik::parameters::{Configuration, Parameters};
 pub const RUNNERS: &[(&str, Runner)] = &[
     ("story", story::run),
     ("external_stops", single::external_stops),
+    ("priority", single::priority),
+    ("signal", single::signal),
 ];
 
 /// The machine data of axis X of a machine file, in the units of the monitors. Given: `axis`, the lines of the table of the axis;
