@@ -1,0 +1,151 @@
+//! The safe PLC program of a machine is judged by the event tables of the manual: every property of them finds a program that
+//! breaks it, and none finds one in the shipped machine.
+
+use std::collections::BTreeSet;
+
+use serde::Deserialize;
+use stillpoint::check::{Checked, Settings, check, exit_status, summarise};
+use stillpoint::subject::{self, Readings, Subject};
+use stillpoint_model::Verdict;
+use stillpoint_spec::machine;
+use stillpoint_tests::root;
+
+const MACHINE: &str = "spec/machines/machining-centre-heidenhain.toml";
+const LIBRARY: &str = "events.toml";
+
+/// A program that is wrong in one place.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Mistake {
+    text: String,
+    /// What stands in the machine file once, and what stands there instead.
+    replace: Vec<(String, String)>,
+    /// The property that finds it.
+    breaks: String,
+    /// The length of the shortest counterexample.
+    cycles: u64,
+}
+
+/// A program that is another one, and right.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Right {
+    text: String,
+    replace: Vec<(String, String)>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Programs {
+    mistake: Vec<Mistake>,
+    right: Vec<Right>,
+}
+
+fn programs() -> Programs {
+    let path = root().join("tests/machines/program-mistakes.toml");
+    let text = std::fs::read_to_string(path).expect("readable");
+    toml::from_str(&text).unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// The text of the shipped machine with another program.
+fn changed(title: &str, replace: &[(String, String)]) -> String {
+    let mut program = shipped();
+    for (from, to) in replace {
+        let times = program.matches(from).count();
+        assert_eq!(times, 1, "{title}: '{from}' stands there");
+        program = program.replace(from, to);
+    }
+    program
+}
+
+fn shipped() -> String {
+    std::fs::read_to_string(root().join(MACHINE)).expect("readable")
+}
+
+/// The explorations of the library for a machine with this text.
+fn library(text: &str) -> Subject {
+    let path = root().join(MACHINE);
+    let machine = machine::load_bytes(&path, text.as_bytes().to_vec(), &root().join("spec"))
+        .unwrap_or_else(|e| panic!("{e}"));
+    let runs: Vec<_> = (machine.runs.iter())
+        .filter(|run| run.file.ends_with(LIBRARY))
+        .cloned()
+        .collect();
+    subject::of_runs(&path, machine, &runs, &Readings::new()).unwrap_or_else(|e| panic!("{e}"))
+}
+
+fn checked(subject: &Subject) -> Vec<Checked> {
+    check(subject, &Settings::default(), &mut |_| Box::new(()))
+        .unwrap_or_else(|(title, e)| panic!("{title}: {e}"))
+}
+
+/// The properties of an exploration.
+fn ids(task: &subject::Task) -> impl Iterator<Item = &str> {
+    let properties = task.bound.system.properties.iter();
+    properties.map(|p| p.id.as_str())
+}
+
+#[test]
+fn the_shipped_program_keeps_every_row_of_the_event_tables() {
+    let subject = library(&shipped());
+    let groups: Vec<&str> = (subject.tasks.iter())
+        .map(|task| task.bound.system.name.as_str())
+        .collect();
+    let systems = ["axes_events", "spindle_events", "magazine_events"];
+    assert_eq!(groups, systems.map(|s| format!("heidenhain-fs/events/{s}")));
+    let checked = checked(&subject);
+    let summaries = summarise(&subject, &checked);
+    assert_eq!(exit_status(&summaries, &checked), 0);
+    for one in &summaries {
+        // Vacuous is no answer here: the left side of each row is reached.
+        assert_eq!(one.verdict, Verdict::Holds, "{}", one.id);
+    }
+}
+
+#[test]
+fn each_row_of_the_event_tables_finds_the_program_that_breaks_it() {
+    let mut wrong = Vec::new();
+    for mistake in &programs().mistake {
+        // Only what is asked for is judged: all of the others would take ten times as long.
+        let mut subject = library(&changed(&mistake.text, &mistake.replace));
+        subject
+            .tasks
+            .retain(|task| ids(task).any(|id| id == mistake.breaks));
+        for task in &mut subject.tasks {
+            let properties = &mut task.bound.system.properties;
+            properties.retain(|p| p.id == mistake.breaks);
+        }
+        let judged = summarise(&subject, &checked(&subject));
+        let found: Vec<(&str, Verdict, Option<u64>)> = (judged.iter())
+            .map(|one| (one.id.as_str(), one.verdict, one.length))
+            .collect();
+        let cycles = Some(mistake.cycles);
+        let expected = [(mistake.breaks.as_str(), Verdict::Violated, cycles)];
+        if found != expected {
+            wrong.push(format!("{}: {found:?}, not {expected:?}", mistake.text));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// The tables say what a program has to do, not how: one that does it otherwise is not accused.
+#[test]
+fn programs_that_are_right_in_another_way_are_not_accused() {
+    for right in &programs().right {
+        let subject = library(&changed(&right.text, &right.replace));
+        for one in summarise(&subject, &checked(&subject)) {
+            assert_eq!(one.verdict, Verdict::Holds, "{}: {}", right.text, one.id);
+        }
+    }
+}
+
+/// A property that no seeded mistake breaks could be one that nothing breaks.
+#[test]
+fn every_property_of_the_event_tables_has_a_seeded_mistake() {
+    let subject = library(&shipped());
+    let programs = programs();
+    let all: BTreeSet<&str> = subject.tasks.iter().flat_map(ids).collect();
+    let seeded: BTreeSet<&str> = programs.mistake.iter().map(|m| m.breaks.as_str()).collect();
+    assert!(all.len() >= 30, "{}", all.len());
+    assert_eq!(all, seeded);
+}
