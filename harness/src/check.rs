@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use stillpoint_model::{Cluster, Error, Limits, Options, Progress, Trace, Verdict};
+use stillpoint_model::{Cluster, Error, Interrupt, Limits, Options, Progress, Trace, Verdict};
 
 use crate::engine::{self, Outcome, label};
 use crate::keep::Keep;
@@ -30,6 +30,33 @@ pub struct Settings {
     pub witnesses: bool,
     /// The processes that explore together; none for this one alone.
     pub cluster: Option<Arc<Cluster>>,
+    /// Ends everything from outside, as a limit would.
+    pub interrupt: Option<Interrupt>,
+}
+
+impl Settings {
+    /// The limits of what begins now, where `start` began the time.
+    pub fn limits(&self, start: Instant) -> Limits {
+        Limits {
+            memory: self.memory,
+            time: self.time.map(|t| t.saturating_sub(start.elapsed())),
+            threads: self.threads,
+        }
+    }
+
+    /// The settings for what follows, where `start` began the time.
+    #[must_use]
+    pub fn after(&self, start: Instant) -> Self {
+        Self {
+            time: self.limits(start).time,
+            ..self.clone()
+        }
+    }
+
+    /// Whether all was ended from outside.
+    pub fn interrupted(&self) -> bool {
+        self.interrupt.as_ref().is_some_and(Interrupt::is_raised)
+    }
 }
 
 /// What exploring one task gave.
@@ -78,11 +105,8 @@ pub fn check(
     let mut out = Vec::new();
     for (number, task) in subject.tasks.iter().enumerate() {
         let options = Options {
-            limits: Limits {
-                memory: settings.memory,
-                time: settings.time.map(|t| t.saturating_sub(start.elapsed())),
-                threads: settings.threads,
-            },
+            limits: settings.limits(start),
+            interrupt: settings.interrupt.clone(),
             // Most reports tell the length of a witness only; rebuilding their runs takes as long as the search.
             witnesses: settings.witnesses,
             checkpoint: settings.keep.as_ref().map(|k| k.of(number, &task.bound)),

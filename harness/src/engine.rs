@@ -1,11 +1,12 @@
 //! Explores a table: generated step function where there is one, else the interpreter; two runs for `independent`.
 
 use std::collections::BTreeMap;
+use std::time::Instant;
 
 use stillpoint_model::table::{Generated, Interpreted, properties};
 use stillpoint_model::{
-    Cluster, Error, Form, Judgement, Options, Progress, Property, Replay, Report, System, Trace,
-    Twin, Verdict, explore, explore_together,
+    Cluster, Error, Form, Judgement, Limits, Options, Progress, Property, Replay, Report, System,
+    Trace, Twin, Verdict, explore, explore_together,
 };
 use stillpoint_spec::bind::Bound;
 use stillpoint_spec::eval::{Frame, UNSET};
@@ -115,6 +116,7 @@ pub(crate) fn judge<S: System, P: System>(
     progress: &mut dyn Progress,
     cluster: Option<&Cluster>,
 ) -> Result<Judged, Error> {
+    let start = Instant::now();
     let listed = properties(bound);
     let single: Vec<Property> = listed.iter().map(|(_, p)| p.clone()).collect();
     let mut report = search(system, &single, options, progress, cluster)?;
@@ -131,6 +133,18 @@ pub(crate) fn judge<S: System, P: System>(
         } = &property.form
         else {
             continue;
+        };
+        // One time limit for all of them.
+        let limits = Limits {
+            time: options
+                .limits
+                .time
+                .map(|t| t.saturating_sub(start.elapsed())),
+            ..options.limits
+        };
+        let options = &Options {
+            limits,
+            ..options.clone()
         };
         let claim = Claim {
             bound,

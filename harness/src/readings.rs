@@ -1,9 +1,10 @@
 //! Which properties depend on how an ambiguity of the manual is read.
 
 use std::fmt::Write;
+use std::time::Instant;
 
 use serde_json::{Value, json};
-use stillpoint_model::{Error, Judgement, Limits, Options, Progress};
+use stillpoint_model::{Error, Judgement, Options, Progress};
 use stillpoint_spec::bind::Bound;
 use stillpoint_spec::diag::Diagnostics;
 use stillpoint_spec::ir::{Node, Space};
@@ -53,6 +54,7 @@ pub fn compare(
     chosen: &Readings,
     progress: &mut dyn FnMut(&str) -> Box<dyn Progress>,
 ) -> Result<Vec<Compared>, Failed> {
+    let start = Instant::now();
     let mut out: Vec<Compared> = Vec::new();
     let mut ids: Vec<(String, String, Vec<String>)> = Vec::new();
     for task in &main.tasks {
@@ -90,11 +92,8 @@ pub fn compare(
                     continue;
                 }
                 let options = Options {
-                    limits: Limits {
-                        memory: settings.memory,
-                        time: settings.time,
-                        threads: settings.threads,
-                    },
+                    limits: settings.limits(start),
+                    interrupt: settings.interrupt.clone(),
                     witnesses: false,
                     ..Options::default()
                 };

@@ -213,3 +213,145 @@ fn a_full_disk_loses_a_checkpoint_but_not_the_check() {
             .all(|p| p.extension().is_some_and(|e| e == "checkpoint"))
     );
 }
+
+/// A specification whose only state reads so many free Booleans that their values cannot be gone through; and a folder for it.
+fn endless(name: &str) -> (Folder, String) {
+    const FREE: usize = 30;
+    let folder = Folder::new(name);
+    std::fs::create_dir_all(&folder.0).expect("made");
+    let list = |form: &dyn Fn(usize) -> String, between: &str| {
+        (0..FREE).map(form).collect::<Vec<_>>().join(between)
+    };
+    let text = format!(
+        r#"
+spec = "survival/endless"
+title = "thirty free Booleans"
+[machine.m]
+text = "reads all of them"
+otherwise = "stay"
+[machine.m.input]
+{}
+[machine.m.state]
+seen = {{ type = "BOOL", init = "FALSE" }}
+[[machine.m.rule]]
+name = "odd"
+id = ["S840D-STOP-020"]
+when = "{}"
+then = "seen := TRUE;"
+[system.m]
+text = "one"
+[system.m.instance]
+m = {{ machine = "m" }}
+[system.m.free]
+ports = [{}]
+[[system.m.property]]
+id = "P-01"
+text = "nothing is wrong with it"
+always = "m.seen OR NOT m.seen"
+"#,
+        list(&|n| format!("a{n} = \"BOOL\""), "\n"),
+        list(&|n| format!("a{n}"), " XOR "),
+        list(&|n| format!("\"m.a{n}\""), ", "),
+    );
+    let file = folder.0.join("endless.toml");
+    std::fs::write(&file, text).expect("written");
+    (folder, file.to_str().expect("a path in UTF-8").to_owned())
+}
+
+/// Whether an output is the report of a check that has not ended.
+fn is_partial(output: &Output) {
+    let errors = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(3), "{errors}");
+    let report: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    assert_eq!(report["complete"], false);
+    assert!(report["states"].as_u64().is_some_and(|n| n > 0), "{report}");
+    let properties = report["properties"].as_array().expect("properties");
+    let open = |p: &Value| p["verdict"] == "inconclusive";
+    assert!(properties.iter().any(open), "{report}");
+}
+
+#[test]
+fn a_time_limit_ends_the_inputs_of_one_state() {
+    let (_folder, file) = endless("endless-time");
+    for more in [
+        &[][..],
+        &["--interpret"],
+        &["--reduce", "all"],
+        &["--processes", "2"],
+    ] {
+        let start = std::time::Instant::now();
+        let output = run(&file, &[&["--time", "1s"], more].concat());
+        let took = start.elapsed();
+        assert!(took < Duration::from_secs(8), "{more:?}: {took:?}");
+        is_partial(&output);
+    }
+}
+
+/// Sends a signal to a process.
+fn signal(child: &std::process::Child, name: &str) {
+    let sent = Command::new("kill")
+        .args([&format!("-{name}"), &child.id().to_string()])
+        .status();
+    assert!(sent.expect("kill runs").success());
+}
+
+#[test]
+fn signals_end_a_check_with_its_report() {
+    let (_folder, file) = endless("endless-signal");
+    for name in ["TERM", "INT"] {
+        let mut command = check(&file, &[]);
+        command.stdout(Stdio::piped()).stderr(Stdio::piped());
+        let child = command.spawn().expect("starts");
+        // As long as it takes to begin.
+        std::thread::sleep(Duration::from_millis(1500));
+        signal(&child, name);
+        is_partial(&child.wait_with_output().expect("ends"));
+    }
+    // In words too.
+    let mut command = Command::new(BINARY);
+    command.args(["check", &file]).stdout(Stdio::piped());
+    let child = command.spawn().expect("starts");
+    std::thread::sleep(Duration::from_millis(1500));
+    signal(&child, "TERM");
+    let output = child.wait_with_output().expect("ends");
+    let text = String::from_utf8_lossy(&output.stdout);
+    assert_eq!(output.status.code(), Some(3), "{text}");
+    assert!(
+        text.contains("An interrupt ended 1 of 1 explorations"),
+        "{text}"
+    );
+}
+
+#[test]
+fn a_signal_leaves_something_to_continue_from() {
+    let folder = Folder::new("signal");
+    let whole = run(SUBJECT, &[]);
+    let mut ended = 0;
+    for n in 1..=6u64 {
+        let before = folder.contents();
+        let mut command = check(SUBJECT, &folder.option());
+        command.args(["--checkpoint-every", "10ms"]);
+        let child = command.stdout(Stdio::piped()).stderr(Stdio::null()).spawn();
+        let mut child = child.expect("starts");
+        // Not before it has begun.
+        while child.try_wait().expect("waits").is_none() && folder.contents() == before {
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        std::thread::sleep(Duration::from_millis(3 * n));
+        if child.try_wait().expect("waits").is_none() {
+            signal(&child, "TERM");
+        }
+        let output = child.wait_with_output().expect("ends");
+        if output.status.code() == Some(3) {
+            is_partial(&output);
+            let report: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+            let runs = report["runs"].as_array().expect("runs");
+            assert!(runs.iter().all(|r| r["resumable"] == true), "{report}");
+            ended += 1;
+        }
+    }
+    assert!(ended > 0, "no signal came during a check");
+    let last = run(SUBJECT, &folder.option());
+    assert_eq!(last.status.code(), whole.status.code());
+    assert_eq!(plain(&last), plain(&whole));
+}

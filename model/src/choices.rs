@@ -2,6 +2,10 @@
 
 use crate::report::Step;
 use crate::system::Choices;
+use crate::watch::Watch;
+
+/// Vectors between two looks at the limits: a look costs as much as a small step.
+const PATIENCE: u32 = 64;
 
 #[derive(Clone, Copy, Debug)]
 struct Read {
@@ -22,7 +26,8 @@ pub(crate) struct Mark {
 
 /// Enumerates the choices of one cycle in lexicographic order of the reads, only over what is really read.
 ///
-/// The caller runs the cycle between `begin` and `advance`, until `advance` says that no vector is left.
+/// The caller runs the cycle between `begin` and `advance`, until `advance` says that no vector is left. Under a watch a limit
+/// ends every enumeration, those of a single state too, and no further one begins: see [`Odometer::is_broken`].
 #[derive(Clone, Debug)]
 pub(crate) struct Odometer {
     /// The reads of the present vector, `len` of them; what follows is left over, and saves some divisions.
@@ -32,6 +37,10 @@ pub(crate) struct Odometer {
     /// Input numbers read in this run, modulo 64: a quick negative answer to "was it read already".
     seen: u64,
     total: u128,
+    watch: Option<Watch>,
+    /// Vectors until the next look at the limits.
+    patience: u32,
+    broken: bool,
 }
 
 impl Odometer {
@@ -42,7 +51,35 @@ impl Odometer {
             at: 0,
             seen: 0,
             total: combinations,
+            watch: None,
+            patience: PATIENCE,
+            broken: false,
         }
+    }
+
+    /// The same under limits.
+    pub(crate) fn watched(combinations: u128, watch: &Watch) -> Self {
+        Odometer {
+            watch: Some(watch.clone()),
+            ..Odometer::new(combinations)
+        }
+    }
+
+    /// Whether a limit broke an enumeration off.
+    #[inline]
+    pub(crate) fn is_broken(&self) -> bool {
+        self.broken
+    }
+
+    /// Looks at the limits now and then; true if one is reached.
+    #[inline]
+    fn tires(&mut self) -> bool {
+        self.patience -= 1;
+        if self.patience == 0 {
+            self.patience = PATIENCE;
+            self.broken |= self.watch.as_ref().is_some_and(Watch::ended);
+        }
+        self.broken
     }
 
     /// Forgets the present vector: the next run is the first of a new cycle.
@@ -64,6 +101,9 @@ impl Odometer {
     pub(crate) fn advance(&mut self) -> bool {
         debug_assert_eq!(self.at, self.len, "a run read less than the one before it");
         self.len = self.at;
+        if self.tires() {
+            return false;
+        }
         while let Some(last) = self
             .len
             .checked_sub(1)
@@ -95,6 +135,10 @@ impl Odometer {
         self.at = mark.at;
         self.seen = mark.seen;
         self.len = last;
+        if last > mark.at && self.tires() {
+            self.len = mark.at;
+            return false;
+        }
         while self.len > mark.at {
             let read = &mut self.reads[self.len - 1];
             read.value += 1;

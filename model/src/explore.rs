@@ -1,6 +1,6 @@
 //! The whole exploration: search, verdicts, traces.
 
-use crate::crew::{Crew, Watch};
+use crate::crew::Crew;
 use crate::cursor::Leaf;
 use crate::hashed::{Halves, Hashed, Plain};
 use crate::liveness::{fair, recoverable, recovery};
@@ -16,6 +16,7 @@ use crate::store::{Dense, Store};
 use crate::system::System;
 use crate::ticks::Ticked;
 use crate::trace::{Request, Run, Test, runs};
+use crate::watch::Watch;
 use std::collections::BTreeSet;
 use std::sync::{Arc, PoisonError};
 
@@ -102,7 +103,7 @@ pub fn explore<S: System>(
     progress: &mut dyn Progress,
 ) -> Result<Report, Error> {
     validate(properties)?;
-    let watch = Watch::new(options.limits);
+    let watch = Watch::new(options);
     let crew = crew(options)?;
     let job = Explore {
         properties,

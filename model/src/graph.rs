@@ -1,12 +1,14 @@
 //! The explicit graph of a part of the reachable cycles, with its strongly connected components.
 
 use crate::choices::Odometer;
-use crate::cursor::{Cursor, Leaf};
+use crate::cursor::Leaf;
+use crate::distinct::Distinct;
 use crate::pack::Key;
 use crate::process::{Any, Process};
 use crate::search::Model;
 use crate::store::PIECE;
 use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 /// Says what a cycle to the given state is.
 pub(crate) type Rule<'a, K> = dyn Fn(&mut dyn Process, &mut Odometer, K) -> Mark + Sync + 'a;
@@ -80,18 +82,24 @@ impl<K: Key> Graph<K> {
         }
         graph.seeds = u32::try_from(graph.keys.len()).ok()?;
         let mut workers: Vec<_> = (0..model.crew.size())
-            .map(|_| (Cursor::new(&model.origin), Vec::<Piece<K>>::new()))
+            .map(|_| (model.cursor(), Vec::<Piece<K>>::new()))
             .collect();
         let mut done = 0;
         while done < graph.keys.len() {
             if model.watch.over(0) || model.watch.too_much(held + graph.bytes()) {
                 return None;
             }
+            // What the pieces of this block hold, and whether it is too much.
+            let (found, broken) = (AtomicU64::new(0), AtomicBool::new(false));
+            let before = held + graph.bytes();
             let block = &graph.keys[done..graph.keys.len().min(done + 1024 * PIECE)];
             model.crew.share(
                 &mut workers,
                 block.len().div_ceil(PIECE),
                 |(cursor, pieces), number| {
+                    if broken.load(Ordering::Relaxed) {
+                        return;
+                    }
                     let mut piece = Piece {
                         number,
                         degrees: Vec::new(),
@@ -100,31 +108,38 @@ impl<K: Key> Graph<K> {
                     };
                     let (first, last) = (number * PIECE, block.len().min((number + 1) * PIECE));
                     for (node, key) in (first..).zip(&block[first..last]) {
-                        let begin = piece.ends.len();
-                        cursor.leaves(&model.packer, *key, |process, odometer, leaf| {
-                            if let Leaf::To(after) = leaf {
-                                match rule(&mut **process, odometer, after) {
-                                    Mark::Edge(label) => piece.ends.push((after, label)),
-                                    Mark::Exit => piece.exit = piece.exit.or(Some(done + node)),
-                                    Mark::Outside => (),
+                        let mut ends = Distinct::new();
+                        let whole =
+                            cursor.leaves(&model.packer, *key, |process, odometer, leaf| {
+                                if let Leaf::To(after) = leaf {
+                                    match rule(&mut **process, odometer, after) {
+                                        Mark::Edge(label) => ends.push((after, label)),
+                                        Mark::Exit => piece.exit = piece.exit.or(Some(done + node)),
+                                        Mark::Outside => (),
+                                    }
                                 }
-                            }
-                            ControlFlow::Continue(())
-                        });
-                        piece.ends[begin..].sort_unstable();
-                        let mut kept = begin;
-                        for end in begin..piece.ends.len() {
-                            if kept == begin || piece.ends[kept - 1] != piece.ends[end] {
-                                piece.ends[kept] = piece.ends[end];
-                                kept += 1;
-                            }
+                                let own = found.load(Ordering::Relaxed) + ends.bytes();
+                                match model.watch.too_much(before + own) {
+                                    true => ControlFlow::Break(()),
+                                    false => ControlFlow::Continue(()),
+                                }
+                            });
+                        if !whole {
+                            broken.store(true, Ordering::Relaxed);
+                            return;
                         }
-                        piece.ends.truncate(kept);
-                        piece.degrees.push(kept - begin);
+                        let ends = ends.sorted();
+                        let bytes = size_of_val(ends.as_slice()) as u64;
+                        found.fetch_add(bytes, Ordering::Relaxed);
+                        piece.degrees.push(ends.len());
+                        piece.ends.extend(ends);
                     }
                     pieces.push(piece);
                 },
             );
+            if broken.into_inner() {
+                return None;
+            }
             done += block.len();
             let mut pieces: Vec<Piece<K>> = workers
                 .iter_mut()

@@ -35,6 +35,7 @@ mod choices;
 mod crew;
 mod cursor;
 mod cycles;
+mod distinct;
 #[cfg(feature = "distributed")]
 mod distributed;
 mod duty;
@@ -59,6 +60,7 @@ pub mod table;
 mod ticks;
 mod trace;
 mod twin;
+mod watch;
 
 pub use choices::Replay;
 pub use cycles::{Cycle, Held, cycles, initials};
@@ -70,8 +72,8 @@ pub use parts::Component;
 pub use property::{Form, Property};
 pub use reachable::reachable;
 pub use report::{
-    Checkpoint, Error, FaultReport, Judgement, Limits, Options, Progress, Report, Step, Storage,
-    Trace, Verdict,
+    Checkpoint, Error, FaultReport, Interrupt, Judgement, Limits, Options, Progress, Report, Step,
+    Storage, Trace, Verdict,
 };
 pub use symmetry::{Group, Permutation, Symmetric, SymmetricWork};
 pub use system::{Choices, Domain, Fault, System};

@@ -1,7 +1,8 @@
 //! Properties of infinite runs and of branching: response under fairness, and recoverability.
 
 use crate::choices::Odometer;
-use crate::cursor::{Cursor, Leaf};
+use crate::cursor::Leaf;
+use crate::distinct::Distinct;
 use crate::explore::{Decision, Evidence, Tail, sign_test};
 use crate::graph::{Components, Edge, Graph, Mark};
 use crate::pack::Key;
@@ -72,7 +73,7 @@ pub(crate) fn fair<'a, K: Key>(
                 .is_some_and(|node| other.is_bad(node))
     });
     let tail: Tail<K> = Box::new(move |end| {
-        let mut cursor = Cursor::new(&model.origin);
+        let mut cursor = model.retracing();
         let (edges, start) = shared.lasso(shared.graph.number(end)?)?;
         let mut steps = Vec::new();
         for (from, edge) in edges {
@@ -219,15 +220,21 @@ pub(crate) fn recoverable<'a, K: Key>(
     goals: &[(usize, Option<usize>)],
     held: u64,
 ) -> Result<Vec<Option<Lost<'a, K>>>, Error> {
-    let mut initial = Vec::new();
-    if !goals.is_empty() {
-        Cursor::new(&model.origin).initial(&model.packer, |key, _| {
-            initial.push(key);
-            ControlFlow::Continue(())
-        })?;
+    if goals.is_empty() {
+        return Ok(Vec::new());
     }
-    initial.sort_unstable();
-    initial.dedup();
+    let mut initial = Distinct::new();
+    let all = model.cursor().initial(&model.packer, |key, _| {
+        initial.push(key);
+        match model.watch.too_much(held + initial.bytes()) {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        }
+    })?;
+    if !all {
+        return Ok(goals.iter().map(|_| None).collect());
+    }
+    let initial = initial.sorted();
     let mut verdicts = Vec::new();
     for goals in goals.chunks(TOGETHER) {
         let label = |process: &mut dyn Process, choices: &mut Odometer, _: K| {

@@ -13,9 +13,11 @@ use crate::pack::{Key, Packer};
 use crate::process::{Origin, Source};
 use crate::property::Property;
 use crate::system::System;
+use crate::watch::Watch;
 use patterns::{Pattern, Shared, agree};
 use std::collections::HashMap;
 use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicU64, Ordering};
 use tabulate::{Builder, Digits, RoughTable, part_of};
 
 /// A part of a system: a system over the same state variables and inputs that changes only its own variables.
@@ -39,6 +41,8 @@ impl<'s> Component<'s> {
 /// The most parts that are put together, and the most combinations of their patterns.
 const MOST_PARTS: usize = 16;
 const MOST_COMBINED: usize = 1 << 20;
+/// The most cycles of a state that tables tell apart: so many are made without a look at the limits.
+const MOST_TOGETHER: usize = 1 << 18;
 /// The most cycles that are worth tables.
 const MOST_CYCLES: u32 = 1 << 20;
 
@@ -83,6 +87,8 @@ pub(crate) struct Tables<K> {
     /// The number of combinations of patterns.
     combined: usize,
     combinations: u128,
+    /// Bytes of what the workers have put together.
+    held: AtomicU64,
 }
 
 /// What one worker has put together from the tables.
@@ -110,6 +116,7 @@ impl<K: Key> Tables<K> {
         origin: &impl Origin,
         packer: &Packer<K>,
         properties: &[Property],
+        watch: &Watch,
     ) -> Option<Self> {
         let parts = origin.components();
         let number = parts.len();
@@ -119,12 +126,18 @@ impl<K: Key> Tables<K> {
             return None;
         }
         let mut initial = Vec::new();
-        Cursor::new(origin)
+        let all = Cursor::new(origin, watch)
             .initial(packer, |key, _| {
                 initial.push(key);
-                ControlFlow::Continue(())
+                match initial.len() < MOST_CYCLES as usize {
+                    true => ControlFlow::Continue(()),
+                    false => ControlFlow::Break(()),
+                }
             })
             .ok()?;
+        if !all {
+            return None;
+        }
         let mut rough = Vec::new();
         let mut budget = MOST_CYCLES;
         for (number, part) in parts.iter().enumerate() {
@@ -137,6 +150,7 @@ impl<K: Key> Tables<K> {
                 packer,
                 properties,
                 own: &own,
+                watch,
             };
             rough.push(builder.build(&initial, &mut budget)?);
         }
@@ -148,11 +162,16 @@ impl<K: Key> Tables<K> {
             .map(|rough| Table::new(rough, &shared, &mut patterns, &mut numbers))
             .collect();
         let combined = patterns.len().checked_pow(tables.len() as u32)?;
-        (combined <= MOST_COMBINED).then_some(Tables {
+        let most = |table: &Table<K>| table.groups(&patterns);
+        let together = tables.iter().map(most).try_fold(1, usize::checked_mul)?;
+        let bytes = together.checked_mul(tables.len() * size_of::<u32>())?;
+        let fits = watch.memory().is_none_or(|most| bytes as u64 <= most / 8);
+        (combined <= MOST_COMBINED && together <= MOST_TOGETHER && fits).then_some(Tables {
             parts: tables,
             patterns,
             combined,
             combinations: origin.combinations(),
+            held: AtomicU64::new(0),
         })
     }
 
@@ -168,12 +187,19 @@ impl<K: Key> Tables<K> {
         self.combinations
     }
 
-    /// Makes all cycles from a state. False if a part is in a state that it cannot reach by itself.
+    /// Bytes of what the workers have put together.
+    pub(crate) fn bytes(&self) -> u64 {
+        self.held.load(Ordering::Relaxed)
+    }
+
+    /// Makes all cycles from a state. False if a part is in a state that it cannot reach by itself, or a limit was reached
+    /// while they were put together.
     #[inline]
     pub(crate) fn cycles(
         &self,
         joined: &mut Joined,
         key: K,
+        watch: &Watch,
         mut each: impl FnMut(Event<K>),
     ) -> bool {
         let Joined { agreeing, visits } = joined;
@@ -194,11 +220,17 @@ impl<K: Key> Tables<K> {
             places[number] = place;
             steps[number] = &table.steps[local.steps as usize..];
         }
-        let groups = agreeing[combination].get_or_insert_with(|| {
+        let entry = &mut agreeing[combination];
+        if entry.is_none() {
             let locals = self.parts.iter().zip(places).map(|(t, p)| t.locals[p]);
             let patterns = locals.map(|local| &self.patterns[local.pattern as usize]);
-            agree(patterns).into()
-        });
+            *entry = agree(patterns, watch).map(Into::into);
+            let bytes = entry.as_ref().map_or(0, |groups| size_of_val(&**groups));
+            self.held.fetch_add(bytes as u64, Ordering::Relaxed);
+        }
+        let Some(groups) = entry else {
+            return false;
+        };
         for (visits, place) in visits.iter_mut().zip(places) {
             visits[place] += 1;
         }
@@ -258,6 +290,13 @@ fn joint<K: Key>(key: K, steps: &[&[K]; MOST_PARTS], groups: &[u32]) -> K {
 }
 
 impl<K: Key> Table<K> {
+    /// The most groups of cycles that one of its states has.
+    fn groups(&self, patterns: &[Pattern]) -> usize {
+        let own = self.locals.iter().map(|local| local.pattern);
+        let groups = own.filter_map(|pattern| patterns.get(pattern as usize).map(Vec::len));
+        groups.max().unwrap_or(0)
+    }
+
     fn new(
         (digits, locals): RoughTable<K>,
         shared: &Shared,

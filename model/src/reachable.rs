@@ -1,13 +1,13 @@
 //! All reachable states in order.
 
-use crate::crew::Watch;
-use crate::cursor::{Cursor, Leaf};
+use crate::cursor::Leaf;
 use crate::explore::{Job, crew, on_store};
 use crate::process::{Any, Origin};
 use crate::report::{Error, Options, Storage};
-use crate::search::{Model, initial};
+use crate::search::{Model, UNWATCHED, initial};
 use crate::store::Store;
 use crate::system::System;
+use crate::watch::Watch;
 use std::ops::ControlFlow;
 
 /// Calls `each` with every reachable state, by depth and in the order of indices inside a depth. The answer says
@@ -20,7 +20,7 @@ pub fn reachable<S: System>(
     options: &Options,
     each: &mut dyn FnMut(&[i32]),
 ) -> Result<bool, Error> {
-    let watch = Watch::new(options.limits);
+    let watch = Watch::new(options);
     on_store(
         Any::new(system),
         options,
@@ -45,9 +45,9 @@ impl Job<Any<'_>> for Visit<'_> {
     ) -> Result<bool, Error> {
         let mut state = vec![0; model.origin.domains().len()];
         let mut workers: Vec<_> = (0..model.crew.size())
-            .map(|_| (Cursor::new(&model.origin), store.local()))
+            .map(|_| (model.cursor(), store.local()))
             .collect();
-        let mut frontier = initial(model, &mut store)?;
+        let (mut frontier, _) = initial(model, &mut store, model.cursor(), model.watch)?;
         while frontier > 0 && !model.watch.over(store.bytes()) {
             for key in store.frontier() {
                 model.packer.unpack(key, &mut state);
@@ -60,10 +60,15 @@ impl Job<Any<'_>> for Visit<'_> {
                     if model.watch.over(now.bytes()) {
                         return;
                     }
+                    let mut unwatched = 0;
                     now.each(piece, |key| {
                         cursor.leaves(&model.packer, key, |_, _, leaf| {
                             if let Leaf::To(after) = leaf {
                                 now.visit(local, after);
+                            }
+                            unwatched += 1;
+                            if unwatched % UNWATCHED == 0 && model.watch.over(now.bytes()) {
+                                return ControlFlow::Break(());
                             }
                             ControlFlow::Continue(())
                         });
@@ -71,6 +76,6 @@ impl Job<Any<'_>> for Visit<'_> {
                 });
             frontier = store.advance(workers.iter_mut().map(|(_, local)| local).collect());
         }
-        Ok(model.watch.stopped().is_none())
+        Ok(!model.watch.stopped())
     }
 }

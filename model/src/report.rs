@@ -1,6 +1,8 @@
 //! What an exploration is asked and what it answers.
 
 use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 /// Bounds on an exploration. Reaching one ends it early with `complete = false`; it is no error.
@@ -8,11 +10,41 @@ use std::time::Duration;
 pub struct Limits {
     /// Bytes for the tables of the explorer; none for a default choice of storage without a limit.
     pub memory: Option<u64>,
-    /// Wall time of search and verdicts. Traces of violations already found are still produced after it.
+    /// Wall time of search and verdicts. Runs of violations already found are still rebuilt after it, for at most as long
+    /// again; what is not rebuilt by then is told by its length alone.
     pub time: Option<Duration>,
     /// Worker threads; 0 for as many as the machine has.
     pub threads: usize,
 }
+
+/// Ends explorations from outside, as a limit that is reached does: each reports what it has. Copies are the same interrupt.
+#[derive(Clone, Debug, Default)]
+pub struct Interrupt(Arc<AtomicBool>);
+
+impl Interrupt {
+    /// One that ends explorations when this becomes true.
+    pub fn of(flag: Arc<AtomicBool>) -> Self {
+        Interrupt(flag)
+    }
+
+    /// Ends them.
+    pub fn raise(&self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
+
+    /// Whether they are to end.
+    pub fn is_raised(&self) -> bool {
+        self.0.load(Ordering::Relaxed)
+    }
+}
+
+impl PartialEq for Interrupt {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
+}
+
+impl Eq for Interrupt {}
 
 /// Where to keep an exploration between two levels, so that it can be continued.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -32,6 +64,8 @@ pub struct Checkpoint {
 pub struct Options {
     /// When to give up.
     pub limits: Limits,
+    /// What ends the exploration from outside; none for nothing.
+    pub interrupt: Option<Interrupt>,
     /// Whether properties that hold get a witness trace; without it they get its length alone.
     pub witnesses: bool,
     /// Whether the search stops when it has decided every property (`complete` is then false if states were left).
@@ -50,6 +84,7 @@ impl Default for Options {
     fn default() -> Self {
         Options {
             limits: Limits::default(),
+            interrupt: None,
             witnesses: true,
             stop_when_decided: false,
             examples: 8,

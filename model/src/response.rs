@@ -1,18 +1,19 @@
 //! Duties with an end that the next few cycles decide: bounded responses and weak until.
 
-use crate::crew::{Crew, Watch};
-use crate::cursor::{Cursor, Leaf};
+use crate::crew::Crew;
+use crate::cursor::Leaf;
 use crate::duty::Duty;
 use crate::explore::{Decision, Evidence, Job, Tail, on_store, seen, sign_test};
 use crate::graph::{Graph, Mark};
 use crate::pack::Key;
 use crate::process::{Any, Process};
 use crate::property::{Form, Property};
-use crate::report::{Error, Limits, Options, Storage, Trace, Verdict};
+use crate::report::{Error, Options, Storage, Trace, Verdict};
 use crate::search::{Model, Signs, search};
 use crate::set::Set;
 use crate::store::Store;
 use crate::trace::{Request, runs};
+use crate::watch::Watch;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -85,7 +86,7 @@ pub(crate) fn bounded<'a, K: Key>(
             return None;
         }
         let (graph, heights) = &*shared;
-        let mut cursor = Cursor::new(&model.origin);
+        let mut cursor = model.retracing();
         let mut node = graph.number(end)?;
         let mut steps = Vec::new();
         for rest in (0..within).rev() {
@@ -152,7 +153,7 @@ pub(crate) fn until<'a, K: Key>(
             evidence: witness,
         });
     }
-    let trace = shortest(model.origin, form, options, model.crew)?;
+    let trace = shortest(model.origin, form, options, model.crew, model.afterwards())?;
     // Memory may not suffice for the search with the duty; a violation in the cycle of `when` has a run without it.
     let evidence = match trace {
         Some(trace) => Evidence::Trace(trace),
@@ -172,25 +173,20 @@ fn shortest(
     form: &Form,
     options: &Options,
     crew: &Crew,
+    watch: &Watch,
 ) -> Result<Option<Trace>, Error> {
     let duty = Duty::new(system, form);
-    let limits = Limits {
-        time: None,
-        ..options.limits
-    };
     let options = Options {
-        limits,
         stop_when_decided: true,
         // It is another system, and its search is short beside the one that is kept.
         checkpoint: None,
         ..options.clone()
     };
-    let watch = Watch::new(limits);
     let trace = on_store(
         &duty,
         &options,
         crew,
-        &watch,
+        watch,
         Counterexample { options: &options },
     )?;
     Ok(trace.map(|trace| duty.strip(trace)))

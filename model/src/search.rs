@@ -2,7 +2,7 @@
 
 use crate::checkpoint::Keeper;
 use crate::choices::Odometer;
-use crate::crew::{Crew, Watch};
+use crate::crew::Crew;
 use crate::cursor::{Cursor, Leaf};
 use crate::pack::{Key, Packer};
 use crate::parts::{Event, Joined, Tables};
@@ -12,9 +12,10 @@ use crate::report::{Error, Options, Progress};
 use crate::set::{Batch, Set};
 use crate::store::Store;
 use crate::system::Fault;
+use crate::watch::Watch;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::ControlFlow;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, OnceLock, PoisonError};
 
 /// A system with its packing, its workers and its limits.
 pub(crate) struct Model<'a, O, K> {
@@ -24,6 +25,7 @@ pub(crate) struct Model<'a, O, K> {
     pub(crate) watch: &'a Watch,
     /// Codes of faults that atoms meet after the search.
     pub(crate) late: Mutex<BTreeSet<u32>>,
+    afterwards: OnceLock<Watch>,
 }
 
 impl<'a, O: Origin, K: Key> Model<'a, O, K> {
@@ -40,7 +42,23 @@ impl<'a, O: Origin, K: Key> Model<'a, O, K> {
             crew,
             watch,
             late: Mutex::default(),
+            afterwards: OnceLock::new(),
         }
+    }
+
+    /// What makes cycles for the search and the verdicts, within the limits.
+    pub(crate) fn cursor(&self) -> Cursor<O::Process> {
+        Cursor::new(&self.origin, self.watch)
+    }
+
+    /// What makes cycles to rebuild runs, for which there is time of its own.
+    pub(crate) fn retracing(&self) -> Cursor<O::Process> {
+        Cursor::new(&self.origin, self.afterwards())
+    }
+
+    /// The limits of rebuilding runs; its time begins with the first call.
+    pub(crate) fn afterwards(&self) -> &Watch {
+        self.afterwards.get_or_init(|| self.watch.afterwards())
     }
 
     /// Evaluates atoms after the search; faults are noted and count as FALSE.
@@ -146,17 +164,25 @@ pub(crate) struct Worker<P, K, L> {
     absorbing: u64,
     examples: Vec<K>,
     joined: Option<Joined>,
+    /// Cycles put together from tables since the last look at the limits.
+    unwatched: u32,
+    /// A limit is reached: nothing more is begun.
+    broken: bool,
 }
+
+/// Cycles of one worker between two looks at the memory held.
+pub(crate) const UNWATCHED: u32 = 4096;
 
 impl<P: Process, K: Key, L> Worker<P, K, L> {
     pub(crate) fn new(
         origin: &impl Origin<Process = P>,
+        watch: &Watch,
         local: L,
         properties: usize,
         parts: Option<&Tables<K>>,
     ) -> Self {
         Worker {
-            cursor: Cursor::new(origin),
+            cursor: Cursor::new(origin, watch),
             local,
             transitions: 0,
             weights: 0,
@@ -170,6 +196,8 @@ impl<P: Process, K: Key, L> Worker<P, K, L> {
             absorbing: 0,
             examples: Vec::new(),
             joined: parts.map(Tables::worker),
+            unwatched: 0,
+            broken: false,
         }
     }
 }
@@ -190,9 +218,12 @@ pub(crate) fn search<O: Origin, T: Store>(
     progress: &mut dyn Progress,
 ) -> Result<Found<T::Key>, Error> {
     let origin = &model.origin;
-    let parts = Tables::new(origin, &model.packer, properties);
+    let parts = Tables::new(origin, &model.packer, properties, model.watch);
     let mut workers: Vec<_> = (0..model.crew.size())
-        .map(|_| Worker::new(origin, store.local(), properties.len(), parts.as_ref()))
+        .map(|_| {
+            let (local, count) = (store.local(), properties.len());
+            Worker::new(origin, model.watch, local, count, parts.as_ref())
+        })
         .collect();
     let mut keeper = options.checkpoint.as_ref().map(Keeper::new);
     let resumed = match &keeper {
@@ -208,14 +239,20 @@ pub(crate) fn search<O: Origin, T: Store>(
         }
         None => {
             let mut tally = Tally::new(properties.len(), origin.rules());
-            tally.states = initial(model, store)?;
+            let (states, all) = initial(model, store, model.cursor(), model.watch)?;
+            tally.states = states;
             tally.stored = store.bytes();
-            Found {
+            let found = Found {
                 tally,
                 pending: properties.iter().map(|_| Set::new()).collect(),
                 bytes: store.bytes(),
                 resumable: false,
+            };
+            if !all {
+                // Not all initial states are there: nothing to explore from, nor to continue from later.
+                return Ok(found);
             }
+            found
         }
     };
     {
@@ -251,7 +288,7 @@ pub(crate) fn search<O: Origin, T: Store>(
                 level.explore(worker, piece)
             });
         // A level that a limit broke off is explored again when the search is continued.
-        let stopped = model.watch.stopped().is_some();
+        let stopped = model.watch.stopped();
         let before = (stopped && keeper.is_some()).then(|| found.tally.clone());
         // A checkpoint needs the counts of the level; else it is enough to add them up once.
         let counted = parts.as_ref().filter(|_| keeper.is_some());
@@ -329,17 +366,27 @@ pub(crate) fn bytes<T: Store>(store: &T, pending: &[Set<T::Key>]) -> u64 {
     store.bytes() + pending.iter().map(Set::bytes).sum::<u64>()
 }
 
-/// Makes the initial states the frontier of an empty store.
+/// Makes the initial states the frontier of an empty store; also tells whether these are all, or a limit was reached first.
 pub(crate) fn initial<O: Origin, T: Store>(
     model: &Model<O, T::Key>,
     store: &mut T,
-) -> Result<u64, Error> {
+    mut cursor: Cursor<O::Process>,
+    watch: &Watch,
+) -> Result<(u64, bool), Error> {
     let mut local = store.local();
-    Cursor::new(&model.origin).initial(&model.packer, |key, _| {
+    let mut unwatched = 0;
+    let all = cursor.initial(&model.packer, |key, _| {
         store.visit(&mut local, key);
+        unwatched += 1;
+        if unwatched == UNWATCHED {
+            unwatched = 0;
+            if watch.over(store.bytes()) {
+                return ControlFlow::Break(());
+            }
+        }
         ControlFlow::Continue(())
     })?;
-    Ok(store.advance(vec![&mut local]))
+    Ok((store.advance(vec![&mut local]), all))
 }
 
 /// What is the same for all workers during a level.
@@ -355,15 +402,25 @@ pub(crate) struct Level<'a, O, T: Store> {
 
 impl<O: Origin, T: Store> Level<'_, O, T> {
     fn explore(&self, worker: &mut Worker<O::Process, T::Key, T::Local>, piece: usize) {
-        if self.model.watch.over(bytes(self.store, self.pending)) {
-            return;
+        if !self.over() {
+            self.piece(worker, piece);
         }
-        self.piece(worker, piece);
+    }
+
+    /// Whether a limit is reached.
+    fn over(&self) -> bool {
+        let tables = self.parts.map_or(0, Tables::bytes);
+        self.model
+            .watch
+            .over(bytes(self.store, self.pending) + tables)
     }
 
     /// Makes the cycles from the states of one piece of the frontier.
     pub(crate) fn piece(&self, worker: &mut Worker<O::Process, T::Key, T::Local>, piece: usize) {
         self.store.each(piece, |key| {
+            if worker.broken {
+                return;
+            }
             let joined = self
                 .parts
                 .is_some_and(|parts| self.joined(parts, worker, key));
@@ -388,13 +445,15 @@ impl<O: Origin, T: Store> Level<'_, O, T> {
             met,
             pending,
             joined: Some(joined),
+            unwatched,
+            broken,
             ..
         } = worker
         else {
             return false;
         };
         let mut stays = true;
-        let known = parts.cycles(joined, key, |event| match event {
+        let known = parts.cycles(joined, key, self.model.watch, |event| match event {
             Event::First(property) => lower(&mut first[property], key),
             Event::Bad(property) => lower(&mut bad[property], key),
             Event::Met(property) => met[property] = true,
@@ -403,12 +462,17 @@ impl<O: Origin, T: Store> Level<'_, O, T> {
                 self.pending[property].insert(batch, after);
             }
             Event::To(after) => {
+                *unwatched += 1;
                 if after != key {
                     stays = false;
                     self.store.visit(local, after);
                 }
             }
         });
+        if *unwatched >= UNWATCHED {
+            *unwatched = 0;
+            *broken = self.over();
+        }
         if known {
             let combinations = parts.combinations();
             worker.explored += 1;
@@ -440,12 +504,14 @@ impl<O: Origin, T: Store> Level<'_, O, T> {
             pending,
             faults,
             coverage,
+            unwatched,
+            broken,
             ..
         } = worker;
         let mut last = key;
         let (mut stays, mut makes) = (true, false);
         let (mut weights, mut discarded) = (0u128, 0u128);
-        cursor.leaves(&self.model.packer, key, |process, odometer, leaf| {
+        let whole = cursor.leaves(&self.model.packer, key, |process, odometer, leaf| {
             match leaf {
                 Leaf::To(after) => {
                     makes = true;
@@ -491,14 +557,25 @@ impl<O: Origin, T: Store> Level<'_, O, T> {
                 Leaf::Discarded => discarded = discarded.wrapping_add(odometer.weight()),
             }
             weights = weights.wrapping_add(odometer.weight());
+            *unwatched += 1;
+            if *unwatched == UNWATCHED {
+                *unwatched = 0;
+                // The states after one state alone may be more than fit the memory.
+                if self.over() {
+                    return ControlFlow::Break(());
+                }
+            }
             ControlFlow::Continue(())
         });
-        worker.explored += 1;
-        worker.weights = worker.weights.wrapping_add(weights);
+        *broken = !whole;
+        if whole {
+            worker.explored += 1;
+            worker.weights = worker.weights.wrapping_add(weights);
+        }
         worker.transitions = worker
             .transitions
             .saturating_add(weights.wrapping_sub(discarded));
-        if stays && makes {
+        if stays && makes && whole {
             self.absorbing(worker, key);
         }
     }

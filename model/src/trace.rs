@@ -42,7 +42,7 @@ struct Goal<K> {
     no_cycle: bool,
 }
 
-/// The runs of the requests. None for what is not reached, or where memory does not suffice.
+/// The runs of the requests. None for what is not reached, or where memory or time do not suffice.
 pub(crate) fn runs<O: Origin, T: Store>(
     model: &Model<O, T::Key>,
     store: &mut T,
@@ -55,7 +55,7 @@ pub(crate) fn runs<O: Origin, T: Store>(
     let (levels, goals) = forward(model, store, requests)?;
     store.clear();
     let chains = backward(model, levels, &goals);
-    let mut cursor = Cursor::new(&model.origin);
+    let mut cursor = model.retracing();
     let mut found = Vec::with_capacity(requests.len());
     for ((request, goal), chain) in requests.iter().zip(&goals).zip(chains) {
         found.push(match goal {
@@ -85,16 +85,10 @@ fn forward<O: Origin, T: Store>(
     let mut levels: Vec<Vec<T::Key>> = Vec::new();
     let mut held = 0;
     let mut workers: Vec<_> = (0..model.crew.size())
-        .map(|_| {
-            (
-                Cursor::new(&model.origin),
-                store.local(),
-                vec![None; requests.len()],
-            )
-        })
+        .map(|_| (model.retracing(), store.local(), vec![None; requests.len()]))
         .collect();
-    initial(model, store)?;
-    loop {
+    let (_, mut all) = initial(model, store, model.retracing(), model.afterwards())?;
+    while all {
         let level = store.frontier();
         let depth = levels.len();
         if level.is_empty() {
@@ -127,6 +121,9 @@ fn forward<O: Origin, T: Store>(
             &mut workers,
             now.pieces(),
             |(cursor, local, hits), piece| {
+                if model.afterwards().ended() {
+                    return;
+                }
                 now.each(piece, |key| {
                     cursor.leaves(&model.packer, key, |process, odometer, leaf| {
                         if !open.is_empty() {
@@ -147,7 +144,9 @@ fn forward<O: Origin, T: Store>(
                 });
             },
         );
-        for request in open.iter().copied() {
+        // A hit in a level that is not whole need not be the first one.
+        all = !model.afterwards().ended();
+        for request in open.iter().copied().filter(|_| all) {
             let hit = workers
                 .iter_mut()
                 .filter_map(|(_, _, hits)| hits[request].take())
@@ -178,7 +177,7 @@ fn backward<O: Origin, K: Key>(
         .map(|g| g.map(|g| g.key).into_iter().collect())
         .collect();
     let mut cursors: Vec<_> = (0..model.crew.size())
-        .map(|_| (Cursor::new(&model.origin), Vec::new()))
+        .map(|_| (model.retracing(), Vec::new()))
         .collect();
     while levels.len() > 1 {
         levels.truncate(levels.len() - 1);
@@ -249,18 +248,26 @@ fn spell<O: Origin, K: Key>(
     else {
         return Ok(None);
     };
+    let mut begun = false;
     cursor.initial(&model.packer, |key, odometer| {
         if key == start {
             trace.initial = odometer.values();
+            begun = true;
             return ControlFlow::Break(());
         }
         ControlFlow::Continue(())
     })?;
+    if !begun {
+        return Ok(None);
+    }
     for pair in chain.windows(2).rev() {
         let step = cursor.first(&model.packer, pair[1], |_, _, leaf| {
             leaf == Leaf::To(pair[0])
         });
-        trace.steps.extend(step.map(|(choices, _)| choices));
+        let Some((choices, _)) = step else {
+            return Ok(None);
+        };
+        trace.steps.push(choices);
     }
     if goal.no_cycle {
         return Ok(Some(Run {

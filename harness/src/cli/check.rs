@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use clap::Args;
 use stillpoint::certificate;
@@ -14,6 +14,7 @@ use stillpoint::report::{self, About};
 use stillpoint::subject::{self, Subject};
 
 use super::cluster::ClusterOptions;
+use super::interrupt::Interruptible;
 use super::limits::LimitOptions;
 use super::progress::Line;
 use super::values;
@@ -93,6 +94,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         arguments.limits.threads,
         &for_helpers(arguments, &choice.chosen),
     )?;
+    let interrupt = Interruptible::begin()?;
     let settings = Settings {
         keep: keep.transpose().map_err(Failure::Other)?,
         threads: arguments.limits.threads,
@@ -103,7 +105,9 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         // Processes that explore together agree on a search without them.
         witnesses: (arguments.markdown || arguments.html.is_some()) && place.cluster.is_none(),
         cluster: place.cluster.clone(),
+        interrupt: Some(interrupt.handle()),
     };
+    let start = Instant::now();
     let fail =
         |(title, e): (String, stillpoint_model::Error)| Failure::Other(format!("{title}: {e}"));
     let checked = check(&subject, &settings, &mut |task| {
@@ -127,7 +131,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         let compared = compare(
             &subject,
             &checked,
-            &settings,
+            &settings.after(start),
             &choice.chosen,
             &mut |title| Box::new(Line::new(title).within(settings.memory)),
         )
@@ -159,8 +163,8 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         }
     }
     if arguments.markdown || arguments.html.is_some() {
-        let mut about =
-            About::of(&subject, &checked, &settings, &mut |_| ()).map_err(Failure::Other)?;
+        let mut about = About::of(&subject, &checked, &settings.after(start), &mut |_| ())
+            .map_err(Failure::Other)?;
         about.readings = compared;
         let document = report::document(&subject, &checked, &summaries, &about);
         if arguments.markdown {
@@ -170,7 +174,8 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
             out.write_all(document.html().as_bytes())
         })?;
     }
-    // The report is out by now: it is not lost if the disk is full.
+    // The report is out by now: it is not lost if the disk is full, nor by a signal.
+    drop(interrupt);
     if let Some(path) = &arguments.certificate {
         let line = Line::new("certificate");
         let progress = |done: usize, of: usize| line.share(done as u64, of as u64, "systems");

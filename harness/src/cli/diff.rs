@@ -16,6 +16,7 @@ use stillpoint_model::{Limits, Options};
 use stillpoint_show::diagram::Diagram;
 use stillpoint_spec::machine;
 
+use super::interrupt::Interruptible;
 use super::limits::LimitOptions;
 use super::progress::Line;
 use super::{Failure, emit, show, write};
@@ -94,7 +95,10 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
             )
             .map_err(fail)?
         }
-        None => explore(&pairings, mutant, &arguments.limits).map_err(fail)?,
+        None => {
+            let interrupt = Interruptible::begin()?;
+            explore(&pairings, mutant, &arguments.limits, &interrupt).map_err(fail)?
+        }
     };
     let what = match arguments.random {
         Some(_) => format!("random runs, seed {}: a test, not a proof", arguments.seed),
@@ -124,6 +128,7 @@ fn explore(
     pairings: &[Pairing],
     mutant: Option<Mutant>,
     given: &LimitOptions,
+    interrupt: &Interruptible,
 ) -> Result<Vec<Compared>, DiffError> {
     let start = Instant::now();
     let one = |pairing: &Pairing| {
@@ -134,6 +139,7 @@ fn explore(
         };
         let options = Options {
             limits,
+            interrupt: Some(interrupt.handle()),
             ..Options::default()
         };
         exhaustive(

@@ -8,6 +8,7 @@ mod colour;
 mod diff;
 mod explore;
 mod export;
+mod interrupt;
 mod limits;
 mod manual;
 mod pages;

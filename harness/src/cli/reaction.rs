@@ -8,6 +8,7 @@ use stillpoint::reaction::{self, Error, Wishes};
 use stillpoint::subject::{self, Readings};
 use stillpoint_spec::machine::{self, Run, families};
 
+use super::interrupt::Interruptible;
 use super::limits::LimitOptions;
 use super::progress::Line;
 use super::{Failure, emit, write};
@@ -71,10 +72,12 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         |run: &&Run| wishes.axes.is_empty() || run.axes.iter().any(|a| wishes.axes.contains(a));
     let runs: Vec<Run> = reactions.runs.iter().filter(shown).cloned().collect();
     let subject = subject::of_runs(file, machine.clone(), &runs, &Readings::new())?;
+    let interrupt = Interruptible::begin()?;
     let settings = Settings {
         threads: arguments.limits.threads,
         memory: arguments.limits.memory,
         time: arguments.limits.time,
+        interrupt: Some(interrupt.handle()),
         ..Settings::default()
     };
     let checked = check(&subject, &settings, &mut |task| {

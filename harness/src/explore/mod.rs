@@ -8,10 +8,12 @@
 //! * [`live`], [`truth`]: what the properties say along the walk.
 //! * [`jump`]: a run that shows a property, found by exploring.
 //! * [`recorded`]: a walk on the production monitors, to be replayed.
-//! * [`view`]: all this as JSON. [`api`]: requests and answers. [`server`]: the same over HTTP, on loopback only.
+//! * [`view`]: all this as JSON. [`api`]: requests and answers. [`server`]: the same over HTTP, on loopback only;
+//!   [`http`]: as much of it as that takes.
 
 pub mod api;
 pub mod classes;
+pub mod http;
 pub mod jump;
 pub mod live;
 pub mod path;

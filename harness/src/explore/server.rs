@@ -1,22 +1,15 @@
 //! The page and its interface over HTTP, bound to loopback.
 
-use std::io::Read;
-use std::net::{IpAddr, Ipv4Addr, SocketAddr};
-use std::sync::Arc;
+use std::net::{Ipv4Addr, SocketAddr, TcpListener};
 
 use serde_json::{Value, json};
-use tiny_http::{Header, Method, Request, Response, Server};
 
+use super::http::{self, Answer, Head, Refused, Site};
 use super::{Explorer, api, view};
 
 const PAGE: &str = include_str!("page.html");
 const STYLE: &str = include_str!("page.css");
 const SCRIPT: &str = include_str!("page.js");
-
-/// The most bytes of a request's body.
-const MOST_BODY: u64 = 1 << 20;
-/// Requests answered at the same time; an exploration occupies one.
-const THREADS: usize = 4;
 
 /// The page is all that may be loaded; styles also stand in the diagram.
 const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; connect-src 'self'; \
@@ -25,26 +18,18 @@ const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self' 'u
 const HTML: &str = "text/html; charset=utf-8";
 const JSON: &str = "application/json";
 
+const HEADERS: [(&str, &str); 5] = [
+    ("Cache-Control", "no-store"),
+    ("Content-Security-Policy", POLICY),
+    ("X-Content-Type-Options", "nosniff"),
+    ("Referrer-Policy", "no-referrer"),
+    ("Cross-Origin-Resource-Policy", "same-origin"),
+];
+
 /// A server that listens already.
 pub struct Listening {
-    server: Arc<Server>,
+    listener: TcpListener,
     address: SocketAddr,
-}
-
-/// What came with a request and decides about it.
-struct Asked<'a> {
-    method: &'a Method,
-    path: &'a str,
-    host: Option<&'a str>,
-    origin: Option<&'a str>,
-    content_type: Option<&'a str>,
-}
-
-/// An answer.
-struct Answer {
-    status: u16,
-    content_type: &'static str,
-    body: String,
 }
 
 impl Answer {
@@ -71,18 +56,12 @@ impl Listening {
     /// # Errors
     /// A port that is taken or not allowed, in a sentence.
     pub fn new(port: u16) -> Result<Self, String> {
-        let wanted = SocketAddr::new(IpAddr::V4(Ipv4Addr::LOCALHOST), port);
+        let wanted = SocketAddr::from((Ipv4Addr::LOCALHOST, port));
         let fail =
-            |reason: &str| format!("cannot listen on {wanted}: {reason}; choose another --port");
-        let server = Server::http(wanted).map_err(|e| fail(&e.to_string()))?;
-        let address = server
-            .server_addr()
-            .to_ip()
-            .ok_or_else(|| fail("it has no address"))?;
-        Ok(Self {
-            server: Arc::new(server),
-            address,
-        })
+            |e: std::io::Error| format!("cannot listen on {wanted}: {e}; choose another --port");
+        let listener = TcpListener::bind(wanted).map_err(fail)?;
+        let address = listener.local_addr().map_err(fail)?;
+        Ok(Self { listener, address })
     }
 
     /// The address of the page.
@@ -93,65 +72,32 @@ impl Listening {
     /// Answers requests until the process ends.
     pub fn serve(self, explorer: &Explorer) {
         let port = self.address.port();
-        std::thread::scope(|scope| {
-            for _ in 0..THREADS {
-                let server = Arc::clone(&self.server);
-                scope.spawn(move || {
-                    for request in server.incoming_requests() {
-                        answer(explorer, port, request);
-                    }
-                });
-            }
-        });
+        http::serve(&self.listener, &Pages { explorer, port });
     }
 }
 
-fn answer(explorer: &Explorer, port: u16, mut request: Request) {
-    let header = |name: &str| {
-        let mut all = request.headers().iter();
-        let found = all.find(|h| h.field.as_str().as_str().eq_ignore_ascii_case(name));
-        found.map(|h| h.value.as_str().to_owned())
-    };
-    let (host, origin, kind) = (header("host"), header("origin"), header("content-type"));
-    let (method, url) = (request.method().clone(), request.url().to_owned());
-    let asked = Asked {
-        method: &method,
-        path: url.split(['?', '#']).next().unwrap_or_default(),
-        host: host.as_deref(),
-        origin: origin.as_deref(),
-        content_type: kind.as_deref(),
-    };
-    let answer = match refused(&asked, port) {
-        Some(answer) => answer,
-        None => {
-            let mut body = String::new();
-            let mut reader = request.as_reader().take(MOST_BODY + 1);
-            match reader.read_to_string(&mut body) {
-                Err(e) => Answer::refusal(400, &format!("the request cannot be read: {e}")),
-                Ok(_) if body.len() as u64 > MOST_BODY => {
-                    Answer::refusal(413, &format!("a request has at most {MOST_BODY} bytes"))
-                }
-                Ok(_) => routed(explorer, &asked, &body),
-            }
-        }
-    };
-    let mut response = Response::from_string(answer.body)
-        .with_status_code(answer.status)
-        .with_chunked_threshold(usize::MAX);
-    for (name, value) in [
-        ("Content-Type", answer.content_type),
-        ("Cache-Control", "no-store"),
-        ("Content-Security-Policy", POLICY),
-        ("X-Content-Type-Options", "nosniff"),
-        ("Referrer-Policy", "no-referrer"),
-        ("Cross-Origin-Resource-Policy", "same-origin"),
-    ] {
-        if let Ok(header) = Header::from_bytes(name, value) {
-            response.add_header(header);
-        }
+/// The page and its interface.
+struct Pages<'a> {
+    explorer: &'a Explorer,
+    port: u16,
+}
+
+impl Site for Pages<'_> {
+    fn refuse(&self, head: &Head) -> Option<Answer> {
+        refused(head, self.port)
     }
-    // Whoever asked may have gone away meanwhile.
-    let _ = request.respond(response);
+
+    fn answer(&self, head: &Head, body: &str) -> Answer {
+        routed(self.explorer, head, body)
+    }
+
+    fn refusal(&self, refused: &Refused) -> Answer {
+        Answer::refusal(refused.status, &refused.reason)
+    }
+
+    fn headers(&self) -> &[(&'static str, &'static str)] {
+        &HEADERS
+    }
 }
 
 /// Whether `authority` is a name of this host with our port: a page of somebody else may reach us under a name that it
@@ -163,8 +109,8 @@ fn ours(authority: &str, port: u16) -> bool {
         || port == 80 && ["127.0.0.1", "localhost"].contains(&authority)
 }
 
-fn refused(asked: &Asked, port: u16) -> Option<Answer> {
-    if !asked.host.is_some_and(|host| ours(host, port)) {
+fn refused(asked: &Head, port: u16) -> Option<Answer> {
+    if !asked.host.as_deref().is_some_and(|host| ours(host, port)) {
         return Some(Answer::refusal(
             403,
             "the page is to be opened under 127.0.0.1 or localhost, with its port",
@@ -175,26 +121,24 @@ fn refused(asked: &Asked, port: u16) -> Option<Answer> {
             .strip_prefix("http://")
             .is_some_and(|o| ours(o, port))
     };
-    if asked.origin.is_some_and(|origin| !own(origin)) {
+    if asked.origin.as_deref().is_some_and(|origin| !own(origin)) {
         return Some(Answer::refusal(403, "a request of another page"));
     }
-    let wanted = match asked.path {
-        "/" | "/page.css" | "/page.js" | "/api/systems" => Method::Get,
-        "/api/view" | "/api/run" | "/api/control" | "/api/diagram" | "/api/recording" => {
-            Method::Post
-        }
+    let wanted = match asked.path.as_str() {
+        "/" | "/page.css" | "/page.js" | "/api/systems" => "GET",
+        "/api/view" | "/api/run" | "/api/control" | "/api/diagram" | "/api/recording" => "POST",
         _ => {
             return Some(Answer::refusal(404, "there is nothing under this address"));
         }
     };
-    if *asked.method != wanted {
+    if asked.method != wanted {
         return Some(Answer::refusal(
             405,
             &format!("this address takes {wanted}"),
         ));
     }
     let json = |kind: &str| kind.split(';').next().is_some_and(|k| k.trim() == JSON);
-    if wanted == Method::Post && !asked.content_type.is_some_and(json) {
+    if wanted == "POST" && !asked.content_type.as_deref().is_some_and(json) {
         return Some(Answer::refusal(
             415,
             "the content type is to be application/json",
@@ -203,12 +147,12 @@ fn refused(asked: &Asked, port: u16) -> Option<Answer> {
     None
 }
 
-fn routed(explorer: &Explorer, asked: &Asked, body: &str) -> Answer {
+fn routed(explorer: &Explorer, asked: &Head, body: &str) -> Answer {
     let json = |found: Result<Value, api::Refusal>| match found {
         Ok(value) => Answer::new(JSON, value.to_string()),
         Err(refusal) => Answer::refusal(refusal.status, &refusal.reason),
     };
-    match asked.path {
+    match asked.path.as_str() {
         "/" => Answer::new(HTML, PAGE),
         "/page.css" => Answer::new("text/css; charset=utf-8", STYLE),
         "/page.js" => Answer::new("text/javascript; charset=utf-8", SCRIPT),

@@ -1,11 +1,11 @@
 //! The report as a document, for HTML and Markdown. It tells no times and no memory: equal input gives equal bytes.
 
 use std::collections::BTreeMap;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use stillpoint_certify::format::{Kind, Source};
 use stillpoint_certify::subject as certified;
-use stillpoint_model::{Limits, Options, Verdict};
+use stillpoint_model::{Options, Verdict};
 use stillpoint_show::document::{Block, Document, Inline, Table, Tone};
 use stillpoint_show::graph::Graph;
 use stillpoint_spec::ir::Topic;
@@ -64,8 +64,7 @@ impl About {
         let start = Instant::now();
         for (task, done) in subject.tasks.iter().zip(checked) {
             begin(task);
-            let left = settings.time.map(|t| t.saturating_sub(start.elapsed()));
-            out.control.push(drawn(task, done, settings, left)?);
+            out.control.push(drawn(task, done, settings, start)?);
         }
         Ok(out)
     }
@@ -93,7 +92,7 @@ fn drawn(
     task: &Task,
     done: &Checked,
     settings: &Settings,
-    time: Option<Duration>,
+    start: Instant,
 ) -> Result<Control, String> {
     let report = &done.outcome.report;
     if !report.complete {
@@ -101,11 +100,8 @@ fn drawn(
         return Ok(Control::Omitted(why.to_owned()));
     }
     let options = Options {
-        limits: Limits {
-            memory: settings.memory,
-            time,
-            threads: settings.threads,
-        },
+        limits: settings.limits(start),
+        interrupt: settings.interrupt.clone(),
         ..Options::default()
     };
     let drawn = control_states(&task.bound, BUDGET, &options)

@@ -229,7 +229,12 @@ pub fn further(checked: &[Checked], settings: &Settings) -> String {
     }
     let covered: u64 = short.iter().map(|r| r.states).sum();
     let mut out = format!(
-        "\nA limit ended {} of {} explorations; in them {} states were found, those up to the depth told explored.\n",
+        "\n{} ended {} of {} explorations; in them {} states were found, those up to the depth told explored.\n",
+        if settings.interrupted() {
+            "An interrupt"
+        } else {
+            "A limit"
+        },
         short.len(),
         checked.len(),
         grouped(u128::from(covered))

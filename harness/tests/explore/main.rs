@@ -1,5 +1,6 @@
 //! `stillpoint explore`: the interface over HTTP, and the page in a browser.
 
+mod adversary;
 mod agreement;
 mod api;
 mod chromium;

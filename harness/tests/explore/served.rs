@@ -49,6 +49,15 @@ impl Served {
         served
     }
 
+    /// The files that the command has open, and its threads.
+    pub fn resources(&self) -> (usize, usize) {
+        let count = |what: &str| {
+            let folder = format!("/proc/{}/{what}", self.child.id());
+            std::fs::read_dir(folder).expect("a process").count()
+        };
+        (count("fd"), count("task"))
+    }
+
     /// Host name and port.
     pub fn host(&self) -> &str {
         self.url.trim_start_matches("http://").trim_end_matches('/')

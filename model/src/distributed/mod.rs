@@ -22,7 +22,6 @@ mod work;
 
 pub use cluster::{Cluster, ClusterError};
 
-use crate::crew::Watch;
 use crate::explore::{Finish, bitmap_fits, crew};
 use crate::hashed::{Code, Halves, Hashed, Plain};
 use crate::pack::{Packer, Wide, space};
@@ -33,6 +32,7 @@ use crate::report::{Error, Judgement, Limits, Options, Progress, Report, Storage
 use crate::search::{Found, Model};
 use crate::store::Dense;
 use crate::system::System;
+use crate::watch::Watch;
 use flow::{Post, Wire};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, AtomicUsize};
@@ -60,13 +60,14 @@ pub fn explore_together<S: System>(
     cluster: &Cluster,
 ) -> Result<Report, Error> {
     validate(properties)?;
+    let watch = Watch::new(options);
     // Behind a pointer, so that a new system costs no compile time here.
     let any = Any::new(system);
     if u64::try_from(space(any.domains())?).is_ok() {
-        let parts = Tables::new(&any, &Packer::new(any.domains())?, properties);
+        let parts = Tables::new(&any, &Packer::new(any.domains())?, properties, &watch);
         run::<Plain>(any, parts, properties, options, progress, cluster)
     } else {
-        let parts = Tables::new(&any, &Packer::new(any.domains())?, properties);
+        let parts = Tables::new(&any, &Packer::new(any.domains())?, properties, &watch);
         run::<Halves>(any, parts, properties, options, progress, cluster)
     }
 }
@@ -115,7 +116,7 @@ fn run<C: Ending>(
         time: order.time,
         ..options.limits
     };
-    let watch = Watch::new(limits);
+    let watch = Watch::with(limits, options.interrupt.clone());
     let crew = crew(options)?;
     let task = Task {
         model: Model::new(origin, &crew, &watch)?,

@@ -6,15 +6,21 @@ use crate::hashed::{Code, Hashed, HashedLocal};
 use crate::pack::Key;
 use crate::store::Store;
 use std::io;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Slots of the filter for states sent before.
 const RECENT: usize = 1 << 14;
+
+/// States that go out between two notes of the memory they take.
+const WAITING: usize = 4096;
 
 /// An exact hash set of the states that belong to one worker.
 pub(super) struct Share<C> {
     own: Hashed<C>,
     worker: u64,
     workers: u64,
+    /// Bytes of the states of other workers that have not been sent, now and then.
+    waiting: AtomicU64,
 }
 
 /// What one worker collects during a level.
@@ -34,6 +40,7 @@ impl<C: Code> Share<C> {
             own: Hashed::new(),
             worker,
             workers,
+            waiting: AtomicU64::new(0),
         }
     }
 
@@ -65,6 +72,10 @@ impl<C: Code> Store for Share<C> {
         if *slot != Some(key) {
             *slot = Some(key);
             local.out.push(key);
+            if local.out.len() % WAITING == 0 {
+                let bytes = local.out.capacity() * size_of::<C::Key>();
+                self.waiting.store(bytes as u64, Ordering::Relaxed);
+            }
         }
     }
 
@@ -102,7 +113,8 @@ impl<C: Code> Store for Share<C> {
     }
 
     fn bytes(&self) -> u64 {
-        self.own.bytes() + (RECENT * size_of::<Option<C::Key>>()) as u64
+        let waiting = self.waiting.load(Ordering::Relaxed);
+        self.own.bytes() + waiting + (RECENT * size_of::<Option<C::Key>>()) as u64
     }
 
     fn clear(&mut self) {

@@ -2,13 +2,14 @@
 
 use super::flow::{Lost, Post, Wire};
 use super::share::{Share, ShareLocal};
-use crate::cursor::Cursor;
 use crate::hashed::Code;
 use crate::parts::Tables;
 use crate::process::{Any, AnyProcess, Origin};
 use crate::property::Property;
 use crate::report::{Error, Options, Progress};
-use crate::search::{Found, Level, Model, Signs, Tally, Worker, bytes, gather, least, lower};
+use crate::search::{
+    Found, Level, Model, Signs, Tally, UNWATCHED, Worker, bytes, gather, least, lower,
+};
 use crate::set::{Batch, Set};
 use crate::store::Store;
 use serde::{Deserialize, Serialize};
@@ -101,7 +102,13 @@ impl<'a, K: Wire> Task<'a, K> {
         let origin = &self.model.origin;
         let (rules, count) = (origin.rules(), self.properties.len());
         let mut share = Share::<C>::new(post.index(), post.peers());
-        let mut worker = Worker::new(origin, share.local(), count, self.parts.as_ref());
+        let mut worker = Worker::new(
+            origin,
+            self.model.watch,
+            share.local(),
+            count,
+            self.parts.as_ref(),
+        );
         let mut found = Found {
             tally: Tally::new(count, rules),
             pending: self.properties.iter().map(|_| Set::new()).collect(),
@@ -109,13 +116,20 @@ impl<'a, K: Wire> Task<'a, K> {
             resumable: false,
         };
         // Each worker makes all initial states and keeps its own.
-        Cursor::new(origin)
+        let mut unwatched = 0;
+        self.model
+            .cursor()
             .initial(&self.model.packer, |key, _| {
                 share.visit(&mut worker.local, key);
-                ControlFlow::Continue(())
+                // Who else owns them makes them too.
+                worker.local.out.clear();
+                unwatched += 1;
+                match unwatched % UNWATCHED == 0 && self.model.watch.over(share.bytes()) {
+                    true => ControlFlow::Break(()),
+                    false => ControlFlow::Continue(()),
+                }
             })
             .map_err(Broken::System)?;
-        worker.local.out.clear();
         post.end_depth(&mut |_| ())?;
         let mut signs = vec![(false, false); count];
         let (mut states, mut depth, mut stop) = (0, 0, false);
@@ -132,7 +146,7 @@ impl<'a, K: Wire> Task<'a, K> {
             let explored = Explored {
                 frontier,
                 transitions: found.tally.transitions,
-                stopped: self.model.watch.stopped().is_some(),
+                stopped: self.model.watch.stopped(),
                 signs: seen(&found.tally.signs),
             };
             for peer in 0..post.peers() {

@@ -1,6 +1,7 @@
 //! What the cycles of different parts read in common, and which of them agree.
 
 use super::tabulate::{Reads, Rough};
+use crate::watch::Watch;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Some inputs with their values, each in bits of its own.
@@ -28,12 +29,18 @@ impl Cube {
 /// For each group of cycles the cubes of its cycles, over the inputs that other parts read too.
 pub(super) type Pattern = Vec<Vec<Cube>>;
 
-/// The combinations of groups with cycles that agree: for each a group of each pattern.
-pub(super) fn agree<'a>(patterns: impl Iterator<Item = &'a Pattern>) -> Vec<u32> {
+/// The combinations of groups with cycles that agree: for each a group of each pattern. None if a limit is reached first.
+pub(super) fn agree<'a>(
+    patterns: impl Iterator<Item = &'a Pattern>,
+    watch: &Watch,
+) -> Option<Vec<u32>> {
     let mut found: Vec<(Vec<u32>, Vec<Cube>)> = vec![(Vec::new(), vec![Cube::FREE])];
     for pattern in patterns {
         let mut next = Vec::new();
         for (groups, cubes) in &found {
+            if watch.ended() {
+                return None;
+            }
             for (group, own) in pattern.iter().enumerate() {
                 let meets = cubes
                     .iter()
@@ -47,7 +54,7 @@ pub(super) fn agree<'a>(patterns: impl Iterator<Item = &'a Pattern>) -> Vec<u32>
         }
         found = next;
     }
-    found.into_iter().flat_map(|(groups, _)| groups).collect()
+    Some(found.into_iter().flat_map(|(groups, _)| groups).collect())
 }
 
 /// The bits of the inputs that several parts read.

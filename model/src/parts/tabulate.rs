@@ -5,6 +5,7 @@ use crate::cursor::{Cursor, Leaf};
 use crate::pack::{Key, Packer};
 use crate::process::{Any, AnyProcess, beyond};
 use crate::property::{Eval, Property};
+use crate::watch::Watch;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::ControlFlow;
 
@@ -111,6 +112,7 @@ pub(super) struct Builder<'a, K> {
     pub(super) properties: &'a [Property],
     /// The properties that speak of the part.
     pub(super) own: &'a [usize],
+    pub(super) watch: &'a Watch,
 }
 
 impl<K: Key> Builder<'_, K> {
@@ -121,7 +123,7 @@ impl<K: Key> Builder<'_, K> {
         let mut locals = Vec::new();
         locals.resize_with(states as usize, || None);
         let system = Any::of(&*self.part.system);
-        let mut cursor = Cursor::new(&system);
+        let mut cursor = Cursor::new(&system, self.watch);
         let rest = initial.first()?.minus(self.share(*initial.first()?)?);
         let mut open = Vec::new();
         for key in initial {
@@ -151,7 +153,7 @@ impl<K: Key> Builder<'_, K> {
         let mut marks = [BTreeSet::new(), BTreeSet::new(), BTreeSet::new()];
         let mut coverage = vec![0; self.part.system.rules()];
         let mut sound = true;
-        cursor.leaves(self.packer, key, |process, choices, leaf| {
+        let whole = cursor.leaves(self.packer, key, |process, choices, leaf| {
             *budget = budget.saturating_sub(1);
             let Leaf::To(after) = leaf else {
                 sound = false;
@@ -186,7 +188,7 @@ impl<K: Key> Builder<'_, K> {
                 false => ControlFlow::Break(()),
             }
         });
-        if !sound || *budget == 0 {
+        if !whole || !sound || *budget == 0 {
             return None;
         }
         let [first, bad, met] = marks.map(|mark| mark.into_iter().collect());

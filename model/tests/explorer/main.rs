@@ -9,6 +9,7 @@ mod distributed;
 mod faults;
 mod known;
 mod larger;
+mod limits;
 mod liveness;
 mod parts;
 mod random;
