@@ -31,7 +31,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 pub use read::{ReadError, find_root, read};
 pub use show::{html, text, to_json};
-use stillpoint_spec::catalogue::{Catalogue, Kind, Requirement, Scope};
+use stillpoint_spec::catalogue::{Catalogue, Kind, Requirement, Scope, requirement_id};
 
 /// What a piece of evidence is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -315,10 +315,9 @@ fn nowhere(sources: &Sources) -> Vec<String> {
             None => out.push(format!(
                 "{id} is delegated to {test}, no acceptance test of {family}"
             )),
-            Some(named) if !named.contains(id) && !named.contains(ids::requirement(id)) => out
-                .push(format!(
-                    "{id} is delegated to {test}, whose `req` does not name it"
-                )),
+            Some(named) if !named.contains(id) && !named.contains(requirement_id(id)) => out.push(
+                format!("{id} is delegated to {test}, whose `req` does not name it"),
+            ),
             Some(_) => {}
         }
     }

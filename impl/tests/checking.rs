@@ -38,7 +38,7 @@ fn run(monitor: &mut test_stop::Monitor) -> (u32, test_stop::Outputs) {
     (cycles, outputs)
 }
 
-/// S840D-TEST-001, S840D-TEST-005, S840D-TEST-009, S840D-TEST-010, S840D-TEST-029: both paths, one after the other.
+/// S840D-TEST-001/a, S840D-TEST-005, S840D-TEST-009, S840D-TEST-010, S840D-TEST-029: both paths, one after the other.
 #[test]
 fn both_paths_tested_one_after_the_other_make_the_axis_tested() {
     let interval = Cycles::new(100);
@@ -195,7 +195,7 @@ fn the_history_survives_power_off() {
     assert!(!monitor.step(&reference(611)).history_ok);
 }
 
-/// S840D-PARAM-507, S840D-SLIP-501, S840D-SLIP-701, S840D-TEST-001: plausibility of the parameters.
+/// S840D-PARAM-507, S840D-SLIP-501, S840D-SLIP-701, S840D-TEST-001/a: plausibility of the parameters.
 #[test]
 fn configurations_the_manual_does_not_allow_are_refused() {
     let eleven_seconds = Cycles::new(11_000 * 32);

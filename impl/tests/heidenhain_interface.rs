@@ -49,7 +49,7 @@ fn an_unknown_code_is_a_fatal_fault() {
     }
 }
 
-/// HFS-FAULT-008: restricted spindle operation for a spindle only.
+/// HFS-FAULT-008/a: restricted spindle operation for a spindle only.
 #[test]
 fn restricted_operation_is_for_spindles() {
     let inputs = gate::Inputs {

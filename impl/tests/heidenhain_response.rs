@@ -292,7 +292,7 @@ fn a_missing_signal_is_the_safe_one() {
     assert!(!one.starts && !one.held);
 }
 
-/// HFS-TIMING-003: the reaction comes with the fourth faulty telegram in a row, 12 ms after the first one began; a sound one in
+/// HFS-TIMING-003/b: the reaction comes with the fourth faulty telegram in a row, 12 ms after the first one began; a sound one in
 /// between begins anew. Until then the drive is taken to move (HFS-ARCH-003).
 #[test]
 fn four_faulty_telegrams_of_another_cc_are_fatal() {

@@ -295,7 +295,7 @@ fn imports_of_the_plc_move_nothing() {
     }
 }
 
-/// HFS-API-004: auxiliary axes in the normal working space: the keylock decides, and their motion key needs the permissive.
+/// HFS-API-004/b: auxiliary axes in the normal working space: the keylock decides, and their motion key needs the permissive.
 #[test]
 fn auxiliary_axes_in_the_working_space() {
     let step = |door_open, som, panel| {

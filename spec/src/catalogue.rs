@@ -121,6 +121,11 @@ struct Entry {
     merged_into: Option<Spanned<String>>,
 }
 
+/// The requirement that a name stands for, its id or one of its sentences: `F-STOP-001` for `F-STOP-001/a`.
+pub fn requirement_id(named: &str) -> &str {
+    named.split('/').next().unwrap_or(named)
+}
+
 /// Loads every `requirements*.toml` and `manual.toml` in the folders of `root`, one folder a family.
 ///
 /// # Errors

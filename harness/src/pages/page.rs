@@ -7,7 +7,7 @@ use stillpoint_model::Options;
 use stillpoint_show::document::{Block, Document, Inline};
 use stillpoint_show::graph::{Edge, Graph};
 use stillpoint_spec::bind::Bound;
-use stillpoint_spec::catalogue::Catalogue;
+use stillpoint_spec::catalogue::{Catalogue, requirement_id};
 use stillpoint_spec::machine::acceptance::Test;
 use stillpoint_spec::machine::reaction::{Basis, Chain, Reactions};
 use stillpoint_spec::machine::units::Dimension;
@@ -481,10 +481,11 @@ fn requirements(
         let ports = [&machine.params, &machine.inputs, &machine.states];
         named.extend(ports.into_iter().flatten().flat_map(|p| &p.ids));
     }
+    let named: BTreeSet<&str> = named.into_iter().map(|n| requirement_id(n)).collect();
     let listed = catalogue
         .requirements
         .iter()
-        .filter(|r| named.contains(&r.id));
+        .filter(|r| named.contains(r.id.as_str()));
     let rows = listed.map(|r| vec![code(&r.id), words(&r.title), words(&r.source)]);
     let sentence = "Of the catalogue, with the place in the manual; named by the tables above.";
     told(

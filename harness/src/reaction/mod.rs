@@ -209,7 +209,8 @@ pub fn judge(
 }
 
 fn source(catalogue: &Catalogue, id: &str) -> std::result::Result<String, Error> {
-    let found = catalogue.requirements.iter().find(|r| r.id == id);
+    let named = catalogue::requirement_id(id);
+    let found = catalogue.requirements.iter().find(|r| r.id == named);
     let found = found.ok_or_else(|| {
         Error::Other(format!(
             "the reaction chains name the requirement {id}, which is in no catalogue"

@@ -63,7 +63,7 @@ pub struct Outputs {
 
 contract! {
     /// The request in force is one of the two, and neither is stricter.
-    stricter_request_counts ["HFS-KDV-005", "HFS-STOP-006", "HFS-API-001"]:
+    stricter_request_counts ["HFS-KDV-005", "HFS-STOP-006/a", "HFS-API-001"]:
         when |s| s.inputs.request_mc != s.inputs.request_cc
             => s.outputs.request.strictness() >= s.inputs.request_mc.strictness()
                 && s.outputs.request.strictness() >= s.inputs.request_cc.strictness()

@@ -116,7 +116,7 @@ contract! {
             => s.outputs.drive == s.inputs.drive && s.after.last == s.inputs.drive && s.after.faulty == 0;
 
     /// Without a sound telegram the drive is taken to move, and nothing else changes.
-    faulty_telegram_is_motion ["HFS-TIMING-003", "HFS-ARCH-003"]:
+    faulty_telegram_is_motion ["HFS-TIMING-003/b", "HFS-ARCH-003"]:
         when |s| !s.inputs.sound && !s.inputs.main_switch
             => s.outputs.drive.moving && s.after.last == s.before.last
                 && s.outputs.drive.position == s.before.last.position
@@ -125,12 +125,12 @@ contract! {
                 && s.outputs.drive.torque == s.before.last.torque;
 
     /// More faulty telegrams in a row than are tolerated: the link is lost.
-    row_of_faulty_telegrams_stops ["HFS-TIMING-003"]:
+    row_of_faulty_telegrams_stops ["HFS-TIMING-003/b"]:
         when |s| !s.inputs.sound && !s.inputs.main_switch && s.before.faulty >= s.config.tolerated()
             => s.outputs.demand == Stop::Ss1F && s.after.lost;
 
     /// Each faulty telegram counts one, so that the reaction comes with the fourth at the latest.
-    faulty_telegrams_are_counted ["HFS-TIMING-003"]:
+    faulty_telegrams_are_counted ["HFS-TIMING-003/b"]:
         when |s| !s.inputs.sound && !s.inputs.main_switch && s.before.faulty < s.config.tolerated()
             => s.after.faulty as u32 == s.before.faulty as u32 + 1 && s.config.tolerated() <= Config::MOST;
 
@@ -140,17 +140,17 @@ contract! {
             => s.outputs.demand == Stop::Ss1F;
 
     /// A lost link stays lost until the main switch is operated.
-    lost_link_stays_lost ["HFS-TIMING-003"]:
+    lost_link_stays_lost ["HFS-TIMING-003/b"]:
         when |s| s.before.lost && !s.inputs.main_switch
             => s.after.lost && s.outputs.demand == Stop::Ss1F;
 
     /// Nothing else stops.
-    sound_link_stops_nothing ["HFS-TIMING-003", "HFS-ARCH-003"]:
+    sound_link_stops_nothing ["HFS-TIMING-003/b", "HFS-ARCH-003"]:
         when |s| s.outputs.demand != Stop::None
             => s.outputs.demand == Stop::Ss1F && s.after.lost;
 
     /// The state stays consistent.
-    state_stays_consistent ["HFS-TIMING-003"]:
+    state_stays_consistent ["HFS-TIMING-003/b"]:
         when |s| s.before.invariant(&s.config)
             => s.after.invariant(&s.config);
 }

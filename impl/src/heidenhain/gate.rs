@@ -77,12 +77,12 @@ contract! {
             => s.outputs.stop == Stop::Ss1F && !s.outputs.starts && !s.outputs.held;
 
     /// A state that does not exist is the strictest one.
-    unknown_state_is_the_strictest ["HFS-FAULT-006", "HFS-STOP-006"]:
+    unknown_state_is_the_strictest ["HFS-FAULT-006", "HFS-STOP-006/a"]:
         when |s| GroupState::from_code(s.inputs.state_code).is_none()
             => s.outputs.request == GroupState::Sto;
 
     /// A group without spindle that asks for restricted spindle operation gets SS1F and is not activated.
-    spindle_mode_needs_a_spindle ["HFS-FAULT-008", "HFS-P-39"]:
+    spindle_mode_needs_a_spindle ["HFS-FAULT-008/a", "HFS-P-39"]:
         when |s| s.inputs.state_code == GroupState::SlsS.code() && s.config.kind != Kind::Spindle
             => s.outputs.stop == Stop::Ss1F && !s.outputs.starts && !s.outputs.held;
 

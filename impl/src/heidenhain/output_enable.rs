@@ -94,7 +94,7 @@ pub struct Outputs {
 
 contract! {
     /// SS0 takes the permission at its beginning.
-    ss0_takes_it_at_once ["HFS-P-34", "HFS-SS0-003", "HFS-API-032"]:
+    ss0_takes_it_at_once ["HFS-P-34", "HFS-SS0-003/c", "HFS-API-032"]:
         when |s| s.inputs.stop == Stop::Ss0
             => !s.outputs.enabled;
 

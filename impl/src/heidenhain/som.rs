@@ -136,7 +136,7 @@ contract! {
             => s.outputs.som == s.inputs.wish();
 
     /// Every change is reported, whatever it is.
-    every_change_is_reported ["HFS-KSW-003", "HFS-MODE-019", "HFS-API-021"]:
+    every_change_is_reported ["HFS-KSW-003/a", "HFS-KSW-003/b", "HFS-MODE-019", "HFS-API-021"]:
         when |s| s.outputs.som != s.before.som || s.outputs.changed
             => s.outputs.changed == (s.outputs.som != s.before.som);
 

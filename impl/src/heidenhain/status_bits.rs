@@ -117,7 +117,7 @@ contract! {
             => s.outputs.mc == Stop::None;
 
     /// On the failure of the DC-link voltage the MC lets its watchdogs run out; masked, it serves them.
-    mc_lets_its_watchdogs_run_out ["HFS-STAT-006"]:
+    mc_lets_its_watchdogs_run_out ["HFS-STAT-006/b"]:
         when |s| s.inputs.pf_dc
             => s.outputs.mc_retrigger == s.inputs.masked;
 
@@ -127,7 +127,7 @@ contract! {
             => s.outputs.mc >= Stop::Ss2 && s.outputs.cc >= Stop::Ss2;
 
     /// The line voltage lifts the tool off unless masked, and the spindle bit is noted; neither stops anything.
-    notes_are_no_stops ["HFS-STAT-002", "HFS-STAT-005", "HFS-STAT-006"]:
+    notes_are_no_stops ["HFS-STAT-002", "HFS-STAT-005", "HFS-STAT-006/a"]:
         when |s| Inputs { pf_ac: false, stos_mc: false, masked: false, ..s.inputs } == Inputs::default()
             => s.outputs == Outputs {
                 lift_off: s.inputs.pf_ac && !s.inputs.masked,
@@ -137,7 +137,7 @@ contract! {
             };
 
     /// Safe outputs are switched off only where the fault is.
-    outputs_are_switched_off_locally ["HFS-STAT-001", "HFS-STAT-006", "HFS-STAT-008"]:
+    outputs_are_switched_off_locally ["HFS-STAT-001", "HFS-STAT-006/c", "HFS-STAT-008"]:
         when |s| s.outputs.spl_off || s.outputs.smop_off
             => (!s.outputs.spl_off || s.inputs.spl_wd || s.inputs.pf_board)
                 && (!s.outputs.smop_off || s.inputs.smop_wd || s.inputs.pf_board);

@@ -89,7 +89,7 @@ impl Phase {
     ];
 }
 
-/// The monitoring state of an axis group (`PP_AxGrpStateReq`, `NN_AxGrpState`), in rising protection (HFS-STOP-006).
+/// The monitoring state of an axis group (`PP_AxGrpStateReq`, `NN_AxGrpState`), in rising protection (HFS-STOP-006/a).
 ///
 /// SLS_2, SLS_3 and SLS_4 are limits of their own, which do not compare (see [`GroupState::strictness`]). The list puts the
 /// mode for everybody before those for the qualified: where one of two must be taken, it is SLS_2 before SLS_3 before SLS_4.

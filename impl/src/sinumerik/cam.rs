@@ -106,7 +106,7 @@ pub struct Outputs {
 
 contract! {
     /// Beyond the cam, and beyond the hysteresis if there is one, the result is 1.
-    beyond_is_one ["S840D-SN-001", "S840D-SN-002", "S840D-SN-008", "S840D-SN-013", "S840D-TIMING-508", "S840D-CAM-705",
+    beyond_is_one ["S840D-SN-001", "S840D-SN-002", "S840D-SN-008", "S840D-SN-013", "S840D-TIMING-508/a", "S840D-CAM-705",
         "S840D-SN-003"]:
         when |s| s.config.enabled && i64::from(s.config.range.folded(s.inputs.position).0) > s.config.on_above()
             => s.after.own;

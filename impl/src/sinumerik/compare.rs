@@ -148,9 +148,9 @@ contract! {
             => s.outputs.discrepancy && s.outputs.code == s.before.due(&s.config, s.inputs.power_on).code();
 
     /// A difference of a dynamic item is a finding while no change timer runs.
-    dynamic_difference_is_found ["S840D-P-26", "S840D-KDV-505", "S840D-KDV-509", "S840D-KDV-512", "S840D-KDV-515",
+    dynamic_difference_is_found ["S840D-P-26", "S840D-KDV-505/a", "S840D-KDV-509", "S840D-KDV-512", "S840D-KDV-515",
         "S840D-KDV-704", "S840D-KDV-705", "S840D-KDV-706", "S840D-KDV-709", "S840D-KDV-710", "S840D-KDV-713",
-        "S840D-KDV-714", "S840D-TEST-019", "S840D-GEAR-503", "S840D-GEAR-504"]:
+        "S840D-KDV-714", "S840D-TEST-019/b", "S840D-GEAR-503", "S840D-GEAR-504"]:
         when |s| s.inputs.differs && s.before.due(&s.config, s.inputs.power_on).kind() == Kind::Dynamic
             && !s.outputs.suspended
             => s.outputs.discrepancy && s.outputs.code == s.before.due(&s.config, s.inputs.power_on).code();

@@ -99,13 +99,13 @@ contract! {
             => s.outputs.due && !s.outputs.half && !s.outputs.tested;
 
     /// A passed test counts for the whole interval from its end.
-    test_counts_for_the_interval ["S840D-TEST-001"]:
+    test_counts_for_the_interval ["S840D-TEST-001/a"]:
         when |s| !s.inputs.power_on && !s.inputs.failed && (s.inputs.passed_drive || s.inputs.passed_nck)
             => (!s.inputs.passed_drive || s.after.drive == s.config.interval())
                 && (!s.inputs.passed_nck || s.after.nck == s.config.interval());
 
     /// Without a test each path runs down, so that a test becomes due after the interval.
-    paths_run_down ["S840D-TEST-001", "S840D-TIMING-513"]:
+    paths_run_down ["S840D-TEST-001/a", "S840D-TIMING-513"]:
         when |s| !s.inputs.passed_drive || !s.inputs.passed_nck
             => (s.inputs.passed_drive || s.after.drive <= s.before.drive.tick())
                 && (s.inputs.passed_nck || s.after.nck <= s.before.nck.tick());
@@ -126,7 +126,7 @@ contract! {
             => s.outputs.tested;
 
     /// The step keeps the invariant and shows its state.
-    state_stays_consistent ["S840D-TEST-001", "S840D-TEST-005"]:
+    state_stays_consistent ["S840D-TEST-001/a", "S840D-TEST-005"]:
         when |s| s.before.invariant(&s.config)
             => s.after.invariant(&s.config) && s.outputs.due == s.after.due()
                 && s.outputs.half == (s.after.drive.is_zero() != s.after.nck.is_zero());

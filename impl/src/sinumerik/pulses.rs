@@ -112,7 +112,7 @@ contract! {
             => !s.outputs.enable;
 
     /// Without reason the pulses are not cancelled.
-    enabled_without_reason_against ["S840D-PULSE-006"]:
+    enabled_without_reason_against ["S840D-PULSE-006/b"]:
         when |s| !s.inputs.cancel && s.inputs.run_up
             => s.outputs.enable && s.after.phase == Phase::Enabled;
 
@@ -159,7 +159,7 @@ contract! {
                 && s.outputs.enable_external != s.inputs.external_test;
 
     /// The step keeps the invariant and shows its state.
-    state_stays_consistent ["S840D-PULSE-006", "S840D-SH-001"]:
+    state_stays_consistent ["S840D-PULSE-006/b", "S840D-SH-001"]:
         when |s| s.before.invariant(&s.config)
             => s.after.invariant(&s.config) && s.outputs.enable == (s.after.phase == Phase::Enabled);
 }

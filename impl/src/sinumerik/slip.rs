@@ -151,7 +151,7 @@ contract! {
             => s.after == start(s.before, &s.inputs) && !s.outputs.error;
 
     /// A difference beyond the tolerance is an error, one at the tolerance is none.
-    error_beyond_the_tolerance ["S840D-P-33", "S840D-SLIP-504", "S840D-KDV-505", "S840D-KDV-516"]:
+    error_beyond_the_tolerance ["S840D-P-33", "S840D-SLIP-504", "S840D-KDV-505/b", "S840D-KDV-516"]:
         when |s| s.inputs.due
             => s.outputs.error
                 == (start(s.before, &s.inputs).ahead(s.inputs.own, s.inputs.other).unsigned_abs() > u64::from(s.config.tol().0));

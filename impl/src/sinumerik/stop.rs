@@ -332,7 +332,7 @@ contract! {
                 && s.outputs.n_set_zero == (s.outputs.sbr_on && s.after.phase != Phase::SbhInt);
 
     /// The system variable shows the number of the effective stop.
-    stopsi_shows_the_level ["S840D-STOP-053"]:
+    stopsi_shows_the_level ["S840D-STOP-053/a"]:
         when |s| s.after.level != Level::None
             => matches!(
                 (s.outputs.stopsi, s.after.level),

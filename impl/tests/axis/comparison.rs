@@ -199,7 +199,7 @@ fn threshold_may_differ_at_its_limit() {
     }
 }
 
-/// S840D-KDV-505, S840D-KDV-516, S840D-ALARM-718, S840D-P-33: a difference of the positions is displayed at once beyond
+/// S840D-KDV-505/a, S840D-KDV-516, S840D-ALARM-718, S840D-P-33: a difference of the positions is displayed at once beyond
 /// the tolerance (NCK only); STOP F comes with the next item made of positions. That is the position itself (item 2, code
 /// 3), or, when it is just over, the first of the limits (item 41, code 44).
 #[test]

@@ -88,7 +88,7 @@ impl Axis {
     }
 }
 
-/// S840D-SLIP-504, S840D-KDV-505, lines 7303, 1816, 8212: a slip at the speed that the machine datum names is tolerated, in
+/// S840D-SLIP-504, S840D-KDV-505/b, lines 7303, 1816, 8212: a slip at the speed that the machine datum names is tolerated, in
 /// both directions, at standstill of the load and on a moving axis, for any length of time; one a little faster is not.
 #[test]
 fn the_tolerated_speed_is_tolerated_and_a_little_more_is_not() {
@@ -135,7 +135,7 @@ fn the_tolerated_speed_is_tolerated_and_a_little_more_is_not() {
     }
 }
 
-/// S840D-SLIP-502, S840D-SLIP-504, S840D-KDV-505: a slip beyond the tolerance is STOP F with code 3 where the positions
+/// S840D-SLIP-502, S840D-SLIP-504, S840D-KDV-505/b: a slip beyond the tolerance is STOP F with code 3 where the positions
 /// are compared, and is corrected as well, each channel by half; so it can be acknowledged.
 #[test]
 fn slip_is_synchronised() {
@@ -170,7 +170,7 @@ fn feed_is_no_slip() {
     }
 }
 
-/// S840D-SLIP-505, line 1834: the operating stop of the channel whose encoder stands does not see that its position is
+/// S840D-SLIP-505/b, line 1834: the operating stop of the channel whose encoder stands does not see that its position is
 /// corrected by half of what the other encoder slips, though its window is the smallest one.
 #[test]
 fn the_operating_stop_does_not_see_the_correction() {
@@ -198,7 +198,7 @@ fn the_operating_stop_does_not_see_the_correction() {
     assert!(axis.machine.state().nck.slip.offset > 1_000);
 }
 
-/// S840D-SLIP-505, lines 1834 to 1836: the correction of a pass, far above the limit as a way of one cycle, is no speed. A
+/// S840D-SLIP-505/a, lines 1834 to 1836: the correction of a pass, far above the limit as a way of one cycle, is no speed. A
 /// violation in one channel raises the alarm there alone, and the stop in both.
 #[test]
 fn the_speed_monitor_does_not_see_the_correction() {
@@ -225,7 +225,7 @@ fn the_speed_monitor_does_not_see_the_correction() {
     assert_eq!(levels(&outputs), both(Level::C));
 }
 
-/// S840D-SLIP-505, S840D-NX-002, line 1838: with slip n < n_x may lastingly differ between the channels; no code 2, no
+/// S840D-SLIP-505/f, S840D-NX-002, line 1838: with slip n < n_x may lastingly differ between the channels; no code 2, no
 /// stop. Speeds that differ by more than the slip tolerated are a difference.
 #[test]
 fn n_below_n_x_may_differ_with_slip() {

@@ -42,7 +42,7 @@ contract! {
             };
 
     /// A wrong request of either safe PLC stops the machine for good and releases nothing.
-    wrong_request_is_never_trusted ["HFS-FAULT-001", "HFS-FAULT-006", "HFS-FAULT-008"]:
+    wrong_request_is_never_trusted ["HFS-FAULT-001", "HFS-FAULT-006", "HFS-FAULT-008/a"]:
         when |s| !s.inputs.main_switch && (own(&s).stop == Stop::Ss1F || s.inputs.peer.stop == Stop::Ss1F)
             => s.outputs.stop.level >= Stop::Ss1F && s.outputs.stop.needs_switch;
 

@@ -47,7 +47,7 @@ contract! {
             };
 
     /// Restricted spindle operation of a group without spindle is SS1F.
-    spindle_mode_needs_a_spindle ["HFS-FAULT-008", "HFS-P-39"]:
+    spindle_mode_needs_a_spindle ["HFS-FAULT-008/a", "HFS-P-39"]:
         when |s| s.inputs.request == GroupState::SlsS && s.config.kind() != Kind::Spindle && !s.inputs.main_switch
             => s.outputs.demand == Stop::Ss1F;
 
@@ -68,7 +68,7 @@ contract! {
             => s.outputs.asks_ss1;
 
     /// A spindle that turns without permissive in SOM_2 or SOM_3, or at the handwheel in SOM_4, stops after the axes.
-    spindle_without_permissive_stops ["HFS-AXG-014", "HFS-PB-003", "HFS-FAULT-016", "HFS-MODE-004", "HFS-SS2-010"]:
+    spindle_without_permissive_stops ["HFS-AXG-014", "HFS-PB-003", "HFS-FAULT-016", "HFS-MODE-004/e", "HFS-SS2-010"]:
         when |s| s.config.kind() == Kind::Spindle && s.inputs.moving && !s.inputs.permissive
             && (matches!(s.inputs.state, GroupState::Sls2 | GroupState::Sls3)
                 || (s.inputs.state == GroupState::Sls4 && s.inputs.unit == Unit::Handwheel))

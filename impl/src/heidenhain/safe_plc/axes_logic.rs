@@ -285,7 +285,7 @@ contract! {
             => s.outputs.stop == Stop::None;
 
     /// With the door open a stop key, a change of the mode and an open magazine door stop along the contour.
-    open_door_stops_by_event ["HFS-API-021", "HFS-SS2-009", "HFS-SEQ-007", "HFS-KSW-003"]:
+    open_door_stops_by_event ["HFS-API-021", "HFS-SS2-009", "HFS-SEQ-007", "HFS-KSW-003/a"]:
         when |s| s.inputs.door_open && (s.inputs.stop || s.inputs.som_changed || s.inputs.t_open)
             => s.outputs.stop == Stop::Ss2;
 

@@ -92,12 +92,12 @@ pub struct Outputs {
 
 contract! {
     /// Its door alone decides the monitoring state.
-    state_follows_the_door ["HFS-API-004", "HFS-MAG-001", "HFS-GRP-006"]:
+    state_follows_the_door ["HFS-API-004/a", "HFS-MAG-001", "HFS-GRP-006"]:
         when |s| s.inputs.t_open
             => s.outputs.request == GroupState::Sls2;
 
     /// With its door closed it runs automatically.
-    closed_door_asks_for_automatic_operation ["HFS-API-004", "HFS-MAG-004"]:
+    closed_door_asks_for_automatic_operation ["HFS-API-004/a", "HFS-MAG-004"]:
         when |s| !s.inputs.t_open
             => s.outputs.request == GroupState::Auto;
 

@@ -112,7 +112,7 @@ impl Told {
 ///
 /// Result list 2 is compared with the tolerances of its monitors: around a cam, and around n_x, the channels may see
 /// different states (S840D-SN-005, S840D-SN-006, S840D-NX-001), with slip at speeds that differ by as much as is tolerated
-/// (S840D-NX-002, S840D-SLIP-505); around the end of the modulo range, where one channel may
+/// (S840D-NX-002, S840D-SLIP-505/f); around the end of the modulo range, where one channel may
 /// have been folded and the other not, every cam. Their positions are compared there as everywhere (code 3).
 pub(super) fn differs(item: Item, own: &Told, other: &Exchange, config: &Configuration) -> bool {
     if item.code() == Code::RESULTS_2 {

@@ -74,7 +74,7 @@ contract! {
             => !s.outputs.pulses.enable;
 
     /// Nothing else cancels them.
-    pulses_are_not_cancelled_otherwise ["S840D-P-38", "S840D-PULSE-006"]:
+    pulses_are_not_cancelled_otherwise ["S840D-P-38", "S840D-PULSE-006/b"]:
         when |s| !matches!(s.outputs.stop.level, Level::A | Level::Test) && s.inputs.run_up
             => s.outputs.pulses.enable;
 

@@ -51,7 +51,7 @@ pub struct Installation {
     pub external_path: bool,
     /// The highest gear index with a real ratio, 0 to 7; 0 for an axis without selector gearbox (S840D-GEAR-501).
     pub gear_max: u8,
-    /// How long a test of the shutdown paths counts, in ms: 1 to 28 800 000, eight hours (S840D-TEST-001).
+    /// How long a test of the shutdown paths counts, in ms: 1 to 28 800 000, eight hours (S840D-TEST-001/a).
     pub test_interval: u32,
 }
 

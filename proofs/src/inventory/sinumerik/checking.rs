@@ -102,7 +102,7 @@ inventory! {
     }]
     [run(4) compare_tolerance on sinumerik::"compare" by checking::tolerance_is_exact {
         property: "equal channels never differ; positions and limits differ exactly beyond the tolerance",
-        requirements: ["S840D-P-33", "S840D-KDV-501", "S840D-KDV-505", "S840D-KDV-516", "S840D-SLIP-504"],
+        requirements: ["S840D-P-33", "S840D-KDV-501", "S840D-KDV-505/a", "S840D-KDV-516", "S840D-SLIP-504"],
         covers: ["at the tolerance", "just beyond it", "a limit"],
         domain: NARROW,
         domain_text: "every item; positions -3 to 3 and both ends in each channel; tolerance 0 to 3 and the greatest",
@@ -129,7 +129,7 @@ inventory! {
     }]
     [run(6) forced_check_due on sinumerik::"forced_check" by checking::test_becomes_due {
         property: "a test is due exactly when a path has passed none within the interval since power-on and the last failure",
-        requirements: ["S840D-TEST-001", "S840D-TEST-005", "S840D-TIMING-513"],
+        requirements: ["S840D-TEST-001/a", "S840D-TEST-005", "S840D-TIMING-513"],
         covers: ["both paths are tested", "a test has grown too old"],
         domain: NARROW,
         domain_text: "interval 1 to 3 cycles; every sequence of four cycles",
