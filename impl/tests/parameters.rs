@@ -131,8 +131,18 @@ fn cams_lie_inside_the_modulo_range() {
         (36936, 0, 359_900, Rule::CamOutsideModulo)
     );
     assert_eq!(
-        refused(cams(359_899, 99, without)),
-        (36937, 0, 99, Rule::CamOutsideModulo)
+        refused(cams(359_899, 98, without)),
+        (36937, 0, 98, Rule::CamOutsideModulo)
+    );
+    // The worked example (S840D-CAM-704): with both tolerances of 0.1 degrees SN1+ may be 0.099 degrees and SN1- less than 359.8.
+    assert!(cams(99, 359_799, with).validate().is_ok());
+    assert_eq!(
+        refused(cams(98, 359_799, with)),
+        (36936, 0, 98, Rule::CamOutsideModulo)
+    );
+    assert_eq!(
+        refused(cams(99, 359_800, with)),
+        (36937, 0, 359_800, Rule::CamOutsideModulo)
     );
     assert!(cams(359_799, 100, with).validate().is_ok());
     assert_eq!(refused(cams(359_800, 100, with)).3, Rule::CamOutsideModulo);
@@ -465,7 +475,7 @@ fn every_value_is_compared_under_its_code() {
     for (code, value) in expected {
         assert_eq!(word(code), Some([value, 0]), "code {code}");
     }
-    assert_eq!(word(31), Some([42, 10]));
+    assert_eq!(word(31), Some([42, 842]));
     assert_eq!(word(74), Some([16, 0]));
     assert_eq!(word(75), Some([4, 0]));
     assert_eq!(word(79), Some([3, 0]));

@@ -224,10 +224,10 @@ fn implausible_configurations_are_refused() {
             Distance(10),
         ))
     };
-    // S840D-SN-010: lower + POS_TOL <= cam, upper - POS_TOL (- CAM_TOL) > cam.
-    assert_eq!(at(10, false, true), None);
-    assert_eq!(at(9, false, true), Some(ConfigError::CamNearModuloLimit));
-    assert_eq!(at(9, false, false), None);
+    // S840D-SN-010: lower + POS_TOL <= cam, upper - POS_TOL (- CAM_TOL) > cam, with 359.999 as lower modulo value.
+    assert_eq!(at(9, false, true), None);
+    assert_eq!(at(8, false, true), Some(ConfigError::CamNearModuloLimit));
+    assert_eq!(at(8, false, false), None);
     assert_eq!(at(359_989, false, true), None);
     assert_eq!(
         at(359_990, false, true),

@@ -29,6 +29,8 @@ pub(super) struct Axis {
     pub external: [Option<ExternalLetter>; 2],
     /// What is wrong in each channel, and the position when it began.
     pub faults: [(Fault, i32); 2],
+    /// What the encoder of each channel has slipped, in thousandths of an increment.
+    slipped: [i64; 2],
     /// Inputs that keep a value: place in the vocabulary, channel, value.
     pub forced: Vec<(usize, usize, bool)>,
     /// The cycle from which drive and control have run up; none before power-on.
@@ -88,6 +90,7 @@ impl Axis {
             second_limits: false,
             external: [None; 2],
             faults: [(Fault::None, 0); 2],
+            slipped: [0; 2],
             forced: Vec::new(),
             run_up_at: running.then_some(0),
             referenced: running,
@@ -104,6 +107,11 @@ impl Axis {
     /// The position in increments.
     pub fn position(&self) -> i32 {
         increments(self.plant.position)
+    }
+
+    /// The position that the encoder of a channel measures.
+    fn measured(&self, side: usize) -> i32 {
+        increments(self.plant.position + self.slipped[side])
     }
 
     /// The stricter one of two selections: the operating stop, else the stage with the lower limit.
@@ -126,6 +134,9 @@ impl Axis {
     /// What both channels see in this cycle.
     pub fn see(&mut self, cycle: u32, logic: Logic, pulse: Pulse, inputs: &[vocabulary::Input]) {
         for side in 0..2 {
+            if let Fault::Slip(by) = self.faults[side].0 {
+                self.slipped[side] += by;
+            }
             let mut local = self.local(cycle, logic, pulse, side);
             for (input, channel, value) in &self.forced {
                 if *channel == side {
@@ -140,8 +151,8 @@ impl Axis {
     fn local(&self, cycle: u32, logic: Logic, pulse: Pulse, side: usize) -> Local {
         let position = match self.faults[side] {
             (Fault::Freeze, at) => at,
-            (Fault::Offset(by), _) => self.position().saturating_add(by),
-            (Fault::None | Fault::NoBraking, _) => self.position(),
+            (Fault::Offset(by), _) => self.measured(side).saturating_add(by),
+            (Fault::None | Fault::NoBraking | Fault::Slip(_), _) => self.measured(side),
         };
         let run_up = self.run_up_at.is_some_and(|at| cycle >= at);
         Local {

@@ -166,6 +166,7 @@ pub(super) struct Fault {
     pub channel: Option<Text>,
     pub kind: Text,
     pub offset: Option<Text>,
+    pub speed: Option<Text>,
     pub signal: Option<Text>,
     pub value: Option<Spanned<bool>>,
 }

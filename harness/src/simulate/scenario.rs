@@ -133,6 +133,8 @@ pub enum Fault {
     Freeze,
     /// The position of the channel is too large by that many increments.
     Offset(i32),
+    /// The encoder of the channel slips: so many thousandths of an increment more in each cycle. What it has slipped stays.
+    Slip(i64),
     /// The drive goes on following its setpoint, whatever stop is in force, as long as it has torque.
     NoBraking,
 }

@@ -43,7 +43,9 @@ impl Config {
             sync,
             range,
         };
-        let lowest = i64::from(range.lower().0) + i64::from(pos_tol.0);
+        // The lower modulo value of the manual's worked example is the last position before the range, 359.999 degrees: a
+        // channel that is just beyond such a cam sees the other one, nearer to the end by the tolerance, not yet folded.
+        let lowest = i64::from(range.lower().0) - 1 + i64::from(pos_tol.0);
         let end = i64::from(range.upper().0) - i64::from(pos_tol.0);
         let fits = i64::from(cam.0) >= lowest && end > config.on_above();
         if enabled && range.folds() && !fits {

@@ -1,5 +1,6 @@
 //! Faults of encoders, signals and the drive.
 
+use stillpoint_spec::machine::AxisKind;
 use toml::Spanned;
 
 use super::Resolver;
@@ -41,6 +42,7 @@ impl Resolver<'_> {
                     "encoder freeze" => Some(Fault::Freeze),
                     "no braking" => Some(Fault::NoBraking),
                     "encoder offset" => self.offset(fault, axis),
+                    "slip" => self.slip(fault, axis),
                     _ => {
                         self.no_such(
                             &fault.kind,
@@ -49,6 +51,7 @@ impl Resolver<'_> {
                                 "encoder freeze",
                                 "encoder offset",
                                 "no braking",
+                                "slip",
                                 "stuck",
                                 "lost",
                             ],
@@ -84,6 +87,11 @@ impl Resolver<'_> {
                 "offset",
                 kind == "encoder offset",
             ),
+            (
+                fault.speed.as_ref().map(Spanned::span),
+                "speed",
+                kind == "slip",
+            ),
             (fault.signal.as_ref().map(Spanned::span), "signal", stuck),
             (
                 fault.value.as_ref().map(Spanned::span),
@@ -117,5 +125,22 @@ impl Resolver<'_> {
         };
         let thousandths = self.length(offset, self.machine.axes[axis].kind)?;
         i32::try_from(thousandths / 1_000).ok().map(Fault::Offset)
+    }
+
+    fn slip(&mut self, fault: &file::Fault, axis: usize) -> Option<Fault> {
+        let Some(speed) = &fault.speed else {
+            let help = match self.machine.axes[axis].kind {
+                AxisKind::Linear => "write for example speed = \"5 mm/min\"",
+                AxisKind::Rotary => "write for example speed = \"5 rev/min\"",
+            };
+            self.add(
+                fault.kind.span(),
+                "how fast?".to_owned(),
+                "no speed given",
+                help.to_owned(),
+            );
+            return None;
+        };
+        self.speed(speed, axis).map(Fault::Slip)
     }
 }

@@ -115,7 +115,8 @@ fn cams(p: &Parameters) -> Result<(), ParameterError> {
         let position = i64::from(p.cam_position(cam));
         let number = if cam % 2 == 0 { 36936 } else { 36937 };
         require(
-            i64::from(lower) + tolerance <= position
+            // The lower modulo value is the last position before the range, as the worked example has it (S840D-SN-010).
+            i64::from(lower) - 1 + tolerance <= position
                 && position < i64::from(upper) - tolerance - hysteresis,
             number,
             usize::from(cam / 2),

@@ -267,8 +267,8 @@ pub(super) const EXAMPLES: [(&str, &str, &str); 24] = [
     ),
     (
         "an enabled plus cam lies outside the modulo range",
+        "axis.C = { kind = \"rotary\", MODULO_RANGE = \"360 deg\", functions = [\"SBH/SG\", \"SN1+\"], CAM_POS_PLUS = [\"0.098 deg\", \"0 deg\", \"0 deg\", \"0 deg\"] }",
         "axis.C = { kind = \"rotary\", MODULO_RANGE = \"360 deg\", functions = [\"SBH/SG\", \"SN1+\"], CAM_POS_PLUS = [\"0.099 deg\", \"0 deg\", \"0 deg\", \"0 deg\"] }",
-        "axis.C = { kind = \"rotary\", MODULO_RANGE = \"360 deg\", functions = [\"SBH/SG\", \"SN1+\"], CAM_POS_PLUS = [\"0.1 deg\", \"0 deg\", \"0 deg\", \"0 deg\"] }",
     ),
     (
         "an enabled plus cam lies outside the modulo range",
