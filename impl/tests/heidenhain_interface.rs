@@ -62,6 +62,21 @@ fn restricted_operation_is_for_spindles() {
     }
 }
 
+/// HFS-FAULT-008, second half (4.8.24): a spindle group that asks for SLI of axes. The interface has no constant for it (8.10.4), so
+/// whatever code an embedding sends for it is none of those for a spindle.
+#[test]
+fn increments_of_axes_are_not_for_spindles() {
+    for code in 8..=u8::MAX {
+        let inputs = gate::Inputs {
+            state_code: code,
+            ..set_up()
+        };
+        let out = take(Kind::Spindle, inputs);
+        assert_eq!(out.stop, Stop::Ss1F, "code {code}");
+        assert!(!out.starts && !out.held, "code {code}");
+    }
+}
+
 /// HFS-KDV-005: the door opens, and the program of channel A sees it first.
 #[test]
 fn the_stricter_channel_counts_until_both_agree() {

@@ -333,3 +333,32 @@ fn four_faulty_telegrams_of_another_cc_are_fatal() {
         "more than the manual's 12 ms"
     );
 }
+
+/// HFS-STAT-006, HFS-STAT-008 (4.8.22, c): the outputs of one participant, by its own fault; no status bit, -PF.BOARD of another
+/// participant included, switches any off.
+#[test]
+fn outputs_are_switched_off_where_the_fault_is() {
+    let take = |inputs| {
+        let out = status_bits::Monitor::new(status_bits::Config).step(&inputs);
+        (out.spl_off, out.smop_off)
+    };
+    let told = status_bits::Inputs {
+        pf_board: true,
+        spl_wd: true,
+        smop_wd: true,
+        ..Default::default()
+    };
+    assert_eq!(take(told), (false, false), "told by telegrams alone");
+    let at_spl = status_bits::Inputs {
+        pf_board: true,
+        spl_fault: true,
+        ..Default::default()
+    };
+    assert_eq!(take(at_spl), (true, false));
+    let at_smop = status_bits::Inputs {
+        pf_board: true,
+        smop_fault: true,
+        ..Default::default()
+    };
+    assert_eq!(take(at_smop), (false, true));
+}

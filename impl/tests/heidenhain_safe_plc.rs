@@ -189,6 +189,29 @@ fn spindle_by_mode() {
     }
 }
 
+/// HFS-KSW-003 (6.1.6; AMB-74): every change of the mode with the door open is SS2 for axes and spindle, that to SOM_1 too.
+#[test]
+fn every_change_of_the_mode_stops_axes_and_spindle() {
+    for (som, door_open) in Som::ALL.into_iter().flat_map(|s| [(s, false), (s, true)]) {
+        let spindle =
+            spindle_logic::Monitor::new(spindle_logic::Config).step(&spindle_logic::Inputs {
+                door_open,
+                som,
+                som_changed: true,
+                ..Default::default()
+            });
+        let config = axes_logic::Config::new(Cycles::new(48), true, false).expect("plausible");
+        let axes = axes_logic::Monitor::new(config).step(&axes_logic::Inputs {
+            door_open,
+            som,
+            som_changed: true,
+            ..Default::default()
+        });
+        let asked = if door_open { Stop::Ss2 } else { Stop::None };
+        assert_eq!((axes.stop, spindle.stop), (asked, asked), "{som:?}");
+    }
+}
+
 /// HFS-DOOR-003: with an overdue self-test no group is activated behind an open door.
 #[test]
 fn overdue_self_test() {

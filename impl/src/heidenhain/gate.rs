@@ -86,6 +86,11 @@ contract! {
         when |s| s.inputs.state_code == GroupState::SlsS.code() && s.config.kind != Kind::Spindle
             => s.outputs.stop == Stop::Ss1F && !s.outputs.starts && !s.outputs.held;
 
+    /// SLI of axes has no constant in the interface; a spindle group that asks for it, by whatever code, gets SS1F.
+    increment_of_axes_is_not_for_spindles ["HFS-FAULT-008"]:
+        when |s| s.inputs.state_code > GroupState::Sto.code() && s.config.kind == Kind::Spindle
+            => s.outputs.stop == Stop::Ss1F && !s.outputs.starts && !s.outputs.held;
+
     /// A mode that does not exist is SOM_1.
     unknown_mode_is_som_1 ["HFS-FAULT-006"]:
         when |s| Som::from_code(s.inputs.som_code).is_none()

@@ -4,7 +4,8 @@
 //! button are the way of the signal and one cycle (HFS-TIMING-005, HFS-TIMING-006).
 //!
 //! Every participant of the bus may set a bit; most are active as 0, hence the minus in their names. Of several active bits
-//! the highest reaction counts. Outputs of a panel or I/O assembly are switched off only where the fault is.
+//! the highest reaction counts. The safe outputs of a panel or I/O assembly are switched off only where the fault is, by the
+//! internal fault bits of that participant and by no status bit (HFS-STAT-008).
 
 pub use crate::contract::Stateless as State;
 use crate::heidenhain::types::Stop;
@@ -48,6 +49,10 @@ pub struct Inputs {
     pub req_ss2: bool,
     /// A module of the PLC has switched the evaluation of bits 10 and 11 off.
     pub masked: bool,
+    /// The I/O assembly's own fault bits: the control has crashed, the component has a fault, or its HSCI communication.
+    pub spl_fault: bool,
+    /// The same of the operating panel.
+    pub smop_fault: bool,
 }
 
 impl Inputs {
@@ -82,9 +87,9 @@ pub struct Outputs {
     pub lift_off: bool,
     /// The MC still serves its watchdogs.
     pub mc_retrigger: bool,
-    /// The I/O assembly with the fault switches its outputs off.
+    /// The I/O assembly switches its outputs off: the fault is its own.
     pub spl_off: bool,
-    /// The operating panel with the fault switches its outputs off.
+    /// The operating panel switches its outputs off: the fault is its own.
     pub smop_off: bool,
     /// The CC notes for the self-test that the spindle is switched off; no stop.
     pub spindle_seen: bool,
@@ -127,26 +132,26 @@ contract! {
             => s.outputs.mc >= Stop::Ss2 && s.outputs.cc >= Stop::Ss2;
 
     /// The line voltage lifts the tool off unless masked, and the spindle bit is noted; neither stops anything.
-    notes_are_no_stops ["HFS-STAT-002", "HFS-STAT-005", "HFS-STAT-006/a"]:
-        when |s| Inputs { pf_ac: false, stos_mc: false, masked: false, ..s.inputs } == Inputs::default()
+    notes_are_no_stops ["HFS-STAT-002", "HFS-STAT-005", "HFS-STAT-006"]:
+        when |s| Inputs { pf_ac: false, stos_mc: false, masked: false, spl_fault: false, smop_fault: false, ..s.inputs } == Inputs::default()
             => s.outputs == Outputs {
                 lift_off: s.inputs.pf_ac && !s.inputs.masked,
                 spindle_seen: s.inputs.stos_mc,
                 mc_retrigger: true,
+                spl_off: s.inputs.spl_fault,
+                smop_off: s.inputs.smop_fault,
                 ..Outputs::default()
             };
 
-    /// Safe outputs are switched off only where the fault is.
-    outputs_are_switched_off_locally ["HFS-STAT-001", "HFS-STAT-006/c", "HFS-STAT-008"]:
+    /// Safe outputs are switched off only where the fault is, whatever the status bits say.
+    outputs_are_switched_off_locally ["HFS-STAT-001", "HFS-STAT-006", "HFS-STAT-008"]:
         when |s| s.outputs.spl_off || s.outputs.smop_off
-            => (!s.outputs.spl_off || s.inputs.spl_wd || s.inputs.pf_board)
-                && (!s.outputs.smop_off || s.inputs.smop_wd || s.inputs.pf_board);
+            => (!s.outputs.spl_off || s.inputs.spl_fault) && (!s.outputs.smop_off || s.inputs.smop_fault);
 
-    /// A watchdog of an assembly or panel, or the voltage of a board, does switch its outputs off.
-    faulty_participant_switches_off ["HFS-STAT-005"]:
-        when |s| s.inputs.spl_wd || s.inputs.smop_wd || s.inputs.pf_board
-            => (s.outputs.spl_off || !(s.inputs.spl_wd || s.inputs.pf_board))
-                && (s.outputs.smop_off || !(s.inputs.smop_wd || s.inputs.pf_board));
+    /// A participant with a fault of its own does switch its outputs off.
+    faulty_participant_switches_off ["HFS-STAT-005", "HFS-STAT-006"]:
+        when |s| s.inputs.spl_fault || s.inputs.smop_fault
+            => s.outputs.spl_off == s.inputs.spl_fault && s.outputs.smop_off == s.inputs.smop_fault;
 }
 
 pub(crate) fn transition(_: State, _: &Config, inputs: &Inputs) -> (State, Outputs) {
@@ -161,8 +166,8 @@ pub(crate) fn transition(_: State, _: &Config, inputs: &Inputs) -> (State, Outpu
         },
         lift_off: inputs.pf_ac && !inputs.masked,
         mc_retrigger: !dc,
-        spl_off: inputs.spl_wd || inputs.pf_board,
-        smop_off: inputs.smop_wd || inputs.pf_board,
+        spl_off: inputs.spl_fault,
+        smop_off: inputs.smop_fault,
         spindle_seen: inputs.stos_mc,
     };
     (State, outputs)

@@ -294,6 +294,8 @@ mutants! { heidenhain:
         StatusBitsMaskTooWide "status-bits-mask-too-wide" => service::status_bits_mask_too_wide;
         /// The MC serves its watchdogs without DC-link voltage.
         StatusBitsMcServesOn "status-bits-mc-serves-on" => service::status_bits_mc_serves_on;
+        /// -PF.BOARD of any participant switches the outputs of all of them off.
+        StatusBitsBoardSwitchesAllOff "status-bits-board-switches-all-off" => service::status_bits_board_switches_all_off;
     }
     /// The checks of the kernel with this mutant in them.
     fn self_checks {

@@ -136,6 +136,13 @@ variants! {
         (after, outputs)
     }
 
+    status_bits_board_switches_all_off: status_bits |state, config, inputs| {
+        let (after, mut outputs) = status_bits::transition(state, config, inputs);
+        outputs.spl_off |= inputs.pf_board;
+        outputs.smop_off |= inputs.pf_board;
+        (after, outputs)
+    }
+
     self_checks_fan_overlooked: self_checks |state, config, inputs| {
         let inputs = self_checks::Inputs { fan: false, ..*inputs };
         self_checks::transition(state, config, &inputs)

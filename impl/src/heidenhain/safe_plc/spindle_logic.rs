@@ -5,7 +5,8 @@
 //! open no program starts the spindle: only its own keys activate, together with the permissive. Auxiliary axes that are reached
 //! from the normal working space follow the same rules, with their motion key for the jog key (HFS-API-004).
 //!
-//! Recommended reading of the manual implemented here: AMB-52 ON (the open magazine door stops the spindle too).
+//! Recommended readings of the manual implemented here: AMB-52 ON (the open magazine door stops the spindle too); AMB-74: every
+//! change of the mode with the door open is SS2, that to SOM_1 included (6.1.6), although the table of 8.10.4 is one of SOM_2 to SOM_4.
 
 use crate::heidenhain::axes_logic::limited;
 use crate::heidenhain::types::{GroupState, Som, Stop, Unit};
@@ -183,10 +184,16 @@ contract! {
         when |s| !s.inputs.door_open
             => s.outputs.stop == Stop::None;
 
-    /// In SOM_1 with the door open the standstill asked for suffices: no stop is asked for.
+    /// In SOM_1 with the door open the standstill asked for suffices: no stop is asked for, but by the change to it.
     som_1_asks_for_no_stop ["HFS-API-022"]:
         when |s| s.inputs.door_open && s.inputs.som == Som::Som1
-            => s.outputs.stop == Stop::None && s.outputs.request.strictness() >= GroupState::Sos.strictness();
+            => s.outputs.stop == if s.inputs.som_changed { Stop::Ss2 } else { Stop::None }
+                && s.outputs.request.strictness() >= GroupState::Sos.strictness();
+
+    /// Every change of the mode with the door open asks for SS2 or more.
+    every_change_of_the_mode_stops ["HFS-KSW-003", "HFS-FAULT-018"]:
+        when |s| s.inputs.door_open && s.inputs.som_changed
+            => s.outputs.stop >= Stop::Ss2;
 
     /// With both doors open the spindle stops after the axes: SS1D, above every other request.
     both_doors_stop_after_the_axes ["HFS-API-022", "HFS-SEQ-007", "HFS-API-009"]:
@@ -263,8 +270,14 @@ fn request(inputs: &Inputs) -> GroupState {
 
 fn stop(state: State, inputs: &Inputs) -> Stop {
     let released = state.jogged && !inputs.jog_held;
-    if !inputs.door_open || inputs.som == Som::Som1 {
+    if !inputs.door_open {
         Stop::None
+    } else if inputs.som == Som::Som1 {
+        if inputs.som_changed {
+            Stop::Ss2
+        } else {
+            Stop::None
+        }
     } else if inputs.t_open {
         Stop::Ss1D
     } else if inputs.stop || inputs.som_changed || released {

@@ -199,6 +199,8 @@ pub fn status_bits<S: Source>(
         n0: source.any_bool(),
         req_ss2: source.any_bool(),
         masked: source.any_bool(),
+        spl_fault: source.any_bool(),
+        smop_fault: source.any_bool(),
     };
     Some((status_bits::State::INITIAL, status_bits::Config, inputs))
 }

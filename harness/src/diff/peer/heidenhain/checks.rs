@@ -34,8 +34,24 @@ fn status_bits(mutant: Option<Mutant>) -> Adapter {
     let next = mutant.map_or(status_bits::next as status_bits::Next, Mutant::status_bits);
     Adapter::stateless(
         &[
-            "es_a", "es_b", "es_a_hw", "es_b_hw", "mc_wd", "stos_mc", "cc_wd", "smc_wd", "spl_wd",
-            "smop_wd", "pf_ac", "pf_dc", "pf_board", "n0", "req_ss2", "masked",
+            "es_a",
+            "es_b",
+            "es_a_hw",
+            "es_b_hw",
+            "mc_wd",
+            "stos_mc",
+            "cc_wd",
+            "smc_wd",
+            "spl_wd",
+            "smop_wd",
+            "pf_ac",
+            "pf_dc",
+            "pf_board",
+            "n0",
+            "req_ss2",
+            "masked",
+            "spl_fault",
+            "smop_fault",
         ],
         &[
             "mc",
@@ -64,6 +80,8 @@ fn status_bits(mutant: Option<Mutant>) -> Adapter {
                 n0: i[13] != 0,
                 req_ss2: i[14] != 0,
                 masked: i[15] != 0,
+                spl_fault: i[16] != 0,
+                smop_fault: i[17] != 0,
             };
             let (_, out) = next(status_bits::State::INITIAL, &status_bits::Config, &inputs);
             o.extend([
