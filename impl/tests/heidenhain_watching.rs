@@ -265,7 +265,8 @@ fn values_round_to_the_earlier_reaction() {
     assert_eq!(parameters::stop_time(1_000), Ok(Cycles::new(333)));
     assert_eq!(parameters::brake_time(200), Ok(Cycles::new(67)));
     assert_eq!(parameters::window(4_000), Ok(Cycles::new(1_333)));
-    assert_eq!(parameters::window(1), Ok(Cycles::new(1)));
+    assert_eq!(parameters::window(5), Ok(Cycles::new(1)));
+    assert!(parameters::window(2).is_err() && parameters::window(60_001).is_err());
     assert_eq!(
         parameters::test_interval(10_080),
         Ok(Cycles::new(201_600_000))

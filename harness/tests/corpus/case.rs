@@ -94,9 +94,11 @@ impl Case {
                 "the lines are not of a manual of {last_line} lines"
             ));
         }
-        let reading = |text: &String| text.starts_with("A-");
+        let reading = |text: &String| text.starts_with("A-") || text.starts_with("AMB-");
         if !self.reading.as_ref().is_none_or(reading) {
-            return Some("a reading has the name of an ambiguity of the digest, A-07".to_owned());
+            return Some(
+                "a reading has the name of an ambiguity of the digest, A-07 or AMB-07".to_owned(),
+            );
         }
         if self.contradicts.as_ref().is_some_and(String::is_empty) {
             return Some("contradicts: which lines are followed instead, and why?".to_owned());

@@ -3,6 +3,7 @@
 mod acceptance;
 #[path = "../common/mod.rs"]
 mod common;
+mod conversion;
 mod reaction;
 
 use serde_json::Value;

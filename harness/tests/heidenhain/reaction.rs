@@ -179,7 +179,7 @@ fn a_summand_that_is_too_short_is_refuted() {
         ),
         (
             "ss2",
-            "time     = \"CYCLES(ss2_time) * monitoring_cycle\"",
+            "time     = \"MAX(ss2_time / monitoring_cycle, 1) * monitoring_cycle\"",
             "time     = \"T#3ms\"",
         ),
     ] {

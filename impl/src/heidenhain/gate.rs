@@ -87,7 +87,7 @@ contract! {
             => s.outputs.stop == Stop::Ss1F && !s.outputs.starts && !s.outputs.held;
 
     /// SLI of axes has no constant in the interface; a spindle group that asks for it, by whatever code, gets SS1F.
-    increment_of_axes_is_not_for_spindles ["HFS-FAULT-008"]:
+    increment_of_axes_is_not_for_spindles ["HFS-FAULT-008/b"]:
         when |s| s.inputs.state_code > GroupState::Sto.code() && s.config.kind == Kind::Spindle
             => s.outputs.stop == Stop::Ss1F && !s.outputs.starts && !s.outputs.held;
 

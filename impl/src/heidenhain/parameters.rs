@@ -134,17 +134,14 @@ pub const fn brake_time(millis: u32) -> Result<Cycles, ConfigError> {
     }
 }
 
-/// A window of the comparison of speeds in milliseconds: SMP632.x, SMP633. The manual prints no range; 1 ms to 10 min are
-/// accepted. Rounded down, to one cycle at least.
+/// A window of the comparison of speeds in milliseconds: SMP632.x, SMP633. The manual prints no range; one cycle to a minute
+/// are accepted. Rounded down.
 ///
 /// # Errors
-/// [`ConfigError::ValueOutOfRange`] outside 1 to 600 000.
+/// [`ConfigError::ValueOutOfRange`] outside 3 to 60 000.
 pub const fn window(millis: u32) -> Result<Cycles, ConfigError> {
-    match within(millis, 1, 600_000) {
-        Ok(value) => match at_most_millis(value) {
-            Ok(cycles) if cycles.is_zero() => Ok(Cycles::new(1)),
-            other => other,
-        },
+    match within(millis, 3, 60_000) {
+        Ok(value) => at_most_millis(value),
         Err(error) => Err(error),
     }
 }

@@ -132,7 +132,7 @@ contract! {
             => s.outputs.mc >= Stop::Ss2 && s.outputs.cc >= Stop::Ss2;
 
     /// The line voltage lifts the tool off unless masked, and the spindle bit is noted; neither stops anything.
-    notes_are_no_stops ["HFS-STAT-002", "HFS-STAT-005", "HFS-STAT-006"]:
+    notes_are_no_stops ["HFS-STAT-002", "HFS-STAT-005", "HFS-STAT-006/a"]:
         when |s| Inputs { pf_ac: false, stos_mc: false, masked: false, spl_fault: false, smop_fault: false, ..s.inputs } == Inputs::default()
             => s.outputs == Outputs {
                 lift_off: s.inputs.pf_ac && !s.inputs.masked,
@@ -144,12 +144,12 @@ contract! {
             };
 
     /// Safe outputs are switched off only where the fault is, whatever the status bits say.
-    outputs_are_switched_off_locally ["HFS-STAT-001", "HFS-STAT-006", "HFS-STAT-008"]:
+    outputs_are_switched_off_locally ["HFS-STAT-001", "HFS-STAT-006/c", "HFS-STAT-008"]:
         when |s| s.outputs.spl_off || s.outputs.smop_off
             => (!s.outputs.spl_off || s.inputs.spl_fault) && (!s.outputs.smop_off || s.inputs.smop_fault);
 
     /// A participant with a fault of its own does switch its outputs off.
-    faulty_participant_switches_off ["HFS-STAT-005", "HFS-STAT-006"]:
+    faulty_participant_switches_off ["HFS-STAT-005", "HFS-STAT-006/c"]:
         when |s| s.inputs.spl_fault || s.inputs.smop_fault
             => s.outputs.spl_off == s.inputs.spl_fault && s.outputs.smop_off == s.inputs.smop_fault;
 }

@@ -1,6 +1,7 @@
 //! The data of a family that machine files are read with: parameters, functions, plausibility rules, systems to explore.
 //! They stand in `<family>/family.toml`; nothing of them is known to the code.
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -65,9 +66,32 @@ pub(super) struct Known {
     pub whole: Vec<String>,
     /// Whether machine files declare groups.
     pub groups: bool,
+    /// The times, and what is made of them, by the roundings of the parameters in them.
+    pub roundings: BTreeMap<String, Vec<Rounding>>,
 }
 
 impl Known {
+    /// The different roundings of the times that the expression reads.
+    pub fn roundings(&self, formula: &Formula) -> Vec<Rounding> {
+        let mut found = Vec::new();
+        super::eval::names(&formula.expr, &mut |name| {
+            for rounding in self.roundings.get(name).into_iter().flatten() {
+                if !found.contains(rounding) {
+                    found.push(*rounding);
+                }
+            }
+        });
+        found
+    }
+
+    /// Named expressions have the roundings of what they read.
+    pub fn inherit(&mut self, lets: &[(String, Formula)]) {
+        for (name, formula) in lets {
+            let roundings = self.roundings(formula);
+            self.roundings.insert(name.clone(), roundings);
+        }
+    }
+
     /// The names for what is explored.
     pub fn of_explored(&self, each: Scope, members: usize) -> &[String] {
         match each {
@@ -162,8 +186,30 @@ pub(super) struct Param {
     pub choices: Vec<(String, i64)>,
     /// The kinds of axes that have it, as a machine file names them; empty: all.
     pub kinds: Vec<String>,
+    /// The finest step that the control takes, in base units; 1 where it is a base unit.
+    pub step: i64,
+    /// How a time becomes whole cycles.
+    pub cycles: Rounding,
     pub linear: Limits,
     pub rotary: Limits,
+}
+
+/// How a time becomes whole cycles: one rule for each parameter, wherever its value goes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum Rounding {
+    /// Nothing happens before the time is over.
+    #[default]
+    Up,
+    /// What has to happen in the time does not come later.
+    Down,
+}
+
+impl Rounding {
+    /// `time` in whole cycles; both positive or 0.
+    pub fn cycles(self, time: i64, cycle: i64) -> i64 {
+        time / cycle + i64::from(self == Self::Up && time % cycle != 0)
+    }
 }
 
 /// The allowed range and the default of a parameter, in base units.
@@ -257,8 +303,9 @@ pub(super) struct Explore {
 pub(super) enum Binding {
     /// The parameter is the value of the expression.
     Value(String, Formula),
-    /// A time: whole monitoring cycles, rounded up; divided by the common step where the system is scaled.
-    Time(String, Formula),
+    /// A time: whole monitoring cycles, rounded as its parameters say, up where there are none; divided by the common step
+    /// where the system is scaled.
+    Time(String, Formula, Rounding),
     /// Each of the parameters is the position of one value of a list among its different values, from 0.
     Rank(String, Vec<String>),
     /// Each of the parameters is the value of the expression for one member of the group.

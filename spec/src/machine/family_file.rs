@@ -11,7 +11,8 @@ use super::AxisKind;
 use super::document::Findings;
 use super::eval;
 use super::family::{
-    Binding, Explore, Family, Formula, Function, Known, Limits, Param, Quantity, Rule, Scope, Slot,
+    Binding, Explore, Family, Formula, Function, Known, Limits, Param, Quantity, Rounding, Rule,
+    Scope, Slot,
 };
 use super::value::{Raw, number};
 use crate::diag::Result;
@@ -68,7 +69,14 @@ struct ParamData {
     choice: IndexMap<String, i64>,
     #[serde(default)]
     kinds: Vec<String>,
+    #[serde(default = "one")]
+    step: i64,
+    cycles: Option<Spanned<Rounding>>,
     id: Vec<String>,
+}
+
+const fn one() -> i64 {
+    1
 }
 
 #[derive(Deserialize, Clone)]
@@ -102,6 +110,9 @@ pub(super) struct ExploreData {
     text: String,
     #[serde(default)]
     time: IndexMap<String, Spanned<String>>,
+    /// Times that no parameter gives, such as one that the manual fixes, to be rounded down.
+    #[serde(default)]
+    down: Vec<Spanned<String>>,
     #[serde(default)]
     param: IndexMap<String, Spanned<String>>,
     #[serde(default)]
@@ -205,12 +216,19 @@ impl Check {
             groups: group.is_some(),
             ..Known::default()
         };
+        let all = [&control, &axis].into_iter().chain(&group).chain([&door]);
+        for (name, param) in all.flatten() {
+            if param.quantity == Quantity::Time {
+                known.roundings.insert(name.clone(), vec![param.cycles]);
+            }
+        }
         let monitoring_cycle = self.formula(data.monitoring_cycle, &known.control);
         known.axis.extend(owned(&control));
         known.axis.extend(owned(&axis));
         let functions = data.function.iter();
         known.axis.extend(functions.map(|f| f.variable.clone()));
         let lets = self.lets(data.lets, &mut known.axis);
+        known.inherit(&lets);
         let coupled_to_all = match data.coupled_to_all {
             Some(text) => Some(self.formula(text, &known.axis)?),
             None => None,
@@ -220,6 +238,7 @@ impl Check {
         known.whole = known.door.clone();
         known.whole.extend(group.iter().flat_map(owned));
         let group_lets = self.lets(data.group_let, &mut known.whole);
+        known.inherit(&group_lets);
         known.axis.push("k".to_owned());
         known.whole.push("k".to_owned());
         let rules = data.plausibility.into_iter();
@@ -288,9 +307,19 @@ impl Check {
             elements: data.elements,
             choices: data.choice.into_iter().collect(),
             kinds: data.kinds,
+            step: data.step.max(1),
+            cycles: data
+                .cycles
+                .as_ref()
+                .map_or_else(Rounding::default, |c| *c.get_ref()),
             linear: Limits::default(),
             rotary: Limits::default(),
         };
+        if let Some(cycles) = data.cycles.filter(|_| param.quantity != Quantity::Time) {
+            let help = "only a time becomes cycles: leave it out";
+            self.findings
+                .add(cycles.span(), "this is no time", "", help);
+        }
         if let Some(limits) = data.linear.or_else(|| common.clone()) {
             param.linear = self.limits(&param, limits, AxisKind::Linear);
         }
@@ -404,6 +433,7 @@ impl Check {
             let message = "how many axes has the system?";
             self.findings.add(data.when.span(), message, "", help);
         }
+        let roundings = |formula: &Formula| known.roundings(formula);
         let known = known.of_explored(data.each, data.members);
         let cycle = match data.cycle {
             Some(text) => Some(self.formula(text, known)?),
@@ -413,8 +443,34 @@ impl Check {
         for (name, text) in data.param {
             params.push(Binding::Value(name, self.formula(text, known)?));
         }
+        for name in &data.down {
+            if !data.time.contains_key(name.get_ref()) {
+                let message = format!("'{}' is no time here", name.get_ref());
+                let help = "name one of the keys of time";
+                self.findings.add(name.span(), message, "", help);
+            }
+        }
         for (name, text) in data.time {
-            params.push(Binding::Time(name, self.formula(text, known)?));
+            let span = text.span();
+            let formula = self.formula(text, known)?;
+            let down = data.down.iter().any(|d| *d.get_ref() == name);
+            let rounding = match roundings(&formula).as_slice() {
+                [] if down => Rounding::Down,
+                [] => Rounding::Up,
+                [own] if down && *own != Rounding::Down => {
+                    let message = "the parameter has a rounding of its own";
+                    self.findings.add(span, message, "", "leave it out of down");
+                    return None;
+                }
+                [one] => *one,
+                _ => {
+                    let message = "one of these times is rounded up to whole cycles, another down";
+                    let help = "write it under param, with CYCLES(...) for up and / monitoring_cycle for down";
+                    self.findings.add(span, message, "", help);
+                    return None;
+                }
+            };
+            params.push(Binding::Time(name, formula, rounding));
         }
         for (list, names) in data.rank {
             if !known.contains(list.get_ref()) {

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::eval::Values;
-use super::family::{Binding, Explore, Family, Scope};
+use super::family::{Binding, Explore, Family, Rounding, Scope};
 use super::plausible::{Judged, evaluate};
 use super::{Axis, Door, Group, Run};
 use crate::diag::{Diagnostic, Diagnostics, Result};
@@ -236,6 +236,7 @@ struct Time {
     name: String,
     exact: bool,
     cycles: i64,
+    rounding: Rounding,
 }
 
 /// The run of `explore` for a subject, with the values of the member at `of`.
@@ -281,12 +282,13 @@ fn bind(
                 let value = evaluate(family, formula, values, cycle)?;
                 run.params.insert(name.clone(), vec![value]);
             }
-            Binding::Time(name, formula) => {
+            Binding::Time(name, formula, rounding) => {
                 let time = evaluate(family, formula, values, cycle)?;
                 times.push(Time {
                     name: name.clone(),
                     exact: time % cycle == 0,
-                    cycles: up(time, cycle),
+                    cycles: rounding.cycles(time, cycle),
+                    rounding: *rounding,
                 });
             }
             Binding::Rank(list, names) => {
@@ -319,7 +321,7 @@ fn up(a: i64, b: i64) -> i64 {
     a / b + i64::from(a % b != 0)
 }
 
-/// What the times lost: `None` when each is a whole number of cycles and not scaled.
+/// What the times lost, by the rule of each: `None` when each is a whole number of cycles and not scaled.
 fn times_text(times: &[Time], step: i64, cycle: i64) -> Option<String> {
     let cycle = super::units::Dimension::Time.show(cycle);
     let list = |times: &mut dyn Iterator<Item = String>| times.collect::<Vec<_>>().join(", ");
@@ -330,9 +332,15 @@ fn times_text(times: &[Time], step: i64, cycle: i64) -> Option<String> {
             list(&mut times.iter().map(entry))
         ));
     }
-    let rounded = times.iter().filter(|t| !t.exact);
-    let text = list(&mut rounded.map(|t| format!("{} = {} cycles", t.name, t.cycles)));
-    (!text.is_empty()).then(|| format!("times rounded up to cycles of {cycle}: {text}"))
+    let mut texts = Vec::new();
+    for (rounding, word) in [(Rounding::Up, "up"), (Rounding::Down, "down")] {
+        let rounded = times.iter().filter(|t| !t.exact && t.rounding == rounding);
+        let text = list(&mut rounded.map(|t| format!("{} = {} cycles", t.name, t.cycles)));
+        if !text.is_empty() {
+            texts.push(format!("times rounded {word} to cycles of {cycle}: {text}"));
+        }
+    }
+    (!texts.is_empty()).then(|| texts.join("; "))
 }
 
 /// The position of each value among the different values, from 0.

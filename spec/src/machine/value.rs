@@ -92,6 +92,15 @@ pub(super) fn number_in_range(raw: &Raw, param: &Param, kind: AxisKind) -> Resul
         format!("{} is below the least value {least}", raw.written())
     } else if value > limits.max {
         format!("{} is above the greatest value {greatest}", raw.written())
+    } else if value % param.step != 0 {
+        return Err(Refusal {
+            message: format!("{} is finer than the control takes", raw.written()),
+            label: format!(
+                "a whole number of steps of {}",
+                param.show(param.step, kind)
+            ),
+            help: allowed(param, kind),
+        });
     } else {
         return Ok(value);
     };

@@ -21,7 +21,7 @@ contract! {
                 && matches!(held(&s), GroupState::Sos | GroupState::StoO);
 
     /// Closing the door starts nothing: without activation no group gets laxer than it was.
-    closing_a_door_starts_nothing ["HFS-P-13", "HFS-AXG-005", "HFS-AXG-018", "HFS-MODE-002"]:
+    closing_a_door_starts_nothing ["HFS-P-13", "HFS-STOP-006/b", "HFS-AXG-005", "HFS-AXG-018", "HFS-MODE-002"]:
         when |s| s.inputs.request == GroupState::Auto && !s.inputs.activate && held(&s) != GroupState::Sto
             => s.outputs.state.strictness() >= held(&s).strictness();
 
@@ -37,7 +37,7 @@ contract! {
             => s.outputs.state == s.inputs.request;
 
     /// Standstill or torque off asked for of a group that stands is in force in the same cycle; an activation does not help.
-    standstill_is_in_force_at_once ["HFS-P-08", "HFS-P-09", "HFS-SOS-004", "HFS-SOS-006", "HFS-AXG-017", "HFS-TH-001"]:
+    standstill_is_in_force_at_once ["HFS-P-08", "HFS-STOP-006/b", "HFS-P-09", "HFS-SOS-004", "HFS-SOS-006", "HFS-AXG-017", "HFS-TH-001"]:
         when |s| matches!(s.inputs.request, GroupState::Sos | GroupState::StoO | GroupState::Sto) && !s.inputs.moving
             && held(&s) != GroupState::Sto && s.inputs.phase == Phase::Run
             => s.outputs.state.strictness() >= s.inputs.request.strictness();

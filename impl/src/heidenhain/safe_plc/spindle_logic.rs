@@ -191,7 +191,7 @@ contract! {
                 && s.outputs.request.strictness() >= GroupState::Sos.strictness();
 
     /// Every change of the mode with the door open asks for SS2 or more.
-    every_change_of_the_mode_stops ["HFS-KSW-003", "HFS-FAULT-018"]:
+    every_change_of_the_mode_stops ["HFS-KSW-003/b", "HFS-FAULT-018"]:
         when |s| s.inputs.door_open && s.inputs.som_changed
             => s.outputs.stop >= Stop::Ss2;
 

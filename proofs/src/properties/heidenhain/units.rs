@@ -88,16 +88,9 @@ const CONVERSIONS: [Conversion; 11] = [
         factor: (100, 3),
         up: false,
     },
-    // Below 3 ms a window is one cycle, the shortest there is.
     Conversion {
-        range: (3, 600_000),
-        convert: |v| {
-            if v < 3 {
-                Err(ConfigError::ValueOutOfRange)
-            } else {
-                time(parameters::window(v))
-            }
-        },
+        range: (3, 60_000),
+        convert: |v| time(parameters::window(v)),
         factor: (1, 3),
         up: false,
     },

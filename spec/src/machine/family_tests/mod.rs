@@ -2,6 +2,7 @@
 
 mod heidenhain;
 mod sinumerik;
+mod values;
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
