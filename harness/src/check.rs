@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 use stillpoint_model::{Cluster, Error, Interrupt, Limits, Options, Progress, Trace, Verdict};
 
 use crate::engine::{self, Outcome, label};
+use crate::excluded::{Exclusion, Judge};
 use crate::keep::Keep;
 use crate::reduce::{self, Reductions};
 use crate::subject::{Subject, Task};
@@ -66,6 +67,8 @@ pub struct Checked {
     pub outcome: Outcome,
     /// Rules that never fired: (name, why).
     pub unfired: Vec<(String, Unfired)>,
+    /// Witnesses that the values of the machine exclude, by property number.
+    pub excluded: BTreeMap<usize, Exclusion>,
 }
 
 /// Why a rule never fired.
@@ -90,6 +93,8 @@ pub struct Summary {
     pub verdict: Verdict,
     /// Cycles of the shortest counterexample or witness.
     pub length: Option<u64>,
+    /// Whether it is unreachable because the values of the machine exclude it, wherever it was looked for.
+    pub excluded: bool,
 }
 
 /// Checks all tasks, one after the other.
@@ -103,6 +108,7 @@ pub fn check(
 ) -> Result<Vec<Checked>, (String, Error)> {
     let start = Instant::now();
     let mut out = Vec::new();
+    let mut judge = Judge::default();
     for (number, task) in subject.tasks.iter().enumerate() {
         let options = Options {
             limits: settings.limits(start),
@@ -131,7 +137,18 @@ pub fn check(
         }
         .map_err(|e| (task.title.clone(), e))?;
         let unfired = unfired(task, &outcome);
-        out.push(Checked { outcome, unfired });
+        let alone = settings.cluster.as_ref().is_none_or(|c| c.process() == 0);
+        let excluded = match subject.machine.is_some() && alone {
+            true => judge
+                .of(task, &outcome, &options, settings.interpret)
+                .map_err(|e| (task.title.clone(), e))?,
+            false => BTreeMap::new(),
+        };
+        out.push(Checked {
+            outcome,
+            unfired,
+            excluded,
+        });
     }
     Ok(out)
 }
@@ -174,9 +191,10 @@ fn unfired(task: &Task, outcome: &Outcome) -> Vec<(String, Unfired)> {
 }
 
 /// Rank of a verdict when several runs are put together: what says most about a fault comes first.
-fn rank(verdict: Verdict) -> u8 {
-    match verdict {
-        Verdict::Violated => 5,
+fn rank(one: &Summary) -> u8 {
+    match one.verdict {
+        Verdict::Violated => 6,
+        Verdict::Unreachable if !one.excluded => 5,
         Verdict::Inconclusive => 4,
         Verdict::Holds | Verdict::Reached => 3,
         Verdict::Unreachable => 2,
@@ -189,17 +207,14 @@ pub fn summarise(subject: &Subject, checked: &[Checked]) -> Vec<Summary> {
     let mut order: Vec<String> = Vec::new();
     let mut best: BTreeMap<String, Summary> = BTreeMap::new();
     for (task, done) in subject.tasks.iter().zip(checked) {
-        for (property, judged) in task
-            .bound
-            .system
-            .properties
-            .iter()
-            .zip(&done.outcome.report.properties)
-        {
+        let properties = task.bound.system.properties.iter();
+        let judgements = properties.zip(&done.outcome.report.properties);
+        for (k, (property, judged)) in judgements.enumerate() {
             let new = Summary {
                 id: property.id.clone(),
                 verdict: judged.verdict,
                 length: judged.length,
+                excluded: done.excluded.contains_key(&k),
             };
             match best.get_mut(&new.id) {
                 None => {
@@ -207,9 +222,9 @@ pub fn summarise(subject: &Subject, checked: &[Checked]) -> Vec<Summary> {
                     best.insert(new.id.clone(), new);
                 }
                 Some(old) => {
-                    let shorter = rank(old.verdict) == rank(new.verdict)
+                    let shorter = rank(old) == rank(&new)
                         && new.length.unwrap_or(u64::MAX) < old.length.unwrap_or(u64::MAX);
-                    if rank(new.verdict) > rank(old.verdict) || shorter {
+                    if rank(&new) > rank(old) || shorter {
                         *old = new;
                     }
                 }
@@ -225,6 +240,7 @@ pub fn summarise(subject: &Subject, checked: &[Checked]) -> Vec<Summary> {
                         id,
                         verdict: Verdict::Violated,
                         length: fault.length,
+                        excluded: false,
                     },
                 );
             }
@@ -236,9 +252,10 @@ pub fn summarise(subject: &Subject, checked: &[Checked]) -> Vec<Summary> {
         .collect()
 }
 
-/// Exit status for the verdicts: 1 violated (or a witness that must exist does not), 3 inconclusive, 0 otherwise.
+/// Exit status for the verdicts: 1 violated (or a witness that must exist does not, though the values permit it),
+/// 3 inconclusive, 0 otherwise.
 pub fn exit_status(summaries: &[Summary], checked: &[Checked]) -> u8 {
-    let any = |v: Verdict| summaries.iter().any(|s| s.verdict == v);
+    let any = |v: Verdict| summaries.iter().any(|s| s.verdict == v && !s.excluded);
     if any(Verdict::Violated) || any(Verdict::Unreachable) {
         1
     } else if any(Verdict::Inconclusive) || checked.iter().any(|c| !c.outcome.report.complete) {

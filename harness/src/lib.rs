@@ -9,6 +9,7 @@ pub mod certificate;
 pub mod check;
 pub mod diff;
 pub mod engine;
+pub mod excluded;
 pub mod explore;
 pub mod export;
 pub mod keep;

@@ -26,6 +26,10 @@ pub struct Task {
     pub bound: Bound,
     /// What static analysis found.
     pub analysis: Analysis,
+    /// The specification file of the system.
+    pub file: PathBuf,
+    /// For parameters that a machine file decides: the expression over its values.
+    pub sources: BTreeMap<String, String>,
 }
 
 /// A file and everything to be explored for it.
@@ -88,6 +92,8 @@ fn of_spec(path: &Path, text: Arc<str>, readings: &Readings) -> Result<Subject> 
                 abstractions: Vec::new(),
                 bound,
                 analysis,
+                file: path.to_owned(),
+                sources: BTreeMap::new(),
             }),
             Err(Diagnostics(list)) => errors.extend(list),
         }
@@ -146,6 +152,8 @@ pub fn of_runs(
             abstractions: run.abstractions.clone(),
             bound,
             analysis,
+            file: run.file.clone(),
+            sources: run.sources.clone(),
         });
     }
     Ok(Subject {

@@ -133,7 +133,10 @@ pub fn requirement_id(named: &str) -> &str {
 /// requirements whose carrier does not exist.
 pub fn load(root: &Path) -> Result<Catalogue> {
     let mut loader = Loader::default();
-    for folder in entries(root)?.into_iter().filter(|p| p.is_dir()) {
+    for folder in entries(root)?
+        .into_iter()
+        .filter(|p| crate::files::is_dir(p))
+    {
         for file in entries(&folder)? {
             let name = file.file_name().unwrap_or_default().to_string_lossy();
             let family = folder.file_name().unwrap_or_default().to_string_lossy();
@@ -154,12 +157,7 @@ fn entries(folder: &Path) -> Result<Vec<PathBuf>> {
         Diagnostic::new(&folder.display().to_string(), &Arc::from(""), None, message)
             .help("check the path and the permissions")
     };
-    let mut list = Vec::new();
-    for entry in std::fs::read_dir(folder).map_err(fail)? {
-        list.push(entry.map_err(fail)?.path());
-    }
-    list.sort();
-    Ok(list)
+    Ok(crate::files::list(folder).map_err(fail)?)
 }
 
 /// The place of something that is checked after all files are read.
@@ -186,7 +184,7 @@ impl Loader {
     /// Reads a file and gives it its form, or adds the finding.
     fn open<T: serde::de::DeserializeOwned>(&mut self, path: &Path) -> Option<(Arc<Source>, T)> {
         let name = path.display().to_string();
-        let text: Arc<str> = match std::fs::read_to_string(path) {
+        let text: Arc<str> = match crate::files::read_to_string(path) {
             Ok(text) => text.into(),
             Err(error) => {
                 let message = format!("cannot read this file: {error}");

@@ -18,6 +18,13 @@ pub fn read_text(path: &Path, kind: &str) -> Result<Arc<str>> {
     let fail = |message: String, help: &str| {
         Diagnostics::from(Diagnostic::new(&name, &Arc::from(""), None, message).help(help))
     };
+    if crate::files::is_carried(path) {
+        let bytes = crate::files::read(path).map_err(|e| {
+            let message = format!("this program carries no such {kind}: {}", plain(&e));
+            fail(message, "this is an error of the family's data")
+        })?;
+        return decode(&name, bytes, kind);
+    }
     let meta = fs::metadata(path).map_err(|e| {
         fail(
             format!("cannot read this {kind}: {}", plain(&e)),

@@ -125,7 +125,7 @@ fn a_bound_that_is_not_as_recorded_fails_the_check() {
         assert_eq!(violations.len(), 1);
         assert_eq!(violations[0].id, "S840D-STOP-040-TIME");
         assert_eq!(violations[0].refuted, Some(message));
-        let shown = stillpoint::report::text(&subject, &checked, &summaries);
+        let shown = stillpoint::report::text(&subject, &checked, &summaries, true);
         assert!(shown.contains(message), "{shown}");
     }
 }

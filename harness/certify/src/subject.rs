@@ -179,7 +179,8 @@ fn bind(
 }
 
 fn source(path: &Path) -> Result<Source, Failure> {
-    let bytes = std::fs::read(path).map_err(|e| unreadable(format!("{}: {e}", path.display())))?;
+    let bytes = stillpoint_spec::files::read(path)
+        .map_err(|e| unreadable(format!("{}: {e}", path.display())))?;
     let digits = Sha256::digest(&bytes);
     Ok(Source {
         name: path

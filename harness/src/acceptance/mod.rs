@@ -11,6 +11,7 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
+use stillpoint_spec::files;
 use stillpoint_spec::machine::Machine;
 use stillpoint_spec::machine::acceptance::{Expect, Protocol, Simulated, Test};
 
@@ -35,20 +36,13 @@ pub struct Checksums {
 /// # Errors
 /// A file that cannot be read.
 pub fn checksums(path: &Path, machine: &Machine) -> io::Result<Checksums> {
-    let mut names = Vec::new();
-    for entry in std::fs::read_dir(machine.family_folder())? {
-        let path = entry?.path();
-        if path.extension().is_some_and(|e| e == "toml") {
-            names.push(path);
-        }
-    }
-    names.sort();
+    let names = files::list(machine.family_folder())?.into_iter();
     let mut all = Sha256::new();
-    for name in names {
+    for name in names.filter(|n| n.extension().is_some_and(|e| e == "toml")) {
         let short = name.file_name().unwrap_or_default().to_string_lossy();
         all.update(short.as_bytes());
         all.update([0]);
-        all.update(Sha256::digest(std::fs::read(&name)?));
+        all.update(Sha256::digest(files::read(&name)?));
     }
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     Ok(Checksums {

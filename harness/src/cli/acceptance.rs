@@ -9,7 +9,7 @@ use stillpoint::acceptance::{
 use stillpoint_spec::machine::acceptance::Protocol;
 use stillpoint_spec::machine::{self, Machine, families};
 
-use super::{Failure, emit, write};
+use super::{Failure, emit, tell_data, write};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -34,6 +34,7 @@ pub struct Arguments {
 
 fn load(path: &Path) -> Result<(Machine, Protocol), Failure> {
     let machine = machine::load(path, &families(path))?;
+    tell_data(Some(&machine));
     let protocol = machine.acceptance()?;
     Ok((machine, protocol))
 }

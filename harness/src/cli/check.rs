@@ -18,12 +18,15 @@ use super::interrupt::Interruptible;
 use super::limits::LimitOptions;
 use super::progress::Line;
 use super::values;
-use super::{Failure, emit, show, write};
+use super::{Failure, emit, show, tell_data, write};
 
 #[derive(Args)]
 pub struct Arguments {
     /// Machine or specification file
     file: PathBuf,
+    /// For a machine file also the parameters of each system and the rules that did not fire
+    #[arg(short, long, conflicts_with_all = ["json", "markdown"])]
+    verbose: bool,
     /// Print the report as JSON
     #[arg(long)]
     json: bool,
@@ -69,6 +72,7 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let choice = values::readings(&arguments.readings).map_err(Failure::Other)?;
     let subject = subject::load(&arguments.file, &choice.chosen)?;
+    tell_data(subject.machine.as_ref());
     known_readings(&subject, &choice.chosen)?;
     if choice.all && (arguments.checkpoint.is_some() || arguments.resume.is_some()) {
         return Err(Failure::Other(
@@ -156,7 +160,12 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         }
         emit(&format!("{json:#}\n"));
     } else if !arguments.markdown {
-        show(&report::text(&subject, &checked, &summaries));
+        show(&report::text(
+            &subject,
+            &checked,
+            &summaries,
+            arguments.verbose,
+        ));
         emit(&report::further(&checked, &settings));
         if let Some(compared) = &compared {
             emit(&stillpoint::readings::text(compared));

@@ -30,7 +30,7 @@ const HEADS: [(&str, Style); 5] = [
 ];
 
 /// Words at the head of a line, after its indent and a number.
-const WORDS: [(&str, Style); 15] = [
+const WORDS: [(&str, Style); 17] = [
     ("VIOLATED", BAD),
     ("DIVERGENCE", BAD),
     ("DIVERGENCES", BAD),
@@ -40,6 +40,8 @@ const WORDS: [(&str, Style); 15] = [
     ("reached", GOOD),
     ("violated", BAD),
     ("unreachable", BAD),
+    ("MISSING", BAD),
+    ("excluded", OPEN),
     ("vacuous", OPEN),
     ("inconclusive", OPEN),
     ("not certified", OPEN),

@@ -26,8 +26,10 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 use miette::MietteHandlerOpts;
 use stillpoint::atomic::write_with;
+use stillpoint::report::counted;
 use stillpoint::subject;
 use stillpoint_spec::diag::Diagnostics;
+use stillpoint_spec::machine::{self, Machine};
 
 /// Exit status for bad input: nothing was run.
 const BAD_INPUT: u8 = 2;
@@ -40,6 +42,9 @@ const BAD_INPUT: u8 = 2;
     after_help = "Exit status: 0 all holds; 1 a property is violated or a divergence was found; 2 bad input, nothing was run; 3 a limit was reached first.\n\nExample: stillpoint check spec/machines/milling-840d.toml"
 )]
 struct Arguments {
+    /// Take the data of the families from this folder, in place of those that this program carries
+    #[arg(long, global = true, value_name = "DIR", value_parser = family_folder)]
+    family_data: Option<PathBuf>,
     #[command(subcommand)]
     command: Command,
 }
@@ -96,6 +101,9 @@ enum Command {
     Validate {
         /// Machine or specification file
         file: PathBuf,
+        /// List also the explorations that `check` would make, and in what each is coarser than the machine
+        #[arg(short, long)]
+        verbose: bool,
     },
     /// Write the pages of the book about the safety functions of a family
     #[command(
@@ -134,6 +142,9 @@ pub fn main() -> ExitCode {
             return ExitCode::from(if e.use_stderr() { BAD_INPUT } else { 0 });
         }
     };
+    if let Some(folder) = arguments.family_data {
+        stillpoint_spec::files::prefer(folder);
+    }
     let status = match arguments.command {
         Command::Acceptance(arguments) => acceptance::run(&arguments),
         Command::Certify(arguments) => certify::run(&arguments),
@@ -144,12 +155,26 @@ pub fn main() -> ExitCode {
         Command::Reaction(arguments) => reaction::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Trace(arguments) => trace::run(&arguments),
-        Command::Validate { file } => validate(&file),
+        Command::Validate { file, verbose } => validate(&file, verbose),
         Command::Pages(arguments) => pages::run(&arguments),
         Command::Completions { shell } => manual::completions(shell),
         Command::Man { output } => manual::pages(output.as_deref()),
     };
     ExitCode::from(status.unwrap_or_else(|failure| failure.show()))
+}
+
+/// A folder of families, one folder each.
+fn family_folder(text: &str) -> Result<PathBuf, String> {
+    let folder = PathBuf::from(text);
+    let entries = std::fs::read_dir(&folder).map_err(|e| e.to_string())?;
+    let mut families = entries.flatten().map(|e| e.path().join("family.toml"));
+    match families.any(|f| f.is_file()) {
+        true => Ok(folder),
+        false => Err(
+            "no folder in it holds a family.toml; name the folder above a family, such as spec"
+                .to_owned(),
+        ),
+    }
 }
 
 /// Why a command did not run.
@@ -216,14 +241,28 @@ fn write(
         .map_err(|e| Failure::Other(format!("{} cannot be written: {e}", path.display())))
 }
 
-fn validate(file: &std::path::Path) -> Result<u8, Failure> {
+/// Tells on stderr that the family's data are neither those that the program carries nor what the user named.
+fn tell_data(machine: Option<&Machine>) {
+    if let Some(folder) = machine.and_then(machine::strange_data) {
+        complain(&format!(
+            "note: family data of {}, which differ from those of this program",
+            folder.display()
+        ));
+    }
+}
+
+fn validate(file: &std::path::Path, all: bool) -> Result<u8, Failure> {
     let subject = subject::load(file, &subject::Readings::new())?;
-    let mut out = format!("{}: plausible\n", subject.name);
+    tell_data(subject.machine.as_ref());
+    let mut out = format!("{}: plausible", subject.name);
     if let Some(machine) = &subject.machine {
         let axes: Vec<&str> = machine.axes.iter().map(|a| a.name.as_str()).collect();
-        let _ = writeln!(out, "  axes {}", axes.join(", "));
+        let _ = write!(out, "; axes {}", axes.join(", "));
     }
-    for task in &subject.tasks {
+    let explorations = counted(subject.tasks.len() as u64, "exploration");
+    let _ = write!(out, "; `check` makes {explorations}");
+    out.push_str(if all { "\n" } else { ", listed with -v\n" });
+    for task in subject.tasks.iter().filter(|_| all) {
         let _ = writeln!(
             out,
             "  to explore: {} ({})",

@@ -11,7 +11,7 @@ use stillpoint_spec::machine::{self, Run, families};
 use super::interrupt::Interruptible;
 use super::limits::LimitOptions;
 use super::progress::Line;
-use super::{Failure, emit, write};
+use super::{Failure, emit, tell_data, write};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -60,6 +60,7 @@ fn split(list: &[String]) -> Vec<(Option<String>, String)> {
 pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let file = &arguments.file;
     let machine = machine::load(file, &families(file))?;
+    tell_data(Some(&machine));
     let wishes = Wishes {
         speed: split(&arguments.speed),
         acceleration: split(&arguments.acceleration),

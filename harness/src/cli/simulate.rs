@@ -7,7 +7,7 @@ use stillpoint::recording::{csv, ndjson};
 use stillpoint::simulate::{self, Scenario};
 use stillpoint_spec::machine;
 
-use super::{Failure, emit, write};
+use super::{Failure, emit, tell_data, write};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -32,6 +32,7 @@ pub struct Arguments {
 
 pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let machine = machine::load(&arguments.file, &machine::families(&arguments.file))?;
+    tell_data(Some(&machine));
     let scenario = Scenario::load(&arguments.scenario, &machine)?;
     let simulation = simulate::run(&machine, &scenario).map_err(Failure::Other)?;
     let diagram = simulation.diagram();

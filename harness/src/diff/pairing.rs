@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use stillpoint_spec::Spec;
 use stillpoint_spec::bind::Bound;
+use stillpoint_spec::files;
 use stillpoint_spec::ir::System;
 
 use super::random::Random;
@@ -138,21 +139,15 @@ fn family_folder(subject: &Subject) -> Option<PathBuf> {
 /// Adds what has a monitor and is in no run, with default parameters.
 fn add_unused(out: &mut Vec<Pairing>, files: &mut Files, folder: &Path) -> Result<(), DiffError> {
     let fault = |e: std::io::Error| DiffError::Sides(format!("{}: {e}", folder.display()));
-    let mut paths = Vec::new();
-    for entry in std::fs::read_dir(folder).map_err(fault)? {
-        let path = entry.map_err(fault)?.path();
-        if path.extension().is_some_and(|e| e == "toml") {
-            paths.push(path);
-        }
-    }
-    paths.sort();
+    let mut paths = files::list(folder).map_err(fault)?;
+    paths.retain(|p| p.extension().is_some_and(|e| e == "toml"));
     let name = folder.file_name().unwrap_or_default().to_string_lossy();
     let Some(family) = peer::family(&name) else {
         return Ok(());
     };
     let kinds = [("machine", family.machines), ("system", family.systems)];
     for path in paths {
-        let text = std::fs::read_to_string(&path).map_err(fault)?;
+        let text = files::read_to_string(&path).map_err(fault)?;
         for (kind, names) in kinds {
             for (name, _) in names {
                 let head = format!("[{kind}.{name}]");

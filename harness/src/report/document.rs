@@ -11,10 +11,10 @@ use stillpoint_show::graph::Graph;
 use stillpoint_spec::ir::Topic;
 
 use super::{
-    configuration, counted, counts, exploration, grouped, inventory, properties, result,
-    verdict_name,
+    configuration, counted, counts, exploration, findings, grouped, inventory, properties, result,
+    word,
 };
-use crate::check::{Checked, Settings, Summary, Unfired, exit_status, violations};
+use crate::check::{Checked, Settings, Summary, exit_status, violations};
 use crate::readings::Compared;
 use crate::states::{Budget, control_states};
 use crate::subject::{Subject, Task};
@@ -211,13 +211,14 @@ pub(super) fn table(heads: &[&str], rows: Vec<Vec<Vec<Inline>>>) -> Block {
     Table::new(heads, rows).without_empty_columns().into()
 }
 
-pub(super) fn badge(verdict: Verdict) -> Vec<Inline> {
+pub(super) fn badge(verdict: Verdict, excluded: bool) -> Vec<Inline> {
     let tone = match verdict {
+        _ if excluded => Tone::Plain,
         Verdict::Holds | Verdict::Reached => Tone::Good,
         Verdict::Violated | Verdict::Unreachable => Tone::Bad,
         Verdict::Vacuous | Verdict::Inconclusive => Tone::Open,
     };
-    vec![Inline::Badge(tone, verdict_name(verdict).to_owned())]
+    vec![Inline::Badge(tone, word(verdict, excluded).to_owned())]
 }
 
 fn verdict(subject: &Subject, checked: &[Checked], summaries: &[Summary]) -> Block {
@@ -239,13 +240,11 @@ fn verdict(subject: &Subject, checked: &[Checked], summaries: &[Summary]) -> Blo
     } else {
         "Not every reachable state was explored: a limit was reached first."
     });
-    let unexplained = checked.iter().flat_map(|c| &c.unfired);
-    let findings = unexplained
-        .filter(|(_, u)| *u == Unfired::Unexplained)
-        .count();
+    let findings = findings(subject, checked);
     if findings > 0 {
+        let rules = counted(findings, "rule");
         text.push_str(&format!(
-            " Finding: {findings} rules never fire and nothing says why."
+            " Finding: {rules} without effect, and nothing says why."
         ));
     }
     if subject.tasks.iter().any(|t| !t.abstractions.is_empty()) {
@@ -320,7 +319,7 @@ fn topic(subject: &Subject, checked: &[Checked], topic: Topic) -> Vec<Block> {
             (Topic::Fault, Some(false)) => {
                 vec![Inline::Badge(Tone::Open, "undetected".to_owned())]
             }
-            _ => badge(row.verdict),
+            _ => badge(row.verdict, false),
         };
         let mut text = row.text.clone();
         if topic == Topic::Fault && row.detected() == Some(false) {

@@ -197,10 +197,13 @@ pub(super) fn coverage(subject: &Subject, checked: &[Checked]) -> Vec<Block> {
                 Some(Unfired::Unknown) => words("not before the limit was reached"),
                 Some(Unfired::Unexplained) => {
                     findings += 1;
-                    vec![Inline::Badge(
-                        Tone::Bad,
-                        "finding: nothing says why".to_owned(),
-                    )]
+                    match subject.machine {
+                        Some(_) => words("not with these values"),
+                        None => vec![Inline::Badge(
+                            Tone::Bad,
+                            "finding: nothing says why".to_owned(),
+                        )],
+                    }
                 }
             };
             fired += usize::from(*count > 0);
@@ -213,6 +216,7 @@ pub(super) fn coverage(subject: &Subject, checked: &[Checked]) -> Vec<Block> {
         }
         let of = rows.len();
         let summary = match findings {
+            _ if subject.machine.is_some() => format!("{title}: {fired} of {of} rules fire"),
             0 => format!("{title}: {fired} of {of} rules fire"),
             n => format!("{title}: {fired} of {of} rules fire, {n} findings"),
         };

@@ -10,6 +10,7 @@ use stillpoint_spec::ir::Topic;
 use super::{params, reduced, verdict_name};
 use crate::check::{Checked, Summary, Unfired};
 use crate::engine::Evaluator;
+use crate::excluded::Exclusion;
 use crate::reduce;
 use crate::subject::Subject;
 use crate::topics;
@@ -34,6 +35,7 @@ pub fn to_json(subject: &Subject, checked: &[Checked], summaries: &[Summary]) ->
                     json!({
                         "id": p.id, "index": p.index, "text": p.text, "requirements": p.req,
                         "verdict": verdict_name(j.verdict), "length": j.length, "bound": j.bound, "fastest": j.fastest,
+                        "excluded": done.excluded.get(&k).map(excluded),
                         "refuted": done.outcome.refuted.get(&k),
                         "counterexample": counterexample.flatten(),
                     })
@@ -87,12 +89,20 @@ pub fn to_json(subject: &Subject, checked: &[Checked], summaries: &[Summary]) ->
         "seconds": reports().map(|r| r.seconds).sum::<f64>(),
         "complete": reports().all(|r| r.complete),
         "properties": summaries.iter().map(|s| json!({
-            "id": s.id, "verdict": verdict_name(s.verdict), "length": s.length,
+            "id": s.id, "verdict": verdict_name(s.verdict), "length": s.length, "excluded": s.excluded,
         })).collect::<Vec<_>>(),
         "faults": topics::to_json(subject, checked, Topic::Fault),
         "reactions": topics::to_json(subject, checked, Topic::Reaction),
         "runs": runs,
     })
+}
+
+/// The parameters that exclude a witness.
+fn excluded(exclusion: &Exclusion) -> Value {
+    let by = exclusion.by.iter().map(|d| {
+        json!({ "parameter": d.name, "value": d.value, "reached_with": d.instead, "from": d.source })
+    });
+    json!({ "by": by.collect::<Vec<_>>(), "exact": exclusion.exact })
 }
 
 fn steps(trace: &Trace, bound: &Bound) -> Value {

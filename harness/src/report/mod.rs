@@ -12,8 +12,9 @@ use stillpoint_model::{Storage, Trace, Verdict};
 use stillpoint_show::diagram::{Diagram, Mark};
 use stillpoint_spec::bind::Bound;
 
-use crate::check::{Checked, Summary, exit_status};
+use crate::check::{Checked, Summary, Unfired, exit_status};
 use crate::engine::replay;
+use crate::subject::Subject;
 use crate::timing;
 
 pub use document::{About, Control, document};
@@ -30,6 +31,14 @@ pub fn verdict_name(verdict: Verdict) -> &'static str {
         Verdict::Reached => "reached",
         Verdict::Unreachable => "unreachable",
         Verdict::Inconclusive => "inconclusive",
+    }
+}
+
+/// A verdict in a word for readers: as in JSON, but for a witness that the values exclude.
+fn word(verdict: Verdict, excluded: bool) -> &'static str {
+    match excluded {
+        true => "excluded",
+        false => verdict_name(verdict),
     }
 }
 
@@ -53,10 +62,13 @@ fn counts(summaries: &[Summary]) -> String {
         Verdict::Vacuous,
     ];
     let counts = order.into_iter().filter_map(|v| {
-        let n = summaries.iter().filter(|s| s.verdict == v).count();
+        let n = summaries.iter().filter(|s| s.verdict == v && !s.excluded);
+        let n = n.count();
         (n > 0).then(|| format!("{n} {}", verdict_name(v)))
     });
-    counts.collect::<Vec<_>>().join(", ")
+    let excluded = summaries.iter().filter(|s| s.excluded).count();
+    let excluded = (excluded > 0).then(|| format!("{excluded} excluded by your values"));
+    counts.chain(excluded).collect::<Vec<_>>().join(", ")
 }
 
 /// A number with thin groups of three: `4 024 036`.
@@ -110,9 +122,23 @@ fn result(summaries: &[Summary], checked: &[Checked]) -> &'static str {
     match exit_status(summaries, checked) {
         0 if summaries.is_empty() => "EXPLORED, no property is stated",
         0 => "ALL PROPERTIES HOLD",
+        1 if !summaries.iter().any(|s| s.verdict == Verdict::Violated) => {
+            "VIOLATED: a witness that must exist does not"
+        }
         1 => "VIOLATED",
         _ => "INCONCLUSIVE: a limit was reached first",
     }
+}
+
+/// How many rules of a specification never fire with nothing that says why: its author has to look at them. What the values of
+/// a machine leave unused is no finding about the machine.
+fn findings(subject: &Subject, checked: &[Checked]) -> u64 {
+    if subject.machine.is_some() {
+        return 0;
+    }
+    let unfired = checked.iter().flat_map(|c| &c.unfired);
+    let unexplained = unfired.filter(|(_, u)| *u == Unfired::Unexplained);
+    unexplained.count() as u64
 }
 
 /// How states were stored, in words.

@@ -7,6 +7,7 @@ use stillpoint_spec::ir::Property;
 use super::document::{badge, code, paragraph, table, words};
 use super::{counted, diagram};
 use crate::check::Checked;
+use crate::excluded::Exclusion;
 use crate::subject::{Subject, Task};
 
 /// Copies of one property with one verdict.
@@ -16,6 +17,8 @@ pub(super) struct Row<'a> {
     /// The first copy.
     pub(super) property: &'a Property,
     pub(super) verdict: Verdict,
+    /// Why the values of the machine exclude it: one sentence for each different reason.
+    pub(super) excluded: Vec<String>,
     /// The runs (from 1) with the same fastest reaction and the same least bound.
     runs: Vec<(Times, Vec<usize>)>,
     /// The shortest run that shows it, if one was kept, and the number of its task.
@@ -36,9 +39,11 @@ pub(super) fn rows<'a>(subject: &'a Subject, checked: &'a [Checked]) -> Vec<Row<
             .properties
             .iter()
             .zip(&done.outcome.report.properties);
-        for (property, judged) in both {
+        for (k, (property, judged)) in both.enumerate() {
+            let excluded = done.excluded.get(&k);
             let known = rows.iter_mut().find(|r| {
-                r.id == property.id && r.text == property.text && r.verdict == judged.verdict
+                (r.id, r.text, r.verdict) == (&property.id, &property.text, judged.verdict)
+                    && r.excluded.is_empty() == excluded.is_none()
             });
             let row = match known {
                 Some(row) => row,
@@ -48,6 +53,7 @@ pub(super) fn rows<'a>(subject: &'a Subject, checked: &'a [Checked]) -> Vec<Row<
                         text: &property.text,
                         property,
                         verdict: judged.verdict,
+                        excluded: Vec::new(),
                         runs: Vec::new(),
                         witness: None,
                     });
@@ -55,6 +61,11 @@ pub(super) fn rows<'a>(subject: &'a Subject, checked: &'a [Checked]) -> Vec<Row<
                     &mut rows[last]
                 }
             };
+            if let Some(reason) = excluded.map(Exclusion::text) {
+                if !row.excluded.contains(&reason) {
+                    row.excluded.push(reason);
+                }
+            }
             if let Some(trace) = &judged.trace {
                 let shorter = |(_, t): &(usize, &Trace)| trace.steps.len() < t.steps.len();
                 if row.witness.as_ref().is_none_or(shorter) {
@@ -69,11 +80,11 @@ pub(super) fn rows<'a>(subject: &'a Subject, checked: &'a [Checked]) -> Vec<Row<
             }
         }
     }
-    rows.sort_by_key(|r| {
-        !matches!(
-            r.verdict,
-            Verdict::Violated | Verdict::Unreachable | Verdict::Inconclusive
-        )
+    rows.sort_by_key(|r| match r.verdict {
+        Verdict::Violated | Verdict::Inconclusive => 0,
+        Verdict::Unreachable if r.excluded.is_empty() => 0,
+        Verdict::Unreachable => 2,
+        _ => 1,
     });
     rows
 }
@@ -113,8 +124,12 @@ pub(super) fn blocks(subject: &Subject, checked: &[Checked]) -> Vec<Block> {
     let cells = rows.iter().map(|row| {
         vec![
             code(row.id),
-            badge(row.verdict),
-            words(row.text),
+            badge(row.verdict, !row.excluded.is_empty()),
+            words(
+                [&[row.text.to_owned()], &row.excluded[..]]
+                    .concat()
+                    .join("\n"),
+            ),
             words(row.told(several, ", ").join("\n")),
             words(row.property.req.join(" ")),
         ]

@@ -2,12 +2,12 @@
 
 use std::fmt::Write;
 
-use stillpoint_model::Storage;
+use stillpoint_model::{Storage, Verdict};
 use stillpoint_spec::ir::Topic;
 
-use super::properties::rows;
+use super::properties::{Row, rows};
 use super::{
-    counted, counts, diagram, grouped, params, reduced, result, storage_name, verdict_name,
+    counted, counts, diagram, findings, grouped, params, reduced, result, storage_name, word,
 };
 use crate::check::{Checked, Settings, Summary, Unfired, violations};
 use crate::engine::Evaluator;
@@ -19,7 +19,10 @@ use crate::topics;
 const WIDTH: usize = 100;
 
 /// The whole report as text.
-pub fn text(subject: &Subject, checked: &[Checked], summaries: &[Summary]) -> String {
+///
+/// For a machine file the parameters of each system and the rules that did not fire are told if `all` asks for it: that is
+/// about the tables, not about the machine.
+pub fn text(subject: &Subject, checked: &[Checked], summaries: &[Summary], all: bool) -> String {
     let mut out = String::new();
     headline(&mut out, subject, checked, summaries);
     if let Some(machine) = &subject.machine {
@@ -55,14 +58,40 @@ pub fn text(subject: &Subject, checked: &[Checked], summaries: &[Summary]) -> St
         }
         out.push('\n');
     }
+    missing(&mut out, subject, checked);
     properties(&mut out, subject, checked);
     for topic in [Topic::Fault, Topic::Reaction] {
         topics::text(&mut out, subject, checked, topic);
     }
     for (n, (task, done)) in subject.tasks.iter().zip(checked).enumerate() {
-        run(&mut out, n + 1, task, done);
+        run(
+            &mut out,
+            n + 1,
+            task,
+            done,
+            all || subject.machine.is_none(),
+        );
+    }
+    if subject.machine.is_some() && !all {
+        out.push_str("With -v also the parameters of each system and the rules that did not fire, with the reason.\n");
     }
     out
+}
+
+/// Witnesses that must exist and do not, though no value of a machine excludes them.
+fn missing(out: &mut String, subject: &Subject, checked: &[Checked]) {
+    let rows = rows(subject, checked);
+    let missing = |r: &&Row| r.verdict == Verdict::Unreachable && r.excluded.is_empty();
+    for row in rows.iter().filter(missing) {
+        let _ = writeln!(out, "MISSING  {}  {}", row.id, row.text);
+        let why = match subject.machine {
+            Some(_) => {
+                "no run gets there, neither with the values of this file nor with the family's own: the tables are wrong"
+            }
+            None => "a run that gets there must exist, and none does",
+        };
+        let _ = writeln!(out, "  {why}\n");
+    }
 }
 
 /// Every property once, with the runs in which it was judged; what differs between runs is told.
@@ -76,8 +105,10 @@ fn properties(out: &mut String, subject: &Subject, checked: &[Checked]) {
         } else {
             format!(" [{}]", told.join("; "))
         };
-        let head = format!("  {:<12} {:<width$}", verdict_name(row.verdict), row.id);
-        wrapped(out, &head, &format!("{}{told}", row.text));
+        let verdict = word(row.verdict, !row.excluded.is_empty());
+        let head = format!("  {verdict:<12} {:<width$}", row.id);
+        let reasons: String = row.excluded.iter().map(|r| format!(" ({r})")).collect();
+        wrapped(out, &head, &format!("{}{reasons}{told}", row.text));
     }
     out.push('\n');
 }
@@ -109,21 +140,18 @@ fn headline(out: &mut String, subject: &Subject, checked: &[Checked], summaries:
         grouped(transitions),
         if complete { "complete" } else { "NOT complete" },
     );
-    let findings = checked
-        .iter()
-        .flat_map(|c| &c.unfired)
-        .filter(|(_, u)| *u == Unfired::Unexplained)
-        .count();
+    let findings = findings(subject, checked);
     if findings > 0 {
+        let rules = counted(findings, "rule");
         let _ = writeln!(
             out,
-            "FINDING: {findings} rules never fire and nothing says why; see below."
+            "FINDING: {rules} without effect, and nothing says why; see below."
         );
     }
     out.push('\n');
 }
 
-fn run(out: &mut String, n: usize, task: &Task, done: &Checked) {
+fn run(out: &mut String, n: usize, task: &Task, done: &Checked, all: bool) {
     let report = &done.outcome.report;
     let _ = writeln!(out, "Run {n}: {}", task.title);
     let _ = writeln!(out, "  system {}", task.bound.system.name);
@@ -131,7 +159,7 @@ fn run(out: &mut String, n: usize, task: &Task, done: &Checked) {
         .iter()
         .map(|(n, v)| format!("{n} = {v}"))
         .collect();
-    if !params.is_empty() {
+    if !params.is_empty() && all {
         wrapped(out, "  with ", &params.join(", "));
     }
     for item in &task.abstractions {
@@ -157,7 +185,9 @@ fn run(out: &mut String, n: usize, task: &Task, done: &Checked) {
             report.seconds,
         );
     }
-    unfired(out, done);
+    if all {
+        unfired(out, done);
+    }
     for warning in &task.bound.system.warnings {
         wrapped(out, "  warning: ", warning);
     }
@@ -178,7 +208,7 @@ fn unfired(out: &mut String, done: &Checked) {
         let why = match why {
             Unfired::Parameters => "excluded by these parameters".to_owned(),
             Unfired::Explained(reason) => reason.clone(),
-            Unfired::Unexplained => "FINDING, nothing says why".to_owned(),
+            Unfired::Unexplained => "nothing says why".to_owned(),
             Unfired::Unknown => "not fired before the limit was reached".to_owned(),
         };
         match reasons.iter_mut().find(|(w, _)| *w == why) {

@@ -141,15 +141,11 @@ const MOST_GROUPS: usize = 62;
 
 /// The names of the families under `root`, sorted: folders with a `family.toml`.
 pub(super) fn families(root: &Path) -> Vec<String> {
-    let mut names: Vec<String> = std::fs::read_dir(root)
-        .into_iter()
-        .flatten()
-        .filter_map(std::result::Result::ok)
-        .filter(|entry| entry.path().join("family.toml").is_file())
-        .filter_map(|entry| entry.file_name().into_string().ok())
-        .collect();
-    names.sort();
-    names
+    let folders = crate::files::list(root).unwrap_or_default().into_iter();
+    folders
+        .filter(|folder| crate::files::is_file(&folder.join("family.toml")))
+        .filter_map(|folder| folder.file_name()?.to_str().map(str::to_owned))
+        .collect()
 }
 
 /// Reads the data of the family in `folder`.

@@ -43,6 +43,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use crate::diag::{Result, nearest};
+use crate::files;
 use document::Findings;
 use family::{Family, Param};
 use logic::Logic;
@@ -171,6 +172,8 @@ pub struct Run {
     pub cycle: i64,
     /// Values of the system's parameters; one cell for a scalar. Times in cycles, or in steps.
     pub params: BTreeMap<String, Vec<i64>>,
+    /// For each parameter the expression over the values of the file that it was computed from.
+    pub sources: BTreeMap<String, String>,
     /// Where the run is coarser than the machine: what was rounded, scaled or replaced by its order. Empty: exact.
     pub abstractions: Vec<String>,
 }
@@ -295,8 +298,12 @@ impl Setting {
     }
 }
 
-/// The folder with the families: beside the machine file's folder, in an ancestor's `spec`, or in `./spec`.
+/// The folder with the families for a machine file: the one preferred ([`files::prefer`]); a copy of Stillpoint's sources
+/// above the file, where the file of the family is changed there; those that the program carries; else `./spec`.
 pub fn families(path: &Path) -> PathBuf {
+    if let Some(folder) = files::preferred() {
+        return folder.to_owned();
+    }
     let absolute = path.canonicalize().unwrap_or_else(|_| path.to_owned());
     let has_families = |dir: &Path| {
         std::fs::read_dir(dir).is_ok_and(|entries| {
@@ -312,7 +319,17 @@ pub fn families(path: &Path) -> PathBuf {
             }
         }
     }
-    PathBuf::from("spec")
+    files::built_in().unwrap_or_else(|| PathBuf::from("spec"))
+}
+
+/// Where the data of a machine's family come from, where it is neither the program nor the folder that the user named: they
+/// differ from those that the program carries, and whoever reads its answer must know.
+pub fn strange_data(machine: &Machine) -> Option<&Path> {
+    let folder = machine.family_folder();
+    let root = folder.parent()?;
+    let told = files::preferred().is_some() || files::built_in().is_none();
+    (!told && !files::is_carried(folder) && !files::same_as_built_in(root, &machine.family))
+        .then_some(folder)
 }
 
 /// Reads and checks the machine file at `path`; `families` is the folder that holds the families.

@@ -206,7 +206,7 @@ fn is_scaled<'e>(
     };
     let path = family.folder.join(&explore.file);
     if !files.contains_key(explore.file.as_str()) {
-        let text = std::fs::read_to_string(&path)
+        let text = crate::files::read_to_string(&path)
             .map_err(|e| fault(format!("cannot read {}: {e}", path.display())))?;
         let table = toml::from_str(&text).map_err(|e| {
             fault(format!(
@@ -256,6 +256,7 @@ fn bind(
         system: explore.system.clone(),
         cycle,
         params: BTreeMap::new(),
+        sources: BTreeMap::new(),
         abstractions: Vec::new(),
     };
     let planned = |run| Planned {
@@ -281,9 +282,13 @@ fn bind(
             Binding::Value(name, formula) => {
                 let value = evaluate(family, formula, values, cycle)?;
                 run.params.insert(name.clone(), vec![value]);
+                let source = formula.text.get_ref().clone();
+                run.sources.insert(name.clone(), source);
             }
             Binding::Time(name, formula, rounding) => {
                 let time = evaluate(family, formula, values, cycle)?;
+                let source = formula.text.get_ref().clone();
+                run.sources.insert(name.clone(), source);
                 times.push(Time {
                     name: name.clone(),
                     exact: time % cycle == 0,
@@ -295,6 +300,8 @@ fn bind(
                 let ranks = ranks(values.get(list).map_or(&[], Vec::as_slice));
                 let cells = ranks.into_iter().map(|rank| vec![rank]);
                 run.params.extend(names.iter().cloned().zip(cells));
+                let sources = names.iter().map(|name| (name.clone(), list.clone()));
+                run.sources.extend(sources);
                 let text = format!("{list} by the order of its values only");
                 run.abstractions.push(text);
             }
@@ -302,6 +309,8 @@ fn bind(
                 for (name, (_, values)) in names.iter().zip(members) {
                     let value = evaluate(family, formula, values, cycle)?;
                     run.params.insert(name.clone(), vec![value]);
+                    let source = formula.text.get_ref().clone();
+                    run.sources.insert(name.clone(), source);
                 }
             }
         }
