@@ -38,17 +38,26 @@ pub struct Produced {
     pub configuration: Configuration,
 }
 
+/// Whether whole axes of the machine's family can be run.
+///
+/// # Errors
+/// A sentence: they cannot, and what can be done instead.
+pub fn can_run(machine: &Machine) -> Result<(), String> {
+    match machine.family == FAMILY {
+        true => Ok(()),
+        false => Err(format!(
+            "{}: whole axes can be run for the family {FAMILY} only; for {} there are check, diff, reaction, acceptance and explore",
+            machine.name, machine.family
+        )),
+    }
+}
+
 /// The axes of a machine, in the order of the file.
 ///
 /// # Errors
 /// A sentence: the family has no production monitors, or they refuse a value.
 pub fn axes(machine: &Machine) -> Result<Vec<Produced>, String> {
-    if machine.family != FAMILY {
-        return Err(format!(
-            "{}: the production monitors implement the family {FAMILY}; this machine is of the family {}",
-            machine.name, machine.family
-        ));
-    }
+    can_run(machine)?;
     machine
         .axes
         .iter()

@@ -132,13 +132,28 @@ impl std::error::Error for Diagnostics {}
 
 /// The candidate nearest to `word` by edit distance, if it is near enough to be a misspelling.
 pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    let limit = (word.chars().count() / 3).max(1) + 1;
+    let letters = word.chars().count();
+    // In a short word one letter makes another name.
+    let limit = match letters {
+        0 | 1 => return None,
+        2 | 3 => 1,
+        _ => letters / 3 + 1,
+    };
     candidates
         .into_iter()
         .map(|c| (edit_distance(&word.to_lowercase(), &c.to_lowercase()), c))
         .filter(|(d, _)| *d <= limit)
         .min_by_key(|(d, _)| *d)
         .map(|(_, c)| c)
+}
+
+/// The candidates of which `word` is a part: `SBH` of `SBH/SG`, `SN1` of `SN1+` and `SN1-`.
+pub fn with_part<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
+    let is_part = |candidate: &&str| {
+        let mut parts = candidate.split(|c: char| !c.is_alphanumeric());
+        parts.any(|part| part.eq_ignore_ascii_case(word))
+    };
+    candidates.into_iter().filter(is_part).collect()
 }
 
 fn edit_distance(a: &str, b: &str) -> usize {

@@ -15,7 +15,7 @@ use stillpoint_spec::files;
 use stillpoint_spec::machine::Machine;
 use stillpoint_spec::machine::acceptance::{Expect, Protocol, Simulated, Test};
 
-pub use run::{Error, Ran, on_the_machine, run};
+pub use run::{Ran, Unfit, on_the_machine, run};
 pub use show::document;
 pub use since::{Change, Repeat, Since, since};
 pub use trace::expected;
@@ -83,7 +83,7 @@ pub fn to_json(
             let (us, cycles) = latest(e, cycle).unzip();
             json!({
                 "text": e.text, "signal": e.signal.as_ref().map(|(s, _)| s),
-                "value": e.signal.as_ref().map(|(_, v)| v), "after_us": e.after,
+                "value": e.signal.as_ref().map(|(_, v)| v), "after_us": e.after, "formula": e.formula,
                 "tolerance_cycles": e.tolerance, "latest_us": us, "latest_cycles": cycles,
             })
         });

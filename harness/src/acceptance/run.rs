@@ -25,30 +25,60 @@ pub struct Ran {
     pub diagram: Diagram,
 }
 
-/// Why a scenario could not be run; none of it is the user's fault but the catalogue's.
-#[derive(Debug)]
-pub enum Error {
-    /// The scenario is wrong.
-    Scenario(Diagnostics),
-    /// The simulation cannot do it: one sentence.
-    Simulation(String),
+/// A test whose scenario does not fit the values of the machine: it was not run. None of it is the user's fault but the
+/// catalogue's.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Unfit {
+    /// The test.
+    pub id: String,
+    /// What is wrong with its scenario.
+    pub reason: String,
 }
 
+/// The longest scenario that is run: the results of longer ones would keep a user waiting.
+const LONGEST_US: u64 = 3_600_000_000;
+
 /// Runs the tests that have a scenario, one after the other; those that only the real machine can show are not in the result.
-///
-/// # Errors
-/// A scenario of the catalogue that is wrong for this machine.
-pub fn run(machine: &Machine, tests: &[&Test]) -> Result<Vec<Ran>, Error> {
+pub fn run(machine: &Machine, tests: &[&Test]) -> (Vec<Ran>, Vec<Unfit>) {
     let mut all = Vec::new();
+    let mut unfit = Vec::new();
     for test in tests {
         let Simulated::Scenario(text) = &test.simulated else {
             continue;
         };
         let text: Arc<str> = Arc::from(text.as_str());
         let name = format!("scenario of {}", test.id);
-        let scenario = Scenario::from_text(&name, &text, machine).map_err(Error::Scenario)?;
-        let simulation = simulate::run(machine, &scenario)
-            .map_err(|e| Error::Simulation(format!("{name}: {e}")))?;
+        let mut not = |reason: String| {
+            let id = test.id.clone();
+            unfit.push(Unfit { id, reason });
+        };
+        let scenario = match Scenario::from_text(&name, &text, machine) {
+            Ok(scenario) => scenario,
+            Err(Diagnostics(list)) => {
+                let said: Vec<String> = list.iter().map(|d| d.message.clone()).collect();
+                not(format!(
+                    "its scenario does not fit these values: {}",
+                    said.join("; ")
+                ));
+                continue;
+            }
+        };
+        let cycle = u64::try_from(machine.monitoring_cycle).unwrap_or(1);
+        let length = u64::from(scenario.cycles).saturating_mul(cycle);
+        if length > LONGEST_US {
+            not(format!(
+                "it would take {} s on this machine",
+                length / 1_000_000
+            ));
+            continue;
+        }
+        let simulation = match simulate::run(machine, &scenario) {
+            Ok(simulation) => simulation,
+            Err(e) => {
+                not(e.to_string());
+                continue;
+            }
+        };
         let judged = simulation.judged.iter();
         let stops = simulation.stops.iter().map(|s| {
             format!(
@@ -64,7 +94,7 @@ pub fn run(machine: &Machine, tests: &[&Test]) -> Result<Vec<Ran>, Error> {
             diagram: simulation.diagram(),
         });
     }
-    Ok(all)
+    (all, unfit)
 }
 
 /// The tests that only the real machine can show, each with the reason.

@@ -243,6 +243,10 @@ fn one(machine: &Machine, test: &Test) -> Block {
             vec![Inline::text(&e.text)],
             vec![Inline::Text(time)],
             vec![Inline::Text(cycles)],
+            match e.formula.is_empty() {
+                true => Vec::new(),
+                false => vec![Inline::Code(e.formula.clone())],
+            },
             vec![Inline::Text(
                 e.after.map_or(String::new(), |_| e.tolerance.to_string()),
             )],
@@ -254,6 +258,7 @@ fn one(machine: &Machine, test: &Test) -> Block {
         "Expected",
         "#At the latest after",
         "#Cycles",
+        "computed from",
         "#of them tolerance",
         "Measured",
         "OK",

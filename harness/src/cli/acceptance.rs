@@ -3,10 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use stillpoint::acceptance::{
-    Error, checksums, document, run as simulate, selected, since, to_json,
-};
-use stillpoint_spec::machine::acceptance::Protocol;
+use stillpoint::acceptance::{checksums, document, run as simulate, selected, since, to_json};
+use stillpoint_spec::machine::acceptance::{Protocol, Simulated};
 use stillpoint_spec::machine::{self, Machine, families};
 
 use super::{Failure, emit, tell_data, write};
@@ -40,7 +38,7 @@ fn load(path: &Path) -> Result<(Machine, Protocol), Failure> {
 }
 
 pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
-    let (machine, protocol) = load(&arguments.file)?;
+    let (machine, mut protocol) = load(&arguments.file)?;
     let since = match &arguments.since {
         Some(path) => {
             let (old, before) = load(path)?;
@@ -62,10 +60,13 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let ran = match arguments.run {
         true => {
             let tests = selected(&protocol, since.as_ref());
-            let ran = simulate(&machine, &tests).map_err(|e| match e {
-                Error::Scenario(diagnostics) => Failure::Input(diagnostics),
-                Error::Simulation(message) => Failure::Other(message),
-            })?;
+            let (ran, unfit) = simulate(&machine, &tests);
+            for one in unfit {
+                let test = protocol.tests.iter_mut().find(|t| t.id == one.id);
+                if let Some(test) = test {
+                    test.simulated = Simulated::Not(one.reason);
+                }
+            }
             Some(ran)
         }
         false => None,

@@ -28,11 +28,16 @@ pub struct Arguments {
     /// Print stops and expectations only, without the diagram
     #[arg(long)]
     brief: bool,
+    /// List also the times that are no whole number of cycles, with what became of them
+    #[arg(short, long)]
+    verbose: bool,
 }
 
 pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let machine = machine::load(&arguments.file, &machine::families(&arguments.file))?;
     tell_data(Some(&machine));
+    // Before the scenario: its messages name what this family alone has.
+    stillpoint::production::can_run(&machine).map_err(Failure::Other)?;
     let scenario = Scenario::load(&arguments.scenario, &machine)?;
     let simulation = simulate::run(&machine, &scenario).map_err(Failure::Other)?;
     let diagram = simulation.diagram();
@@ -49,7 +54,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         "" => String::new(),
         title => format!("{title}\n"),
     };
-    text.push_str(&simulation.summary());
+    text.push_str(&simulation.summary(arguments.verbose));
     if !arguments.brief {
         text.push('\n');
         text.push_str(&simulation.text());

@@ -315,8 +315,8 @@ impl Simulation {
         })
     }
 
-    /// Stops, expectations and roundings in words.
-    pub fn summary(&self) -> String {
+    /// Stops, expectations and roundings in words; the roundings one by one if `all` asks for it.
+    pub fn summary(&self, all: bool) -> String {
         let mut out = String::new();
         let cycles = self.recording.rows.len() as u64;
         let cycle = self.recording.cycle_us;
@@ -362,7 +362,19 @@ impl Simulation {
             let _ = writeln!(out, "{verdict}  {}{found}", judged.text);
         }
         if !self.roundings.is_empty() {
-            let _ = writeln!(out, "times in whole cycles: {}", self.roundings.join(", "));
+            let times = match self.roundings.len() {
+                1 => "1 time of the scenario is".to_owned(),
+                n => format!("{n} times of the scenario are"),
+            };
+            let listed = if all {
+                ":"
+            } else {
+                "; -v lists what became of them"
+            };
+            let _ = writeln!(out, "{times} no whole number of cycles{listed}");
+            for rounding in self.roundings.iter().filter(|_| all) {
+                let _ = writeln!(out, "  {rounding}");
+            }
         }
         out
     }

@@ -59,7 +59,8 @@ fn load(file: &str) -> (Machine, Protocol) {
 /// Runs tests; each of them has to have a scenario.
 fn ran(machine: &Machine, tests: &[Test]) -> Vec<Ran> {
     let tests: Vec<&Test> = tests.iter().collect();
-    let ran = run(machine, &tests).unwrap_or_else(|e| panic!("{e:?}"));
+    let (ran, unfit) = run(machine, &tests);
+    assert_eq!(unfit, []);
     assert_eq!(ran.len(), tests.len());
     ran
 }

@@ -3,7 +3,9 @@
 #[path = "../common/mod.rs"]
 mod common;
 
+mod acceptance;
 mod answers;
+mod messages;
 mod place;
 
 use std::process::Output;

@@ -34,6 +34,8 @@ pub(crate) struct Builder<'a> {
     pub members: HashMap<String, Names>,
     pub arrays: HashMap<String, i64>,
     pub errors: Vec<Diagnostic>,
+    /// Lets and outputs whose definition is wrong: instance and name.
+    pub failed: Vec<(String, String)>,
     /// Which instance a state cell or an output belongs to.
     state_owner: Vec<usize>,
     lazy_owner: Vec<Option<usize>>,
@@ -165,6 +167,7 @@ impl<'a> Builder<'a> {
             members: HashMap::new(),
             arrays: HashMap::new(),
             errors: Vec::new(),
+            failed: Vec::new(),
             state_owner: Vec::new(),
             lazy_owner: Vec::new(),
         };
@@ -318,10 +321,20 @@ impl<'a> Builder<'a> {
         match result {
             Ok(value) => Some(value),
             Err(e) => {
-                self.errors.push(e);
+                if !self.follows(&e.message) {
+                    self.errors.push(e);
+                }
                 None
             }
         }
+    }
+
+    /// Whether an error only says that a name is missing whose own definition is wrong, which has been told.
+    fn follows(&self, message: &str) -> bool {
+        self.failed.iter().any(|(instance, name)| {
+            message == format!("`{name}` is not known here")
+                || message == format!("`{instance}` has nothing named `{name}`")
+        })
     }
 
     fn build(mut self, def: &schema::System) -> Result<System> {

@@ -41,6 +41,8 @@ impl Builder<'_> {
                 Ok((ty, node, lo as i64, hi as i64))
             })();
             let Some((ty, value, lo, hi)) = self.note(made) else {
+                let array = unit.name.split('[').next().unwrap_or_default();
+                self.failed.push((array.to_owned(), name.get_ref().clone()));
                 continue;
             };
             let index = self.sys.lazies.len() as u32;

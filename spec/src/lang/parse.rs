@@ -156,6 +156,11 @@ impl Parser {
                 self.at += 1;
                 Ok(name)
             }
+            Token::Word(w) if w.as_str() == "IF" => Err(SyntaxError::new(
+                self.span(),
+                "IF is a statement; here an expression is needed",
+                "write SEL(condition, value if FALSE, value if TRUE)",
+            )),
             _ => self.fail("a name"),
         }
     }

@@ -233,6 +233,12 @@ impl Param {
         kind.is_empty() || self.kinds.is_empty() || self.kinds.iter().any(|k| k == kind)
     }
 
+    /// Whether the manual calls it so: `MD36930`, `MD1330` or `$MA_SAFE_STANDSTILL_TOL`.
+    pub fn is_called(&self, name: &str) -> bool {
+        let mut names = self.manual.split(['/', ' ']).filter(|n| !n.is_empty());
+        names.any(|n| n == name)
+    }
+
     /// The value as a user writes it.
     pub fn show(&self, value: i64, kind: AxisKind) -> String {
         match self.quantity {

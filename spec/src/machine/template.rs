@@ -28,7 +28,8 @@ enum Piece {
     Text(String),
     Title(String),
     Word(Expr, Vec<String>),
-    Value(Expr, Option<Quantity>),
+    /// With the expression as it is written.
+    Value(Expr, Option<Quantity>, String),
 }
 
 /// What the texts of an entry may name.
@@ -76,21 +77,42 @@ impl Template {
     /// # Errors
     /// A value that does not exist for it, which is a fault of the family's data.
     pub fn fill(&self, file: &DataFile, ground: &Ground<'_>) -> Result<String> {
+        self.filled(file, ground, false)
+    }
+
+    /// A text of lines `key = value` for one subject, in which the lines of a time end with a comment that gives the formula it
+    /// was computed from.
+    ///
+    /// # Errors
+    /// As [`Template::fill`].
+    pub fn fill_lines(&self, file: &DataFile, ground: &Ground<'_>) -> Result<String> {
+        self.filled(file, ground, true)
+    }
+
+    fn filled(&self, file: &DataFile, ground: &Ground<'_>, formulas: bool) -> Result<String> {
         let mut out = String::new();
+        let mut formula: Option<&str> = None;
         for piece in &self.pieces {
             match piece {
-                Piece::Text(text) => out.push_str(text),
+                Piece::Text(text) => match (formula.take(), text.split_once('\n')) {
+                    (Some(formula), Some((rest, below))) => {
+                        out.push_str(&format!("{rest} # {formula}\n{below}"));
+                    }
+                    _ => out.push_str(text),
+                },
                 Piece::Title(name) => out.push_str(&ground.title(name).unwrap_or_default()),
                 Piece::Word(expr, words) => {
                     let value = ground.eval(file, expr, self.span.clone())?;
                     let word = usize::try_from(value).ok().and_then(|k| words.get(k));
                     out.push_str(&word.map_or_else(|| value.to_string(), Clone::clone));
                 }
-                Piece::Value(expr, Some(quantity)) => {
+                Piece::Value(expr, Some(quantity), text) => {
+                    let is_time = formulas && matches!(quantity, Quantity::Time);
+                    formula = is_time.then_some(text.as_str());
                     let value = ground.eval(file, expr, self.span.clone())?;
                     out.push_str(&ground.quantity(*quantity, value));
                 }
-                Piece::Value(expr, None) => {
+                Piece::Value(expr, None, _) => {
                     let own = matches!(expr.kind, Kind::Name(_) | Kind::Index(_, _));
                     match ground.reads(expr).into_values().next().filter(|_| own) {
                         Some(shown) => out.push_str(&shown),
@@ -117,7 +139,7 @@ impl Template {
 
     fn expressions(&self) -> impl Iterator<Item = &Expr> {
         self.pieces.iter().filter_map(|piece| match piece {
-            Piece::Word(expr, _) | Piece::Value(expr, _) => Some(expr),
+            Piece::Word(expr, _) | Piece::Value(expr, ..) => Some(expr),
             Piece::Text(_) | Piece::Title(_) => None,
         })
     }
@@ -151,7 +173,7 @@ fn piece(inside: &str, words: &Words<'_>) -> std::result::Result<Piece, (String,
             return Ok(Piece::Word(expr, list.clone()));
         }
     }
-    Ok(Piece::Value(expr, quantity))
+    Ok(Piece::Value(expr, quantity, text.to_owned()))
 }
 
 fn quantity(name: &str) -> std::result::Result<Quantity, (String, String)> {

@@ -74,7 +74,13 @@ impl Dimension {
                 ("mm/s", 60_000),
                 ("inch/min", 25_400),
             ],
-            Self::Rotation => &[("rev/min", 360_000), ("deg/min", 1_000), ("deg/s", 60_000)],
+            Self::Rotation => &[
+                ("rev/min", 360_000),
+                ("rpm", 360_000),
+                ("1/min", 360_000),
+                ("deg/min", 1_000),
+                ("deg/s", 60_000),
+            ],
             Self::Acceleration => &[("mm/s2", 1_000), ("m/s2", 1_000_000), ("um/s2", 1)],
             Self::AngularAcceleration => &[("deg/s2", 1_000), ("rev/s2", 360_000), ("mdeg/s2", 1)],
             Self::Time => &[
@@ -145,6 +151,12 @@ pub(crate) fn alternatives(names: &[&str]) -> String {
         [one] => (*one).to_owned(),
         [head @ .., last] => format!("{} or {last}", head.join(", ")),
     }
+}
+
+/// `"a"`, `"a" or "b"`, `"a", "b" or "c"`: names may have commas and spaces in them.
+pub(crate) fn quoted(names: &[&str]) -> String {
+    let names: Vec<String> = names.iter().map(|n| format!("\"{n}\"")).collect();
+    alternatives(&names.iter().map(String::as_str).collect::<Vec<_>>())
 }
 
 /// `value / size` as a decimal. Exact for the pairs that [`Dimension::unit_for`] chooses: at most nine decimals are needed.
@@ -241,6 +253,8 @@ mod tests {
             ("10 mm/s", Dimension::Speed, 600_000),
             ("300 rev/min", Dimension::Rotation, 108_000_000),
             ("0.1 rev/min", Dimension::Rotation, 36_000),
+            ("300 rpm", Dimension::Rotation, 108_000_000),
+            ("300 1/min", Dimension::Rotation, 108_000_000),
             ("1 deg/s", Dimension::Rotation, 60_000),
             ("10 deg", Dimension::Angle, 10_000),
             ("0.1 s", Dimension::Time, 100_000),

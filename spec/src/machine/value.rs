@@ -5,7 +5,7 @@ use toml::de::DeValue;
 use super::AxisKind;
 use super::document::kind_of;
 use super::family::{Param, Quantity};
-use super::units::{self, Dimension, UnitError, alternatives};
+use super::units::{self, Dimension, UnitError, quoted};
 use crate::diag::nearest;
 
 /// A value as TOML gives it.
@@ -194,7 +194,7 @@ fn choice(raw: &Raw, param: &Param) -> Result<i64, Refusal> {
         return Err(Refusal {
             message: format!("one of the names is needed; got {}", raw.written()),
             label: "not a name".to_owned(),
-            help: format!("write \"{}\"", names.join("\", \"")),
+            help: format!("write {}", quoted(&names)),
         });
     };
     let found = param.choices.iter().find(|(name, _)| name == text);
@@ -202,8 +202,8 @@ fn choice(raw: &Raw, param: &Param) -> Result<i64, Refusal> {
         message: format!("\"{text}\" is not one of the values"),
         label: "no such value".to_owned(),
         help: match nearest(text, names.iter().copied()) {
-            Some(near) => format!("did you mean \"{near}\"? Allowed: {}", alternatives(&names)),
-            None => format!("allowed: {}", alternatives(&names)),
+            Some(near) => format!("did you mean \"{near}\"? Allowed: {}", quoted(&names)),
+            None => format!("allowed: {}", quoted(&names)),
         },
     })
 }

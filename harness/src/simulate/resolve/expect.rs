@@ -41,10 +41,17 @@ impl Resolver<'_> {
         }
         let condition = self.condition(expect)?;
         let text = describe(&condition, expect.never);
+        let with = |cycle: u32, text: Option<&Text>| {
+            let at = time(u64::from(cycle) * self.cycle_us());
+            match text.and_then(|t| self.formula(t)) {
+                Some(formula) => format!("{at} ({formula})"),
+                None => at,
+            }
+        };
         let window = format!(
             "from {} to {}",
-            time(u64::from(after) * self.cycle_us()),
-            time(u64::from(by) * self.cycle_us())
+            with(after, expect.after.as_ref()),
+            with(by, expect.by.as_ref())
         );
         let text = match expect.never {
             true => format!("never {text}, {window}"),
@@ -57,6 +64,13 @@ impl Resolver<'_> {
             by,
             never: expect.never,
         })
+    }
+
+    /// What a comment behind a value says of it: in the scenarios of acceptance tests the formula it was computed from.
+    fn formula(&self, value: &Text) -> Option<&str> {
+        let line = self.text.get(value.span().end..)?.lines().next()?;
+        let comment = line.trim_start().strip_prefix('#')?.trim();
+        (!comment.is_empty()).then_some(comment)
     }
 
     fn condition(&mut self, expect: &file::Expect) -> Option<Condition> {

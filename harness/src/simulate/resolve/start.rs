@@ -1,12 +1,25 @@
 //! Where the axes start and how they move.
 
-use stillpoint_spec::machine::AxisKind;
 use stillpoint_spec::machine::units::{self, Dimension};
+use stillpoint_spec::machine::{Axis, AxisKind};
 
 use super::{Resolver, Round};
 use crate::simulate::file::{self, File, Text};
 use crate::simulate::plant::Mechanics;
 use crate::simulate::scenario::Start;
+
+/// Where an axis stands that no scenario places, in thousandths of an increment: at 0, or in the middle of its safe limit
+/// positions where these exclude 0.
+fn within_limits(axis: &Axis) -> i64 {
+    let cells = |name: &str| axis.values.get(name).map_or(&[][..], |s| &s.cells);
+    let high = cells("POS_LIMIT_PLUS").iter().min();
+    let low = cells("POS_LIMIT_MINUS").iter().max();
+    let enabled = axis.functions.iter().any(|f| f == "SE");
+    match (low, high) {
+        (Some(low), Some(high)) if enabled && !(*low < 0 && 0 < *high) => (low + high) / 2 * 1_000,
+        _ => 0,
+    }
+}
 
 /// The longest delay that a drive is given, in microseconds: a slip of the pen beyond.
 const MOST_LAG_US: u64 = 1_000_000;
@@ -30,7 +43,7 @@ impl Resolver<'_> {
                 .position
                 .as_ref()
                 .and_then(|t| self.length(t, kind))
-                .unwrap_or(0);
+                .unwrap_or_else(|| within_limits(axis));
             let mut rate = |text: &Option<Text>, default: &str| match text {
                 Some(text) => self.acceleration(text, kind).unwrap_or(1),
                 None => rate_of(default, kind, self.cycle_us()).unwrap_or(1),

@@ -101,6 +101,8 @@ pub struct Expect {
     pub signal: Option<(String, String)>,
     /// Microseconds after the event that the test provokes; none: whenever it comes.
     pub after: Option<i64>,
+    /// The formula of `after`; empty without.
+    pub formula: String,
     /// Monitoring cycles that it may come later than `after`.
     pub tolerance: i64,
 }

@@ -44,7 +44,10 @@ pub(super) struct TestData {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct SimulateData {
-    text: Spanned<String>,
+    #[serde(default)]
+    text: Option<Spanned<String>>,
+    /// In place of a text: why the test cannot be simulated with such values.
+    unfit: Option<Spanned<String>>,
     when: Option<Spanned<String>>,
 }
 
@@ -85,7 +88,10 @@ pub(super) struct Plan {
 }
 
 enum SimulatePlan {
-    Scenario(Vec<(Option<Formula>, Template)>),
+    Scenario {
+        pieces: Vec<(Option<Formula>, Template)>,
+        unfit: Vec<(Option<Formula>, Template)>,
+    },
     Hardware(Template),
 }
 
@@ -188,10 +194,24 @@ impl Reader<'_> {
         match (pieces.is_empty(), hardware) {
             (true, Some(reason)) => self.text(reason).map(SimulatePlan::Hardware),
             (false, None) => {
-                let read = pieces
-                    .into_iter()
-                    .map(|piece| Some((self.formula(piece.when)?, self.text(piece.text)?)));
-                read.collect::<Option<_>>().map(SimulatePlan::Scenario)
+                let (mut texts, mut unfit) = (Vec::new(), Vec::new());
+                for piece in pieces {
+                    let when = self.formula(piece.when)?;
+                    match (piece.text, piece.unfit) {
+                        (Some(text), None) => texts.push((when, self.text(text)?)),
+                        (None, Some(reason)) => unfit.push((when, self.text(reason)?)),
+                        _ => {
+                            let message = "a piece of a scenario has either a text or a reason why these values do not fit it";
+                            let help = "write text = \"...\" or unfit = \"...\"";
+                            self.check.findings.add(test, message, "of this test", help);
+                            return None;
+                        }
+                    }
+                }
+                Some(SimulatePlan::Scenario {
+                    pieces: texts,
+                    unfit,
+                })
             }
             (none, _) => {
                 let message = match none {
@@ -247,6 +267,10 @@ impl Plan {
             filled.collect::<Result<Vec<String>>>()
         };
         let number = |formula: &Option<Formula>| ground.optional(file, formula);
+        let formula = |given: &Option<Formula>| {
+            let text = given.as_ref().map(|f| f.text.get_ref().clone());
+            text.unwrap_or_default()
+        };
         let holds = |when: &Option<Formula>| number(when).map(|v| v != Some(0));
         let mut expect = Vec::new();
         for entry in &self.expect {
@@ -259,6 +283,7 @@ impl Plan {
                     text: entry.text.fill(file, ground)?,
                     signal: value,
                     after: number(&entry.after)?,
+                    formula: formula(&entry.after),
                     tolerance: number(&entry.tolerance)?.unwrap_or(0),
                 });
             }
@@ -289,14 +314,20 @@ impl Plan {
             measure,
             simulated: match &self.simulate {
                 SimulatePlan::Hardware(reason) => Simulated::Not(reason.fill(file, ground)?),
-                SimulatePlan::Scenario(pieces) => {
-                    let mut scenario = String::new();
-                    for (when, text) in pieces {
-                        if holds(when)? {
-                            scenario.push_str(&text.fill(file, ground)?);
+                SimulatePlan::Scenario { pieces, unfit } => {
+                    let mut reason = None;
+                    for (when, text) in unfit {
+                        if reason.is_none() && holds(when)? {
+                            reason = Some(text.fill(file, ground)?);
                         }
                     }
-                    Simulated::Scenario(scenario)
+                    let mut scenario = String::new();
+                    for (when, text) in pieces {
+                        if reason.is_none() && holds(when)? {
+                            scenario.push_str(&text.fill_lines(file, ground)?);
+                        }
+                    }
+                    reason.map_or(Simulated::Scenario(scenario), Simulated::Not)
                 }
             },
             depends: self.dependence(ground),

@@ -11,10 +11,10 @@ use toml::de::{DeTable, DeValue};
 
 use super::document::Findings;
 use super::family::{Family, Param, Quantity};
-use super::units::alternatives;
+use super::units::{alternatives, quoted};
 use super::value::{Raw, number_in_range};
 use super::{Axis, AxisKind, Door, Group, Place, Setting, Settings};
-use crate::diag::nearest;
+use crate::diag::{nearest, with_part};
 
 const KINDS: [(&str, AxisKind); 3] = [
     ("linear", AxisKind::Linear),
@@ -266,7 +266,7 @@ impl Reader<'_> {
                 value.span(),
                 format!("\"{text}\" is no kind of axis"),
                 "no such kind",
-                format!("allowed: {}", alternatives(&KINDS.map(|(name, _)| name))),
+                format!("allowed: {}", quoted(&KINDS.map(|(name, _)| name))),
             );
         }
         found.copied()
@@ -288,9 +288,13 @@ impl Reader<'_> {
                     span,
                     format!("\"{name}\" is no safety function of this family"),
                     "no such function",
-                    match nearest(&name, known.iter().copied()) {
-                        Some(near) => format!("did you mean \"{near}\"?"),
-                        None => format!("allowed: {}", alternatives(&known)),
+                    match (
+                        &with_part(&name, known.iter().copied())[..],
+                        nearest(&name, known.iter().copied()),
+                    ) {
+                        ([], Some(near)) => format!("did you mean \"{near}\"?"),
+                        ([], None) => format!("allowed: {}", quoted(&known)),
+                        (of, _) => format!("did you mean {}?", quoted(of)),
                     },
                 );
             } else if list.contains(&name) {
@@ -322,8 +326,19 @@ impl Reader<'_> {
             .map(|(name, param)| (name.clone(), Setting::by_default(param, owner.kind)))
             .collect();
         for (key, value) in table.iter() {
-            let name = key.get_ref().as_ref();
-            if let Some(param) = params.get(name) {
+            let written = key.get_ref().as_ref();
+            let of_manual = || params.iter().find(|(_, p)| p.is_called(written));
+            let found = params.get_key_value(written).or_else(of_manual);
+            if let Some((name, param)) = found {
+                let name = name.as_str();
+                if settings.get(name).is_some_and(Setting::is_given) {
+                    let message = format!("{}: {name} is given twice", owner.place);
+                    let help = format!("remove '{written}', or the other one");
+                    let label = format!("'{written}' is {name}");
+                    self.findings.add(key.span(), message, label, help);
+                    sound = false;
+                    continue;
+                }
                 let setting = if param.is_of(owner.word) {
                     self.setting(name, param, value, owner)
                 } else {
@@ -334,12 +349,12 @@ impl Reader<'_> {
                     Some(setting) => _ = settings.insert(name.to_owned(), setting),
                     None => sound = false,
                 }
-            } else if !owner.structural.contains(&name) {
+            } else if !owner.structural.contains(&written) {
                 let mut known = owner.structural.to_vec();
                 let own = params.iter().filter(|(_, param)| param.is_of(owner.word));
                 known.extend(own.map(|(name, _)| name.as_str()));
                 self.findings
-                    .unknown_key(key.span(), name, owner.place, &known);
+                    .unknown_key(key.span(), written, owner.place, &known);
                 sound = false;
             }
         }
