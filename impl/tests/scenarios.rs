@@ -272,11 +272,12 @@ fn speed_stages_and_operating_stop() {
     let active = monitor.step(&stop_at(7));
     assert!(active.sga_sbh_active);
     assert_eq!(active.reference, Position(7));
-    // The end of a STOP C forces it; the signals have no effect, and the reference is captured anew.
+    // The end of a STOP C in the cycle before forces it; the signals have no effect, and the reference is captured anew.
     let forced = selection::Inputs {
         sbh_internal: true,
         sge_sbh_sg: true,
-        ..stop_at(8)
+        ended_at: Position(8),
+        ..stop_at(11)
     };
     assert_eq!(monitor.step(&forced).reference, Position(8));
     assert_eq!(monitor.step(&stop_at(9)).reference, Position(8));

@@ -74,6 +74,7 @@ pub mod ramp;
 pub mod reference;
 pub mod results;
 pub mod selection;
+pub mod shutdown_group;
 pub mod shutdown_test;
 pub mod slip;
 pub mod speed;

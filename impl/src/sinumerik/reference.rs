@@ -1,8 +1,9 @@
-//! Axis referencing up to "axis safely referenced", common to both channels (machine M5).
+//! Axis referencing up to "axis safely referenced", in one channel (machine M5).
 //!
-//! The agreements of both channels step before this machine in the cycle; they also make the comparison with the stored
-//! position (history) in the cycle after the axis has been referenced, and withdraw themselves when it fails. So "both
-//! agreed" means: given anew, or kept with the comparison passed.
+//! The agreement of the own channel steps before this machine in the cycle; it also makes the comparison with the stored
+//! position (history) in the cycle after the axis has been referenced, and withdraws itself when it fails. The other channel
+//! does the same for itself, and tells its agreement as confirmed only once its axis is referenced and its comparison made
+//! ([`Outputs::confirmed`]). So "both agreed" means in both channels: given anew, or kept with the comparison passed.
 
 use crate::kernel::ConfigError;
 
@@ -72,9 +73,9 @@ pub struct Inputs {
     pub reference_lost: bool,
     /// Parking is selected.
     pub parking: bool,
-    /// The agreement of the first channel after this cycle's step.
+    /// The agreement of this channel after this cycle's step.
     pub agreed_1: bool,
-    /// The agreement of the second channel after this cycle's step.
+    /// The agreement of the other channel as it was told: confirmed there ([`Outputs::confirmed`]).
     pub agreed_2: bool,
 }
 
@@ -89,6 +90,8 @@ pub struct Outputs {
     pub safely_referenced: bool,
     /// The comparison with the history is due in the next cycle.
     pub compare_due: bool,
+    /// This channel agrees to a referenced position and has nothing left to compare: what the other channel is told.
+    pub confirmed: bool,
     /// Message "axis not safely referenced" (27000 / 300950), only with position monitors; display only, no stop
     /// (S840D-REF-013; beyond the interface of the specification tables).
     pub message: bool,
@@ -104,6 +107,17 @@ contract! {
     withdrawal_resets_the_signal ["S840D-P-14", "S840D-P-37", "S840D-UA-006"]:
         when |s| !s.inputs.agreed_1 || !s.inputs.agreed_2
             => !s.outputs.safely_referenced && s.after.axis != AxisState::SafeRef;
+
+    /// What the other channel is told as confirmed is an agreement to a referenced position whose comparison with the
+    /// history is over: never one that is only stored.
+    confirmed_is_compared ["S840D-REF-004", "S840D-REF-015", "S840D-P-15"]:
+        when |s| s.outputs.confirmed
+            => s.inputs.agreed_1 && !s.after.fresh && matches!(s.after.axis, AxisState::Ref | AxisState::SafeRef);
+
+    /// A compared agreement is told, so that the other channel can follow.
+    compared_agreement_is_told ["S840D-REF-014", "S840D-P-44"]:
+        when |s| s.inputs.agreed_1 && !s.after.fresh && matches!(s.after.axis, AxisState::Ref | AxisState::SafeRef)
+            => s.outputs.confirmed;
 
     /// From "not referenced" the axis never becomes safely referenced in one cycle: the history comes between.
     no_safe_reference_at_once ["S840D-P-15", "S840D-REF-004"]:
@@ -174,6 +188,9 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
         nst_reference_reached: matches!(axis, AxisState::Ref | AxisState::SafeRef),
         safely_referenced,
         compare_due: after.fresh,
+        confirmed: inputs.agreed_1
+            && !after.fresh
+            && matches!(axis, AxisState::Ref | AxisState::SafeRef),
         message: config.se_sn_enabled && !safely_referenced,
     };
     (after, outputs)

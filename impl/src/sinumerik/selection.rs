@@ -6,6 +6,13 @@
 //! signals ineffective (see [`crate::sinumerik::stop`]). The override signals change the limit of SG2 and SG4 only, by the same rules:
 //! what counts is the effective limit of stage and factor.
 //!
+//! The forced operating stop begins in the cycle in which the braking ends (table 5-3: with t_C = 0 at once). The arbitration
+//! steps after this machine, so its reference is the position of that cycle, and what is shown is completed by the channel
+//! ([`crate::sinumerik::channel::Outputs::sbh_active`]).
+//!
+//! A position set anew by referencing is no motion: the window of a running operating stop is laid around the new position.
+//! How far the axis stood from the old reference is lost with it; that happens once in a referencing at most.
+//!
 //! Recommended readings of the manual implemented here: A-05 (settled), A-14 SVSS_ON_IN_INT, A-39 REF_KEEP.
 
 use crate::kernel::{Cycles, Position, Speed};
@@ -142,6 +149,10 @@ pub struct Inputs {
     pub sbh_internal: bool,
     /// The actual position.
     pub position: Position,
+    /// The actual position of the cycle before, in which a STOP C, D or E that has just ended did so.
+    pub ended_at: Position,
+    /// From this cycle on the position counts from another zero: it has been set anew (see [`crate::sinumerik::motion`]).
+    pub set_anew: bool,
 }
 
 /// What is compared with what.
@@ -217,18 +228,30 @@ contract! {
     /// While forced nothing changes, whatever the signals select: neither the function nor its reference.
     forced_standstill_ignores_signals ["S840D-P-07", "S840D-P-46", "S840D-SBH-006", "S840D-STOP-080"]:
         when |s| s.inputs.sbh_internal && !s.inputs.power_on && s.before.mode == Mode::SbhForced && s.config.enable
+            && !s.inputs.set_anew
             => s.after == s.before;
 
     /// The reference of the operating stop is the position at its activation.
     reference_is_captured_on_activation ["S840D-SBH-001", "S840D-SBH-003", "S840D-STOP-080"]:
-        when |s| (s.after.mode == Mode::Sbh || s.after.mode == Mode::SbhForced)
+        when |s| s.after.mode == Mode::Sbh
             && (s.inputs.power_on || (s.after.mode != s.before.mode && s.before.mode != Mode::SbhForced))
+            => s.after.reference == s.inputs.position;
+
+    /// The forced operating stop is activated where the braking has ended: in the cycle before.
+    forced_standstill_is_where_the_stop_ended ["S840D-STOP-031", "S840D-STOP-080", "S840D-SBH-001"]:
+        when |s| s.after.mode == Mode::SbhForced && !s.inputs.set_anew
+            && (s.inputs.power_on || s.before.mode != Mode::SbhForced)
+            => s.after.reference == s.inputs.ended_at;
+
+    /// With a position set anew the operating stop goes on around the new one: nothing has moved.
+    setting_anew_moves_the_window ["S840D-REF-002", "S840D-REF-003", "S840D-GEAR-506", "S840D-SBH-001"]:
+        when |s| s.inputs.set_anew && (s.after.mode == Mode::Sbh || s.after.mode == Mode::SbhForced)
             => s.after.reference == s.inputs.position;
 
     /// Acknowledgement into the selected operating stop keeps the reference: no creeping by repeated acknowledgement.
     reference_is_kept_on_acknowledgement ["S840D-P-07", "S840D-STOP-080"]:
         when |s| (s.before.mode == Mode::SbhForced || s.before.mode == Mode::Sbh) && s.after.mode == Mode::Sbh
-            && !s.inputs.power_on
+            && !s.inputs.power_on && !s.inputs.set_anew
             => s.after.reference == s.before.reference;
 
     /// De-selection acts at once in every mode but the forced operating stop.
@@ -354,10 +377,10 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
         State::INITIAL
     } else if inputs.sbh_internal {
         let kept = before.mode == Mode::SbhForced;
-        State::forced(if kept {
-            before.reference
-        } else {
-            inputs.position
+        State::forced(match (inputs.set_anew, kept) {
+            (true, _) => inputs.position,
+            (false, true) => before.reference,
+            (false, false) => inputs.ended_at,
         })
     } else {
         select(before, config, inputs)
@@ -372,7 +395,13 @@ fn select(before: State, config: &Config, inputs: &Inputs) -> State {
 
         (Selected::Standstill, Mode::Nsb) => State::standstill(inputs.position),
         // Acknowledged into the selected operating stop: the reference stays (A-39 REF_KEEP).
-        (Selected::Standstill, Mode::Sbh | Mode::SbhForced) => State::standstill(before.reference),
+        (Selected::Standstill, Mode::Sbh | Mode::SbhForced) => {
+            State::standstill(if inputs.set_anew {
+                inputs.position
+            } else {
+                before.reference
+            })
+        }
         (Selected::Standstill, Mode::Sg | Mode::SgDown) => {
             standstill_after(config.t_vel, before.monitored(), inputs)
         }

@@ -154,6 +154,10 @@ pub struct Inputs {
     pub test: bool,
     /// The actual speed is below STANDSTILL_VELO_TOL.
     pub standstill: bool,
+    /// A STOP F is present (see [`crate::sinumerik::fault`]); shown only.
+    pub fault: bool,
+    /// The test of the external shutdown runs (see [`crate::sinumerik::shutdown_test`]); shown only.
+    pub external_test: bool,
 }
 
 /// The outputs of one cycle.
@@ -189,7 +193,8 @@ pub struct Outputs {
     pub ended: bool,
     /// A restart is prevented (S840D-STOP-083).
     pub start_inhibit: bool,
-    /// The stop as `$VA_STOPSI` shows it: -1 none, 0 A, 1 B, 2 C, 3 D, 4 E, 10 test (S840D-STOP-053).
+    /// The stop as `$VA_STOPSI` shows it: -1 none, 0 A, 1 B, 2 C, 3 D, 4 E, 5 F, 10 test, 11 test of the external shutdown
+    /// (S840D-STOP-053).
     pub stopsi: i8,
 }
 
@@ -248,7 +253,7 @@ contract! {
                 || (s.after.internal == InternalStop::B && s.inputs.f_stop_b)
                 || (s.after.internal == InternalStop::A
                     && (s.before.phase == Phase::BBraking
-                        || (s.config.t_b.is_zero() && (s.before.internal == InternalStop::B || s.inputs.f_stop_b
+                        || ((s.config.t_b.is_zero() || s.inputs.standstill) && (s.before.internal == InternalStop::B || s.inputs.f_stop_b
                             || s.inputs.demand == InternalStop::B || s.inputs.rx_internal == InternalStop::B))));
 
     /// STOP B is not cut short: while its time runs and the axis moves, only a request for A makes it STOP A.
@@ -281,6 +286,12 @@ contract! {
         when |s| s.before.phase == Phase::BBraking && !s.inputs.power_on
             => s.after.level == Level::A
                 || (s.after.phase == Phase::BBraking && s.after.timer < s.before.timer && !s.inputs.standstill);
+
+    /// On an axis that stands STOP B is STOP A at once, also in the cycle in which it becomes effective.
+    standing_axis_loses_its_pulses_at_once ["S840D-STOP-021", "S840D-STOP-023", "S840D-P-05"]:
+        when |s| s.inputs.standstill && s.after.internal >= InternalStop::B
+            => s.after.internal == InternalStop::A
+                || (s.after.level == Level::A && s.outputs.cancel_pulses);
 
     /// STOP B that becomes effective runs its full time, unless that is zero: then it is STOP A at once.
     stop_b_starts_its_timer ["S840D-STOP-020", "S840D-STOP-023", "S840D-STOP-097"]:
@@ -339,6 +350,15 @@ contract! {
                 (0, Level::A) | (1, Level::B) | (2, Level::C) | (3, Level::D) | (4, Level::E) | (10, Level::Test)
             );
 
+    /// Without an effective stop the variable shows the test of the external shutdown, else STOP F, the lowest of all.
+    stopsi_shows_test_and_fault ["S840D-STOP-053"]:
+        when |s| s.after.level == Level::None
+            => s.outputs.stopsi == match (s.inputs.external_test, s.inputs.fault) {
+                (true, _) => 11,
+                (false, true) => 5,
+                (false, false) => -1,
+            };
+
     /// The operating stop is required, and the braking said to be over, exactly in their phases.
     phases_are_shown ["S840D-STOP-080", "S840D-STOP-086", "S840D-EXT-018"]:
         when |s| s.after.level.ends_in_standstill()
@@ -351,7 +371,7 @@ contract! {
         when |s| s.after.level == Level::None
             => !(s.outputs.cancel_pulses || s.outputs.n_set_zero || s.outputs.path_brake || s.outputs.esr
                 || s.outputs.sbh_internal || s.outputs.sbr_on || s.outputs.sga_stop_ab || s.outputs.sga_stop_c
-                || s.outputs.sga_stop_d || s.outputs.sga_stop_e) && s.outputs.stopsi == -1 && s.outputs.ended;
+                || s.outputs.sga_stop_d || s.outputs.sga_stop_e) && s.outputs.ended;
 
     /// The restart is prevented exactly while an internal stop is latched.
     restart_is_prevented ["S840D-P-42", "S840D-P-43", "S840D-STOP-083", "S840D-EXT-008", "S840D-STOP-032", "S840D-STOP-041", "S840D-STOP-052"]:
@@ -412,7 +432,7 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
         .max(rx_external.level())
         .max(test);
     let after = settle(before, config, inputs, internal, level);
-    (after, outputs(after))
+    (after, outputs(after, inputs))
 }
 
 /// Phase and timer of the level that is effective now, and the change from STOP B to A.
@@ -442,10 +462,13 @@ fn settle(
         }
         Level::Test => to(Phase::Testing, Cycles::ZERO),
         Level::B => {
-            let left = match before.phase {
-                Phase::BBraking if inputs.standstill => Cycles::ZERO,
-                Phase::BBraking => before.timer.tick(),
-                _ => config.t_b,
+            // Also in the cycle it begins: an axis that stands has nothing to brake.
+            let left = if inputs.standstill {
+                Cycles::ZERO
+            } else if before.phase == Phase::BBraking {
+                before.timer.tick()
+            } else {
+                config.t_b
             };
             if left.is_zero() {
                 State {
@@ -473,7 +496,7 @@ fn braking_time_left(before: State, config: &Config, level: Level) -> Cycles {
     }
 }
 
-fn outputs(state: State) -> Outputs {
+fn outputs(state: State, inputs: &Inputs) -> Outputs {
     let level = state.level;
     let braking = state.phase == Phase::Braking;
     let b_braking = state.phase == Phase::BBraking;
@@ -494,6 +517,8 @@ fn outputs(state: State) -> Outputs {
         ended: !braking,
         start_inhibit: state.internal != InternalStop::None,
         stopsi: match level {
+            Level::None | Level::F if inputs.external_test => 11,
+            Level::None | Level::F if inputs.fault => 5,
             Level::None | Level::F => -1,
             Level::A => 0,
             Level::B => 1,

@@ -241,8 +241,9 @@ fn end_of_a_told_stop_is_no_discrepancy() {
     machine.inputs.nck.position = Position(401);
     assert_eq!(levels(&machine.at(73)), (Level::C, Level::None));
     machine.inputs.nck.position = Position(0);
-    let outputs = machine.at(83);
+    let outputs = machine.at(82);
     assert!(outputs.nck.sga.sbh_active && !outputs.drive.sga.sbh_active);
+    let _ = machine.step();
     let outputs = machine.at(84);
     assert!(outputs.nck.compare.suspended && outputs.drive.compare.suspended);
     assert!(outputs.nck.sga.sbh_active && outputs.drive.sga.sbh_active);

@@ -151,6 +151,8 @@ fn run_channel(parameters: &Parameters, seed: u64, cycles: u32) -> u64 {
             parking: local.parking,
             test_select: local.sge.test_stop,
             feedback: local.feedback,
+            set_anew: rare(&mut numbers),
+            external_test: rare(&mut numbers),
             discrepancy: rare(&mut numbers),
             rx_fault: rare(&mut numbers),
             rx_internal: InternalStop::ALL[if rare(&mut numbers) { 3 } else { 0 }],

@@ -140,11 +140,14 @@ pub fn move_to(position: i32) -> impl Fn(&mut Local) {
     move |local| local.position = Position(position)
 }
 
-/// An axis that is safely referenced from cycle 2 on, with agreement, standing at `position`.
+/// An axis that is safely referenced from cycle 3 on, with agreement, standing at `position`: in cycle 1 it is referenced, in
+/// cycle 2 each channel compares, in cycle 3 each knows that the other one has.
 pub fn referenced(parameters: &Parameters, position: i32) -> Machine {
     let mut machine = Machine::powered(parameters, true, Some(position));
     machine.both(|local| reference(local, position));
     assert_eq!(machine.step().nck.reference.axis, AxisState::Ref);
+    let outputs = machine.step();
+    assert!(!outputs.nck.sga.safely_referenced && !outputs.drive.sga.safely_referenced);
     let outputs = machine.step();
     assert!(outputs.nck.sga.safely_referenced && outputs.drive.sga.safely_referenced);
     machine

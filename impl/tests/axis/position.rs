@@ -11,8 +11,8 @@ use stillpoint_monitors::sinumerik::reference::AxisState;
 
 use crate::machine::{Machine, both, levels, move_to, parameters, reference, referenced};
 
-/// S840D-REF-003, S840D-REF-004, S840D-REF-007: power-up with stored agreement; the axis is safely referenced in the
-/// cycle after the comparison with the history, without the user.
+/// S840D-REF-003, S840D-REF-004, S840D-REF-007: power-up with stored agreement; the axis is safely referenced once both
+/// channels have compared with the history, without the user.
 #[test]
 fn stored_agreement_is_verified() {
     let mut machine = Machine::powered(&parameters(), true, Some(1_000));
@@ -23,6 +23,9 @@ fn stored_agreement_is_verified() {
     assert_eq!(outputs.nck.reference.axis, AxisState::Ref);
     assert!(!outputs.nck.sga.safely_referenced);
     assert!(outputs.nck.alarms.contains(Alarm::NotSafelyReferenced));
+    // Each channel compares, and tells the other one.
+    let outputs = machine.step();
+    assert!(!outputs.nck.sga.safely_referenced && !outputs.drive.sga.safely_referenced);
     let outputs = machine.step();
     assert!(outputs.nck.sga.safely_referenced && outputs.drive.sga.safely_referenced);
     assert!(outputs.nck.alarms.is_empty());
@@ -96,7 +99,7 @@ fn parking_takes_the_reference() {
         reference(local, 5_009);
     });
     assert_eq!(machine.at(201).nck.reference.axis, AxisState::Ref);
-    let outputs = machine.at(202);
+    let outputs = machine.at(203);
     assert!(outputs.nck.sga.safely_referenced && outputs.nck.code.is_none());
 }
 
@@ -178,4 +181,79 @@ fn position_is_stored() {
     machine.both(move_to(5_400));
     let _ = machine.at(20);
     assert_eq!(stored(&machine), Position(7));
+}
+
+/// S840D-REF-004, S840D-REF-015: the check is made in the drive and in the NCK. Where it fails in one of them the axis is
+/// safely referenced in neither, not even for a cycle, whichever is referenced first.
+#[test]
+fn a_failed_comparison_in_one_channel_counts_for_both() {
+    for (fails_in_the_drive, delay_nck, delay_drive) in [
+        (true, 1, 1),
+        (false, 1, 1),
+        (true, 1, 3),
+        (true, 3, 1),
+        (false, 1, 3),
+        (false, 3, 1),
+    ] {
+        let mut machine = Machine::powered(&parameters(), true, Some(1_000));
+        for cycle in 1..40 {
+            for (local, delay, fails) in [
+                (&mut machine.inputs.nck, delay_nck, !fails_in_the_drive),
+                (&mut machine.inputs.drive, delay_drive, fails_in_the_drive),
+            ] {
+                if cycle > delay {
+                    reference(local, if fails { 1_011 } else { 1_010 });
+                }
+            }
+            let out = machine.step();
+            assert!(
+                !out.nck.sga.safely_referenced && !out.drive.sga.safely_referenced,
+                "cycle {cycle}, fails in the drive: {fails_in_the_drive}, {delay_nck}, {delay_drive}"
+            );
+        }
+    }
+}
+
+/// S840D-REF-002, S840D-REF-003: referencing sets the position anew. An axis that stands in SG1 or SBH has not moved, and one
+/// that moves is not taken for one that stands: its speed stays what it was.
+#[test]
+fn referencing_is_no_motion() {
+    for operating_stop in [true, false] {
+        let mut machine = Machine::powered(&parameters(), false, None);
+        machine.both(|local| {
+            local.sge.sbh_sg_off = false;
+            local.sge.sbh_off = !operating_stop;
+            local.position = Position(300);
+        });
+        let _ = machine.at(20);
+        machine.both(|local| reference(local, 750_000));
+        for cycle in 21..200 {
+            let out = machine.step();
+            assert_eq!(levels(&out), both(Level::None), "cycle {cycle}");
+            assert!(!out.nck.alarms.contains(Alarm::Standstill), "cycle {cycle}");
+            assert!(!out.nck.alarms.contains(Alarm::SpeedLimit), "cycle {cycle}");
+        }
+        // The window lies around the new position: 1 mm.
+        if operating_stop {
+            assert_eq!(levels(&machine.once(move_to(751_000))), both(Level::None));
+            let out = machine.once(move_to(751_001));
+            assert!(out.nck.alarms.contains(Alarm::Standstill));
+        }
+    }
+
+    let mut machine = Machine::powered(&parameters(), false, None);
+    for cycle in 1..40 {
+        let way = cycle * 300;
+        machine.both(|local| local.position = Position(way));
+        if cycle >= 20 {
+            machine.both(|local| reference(local, 500_000 + way));
+        }
+        let out = machine.step();
+        let speed = if cycle == 1 {
+            300
+        } else {
+            out.nck.channel.motion.speed.0
+        };
+        assert_eq!(speed, 300, "cycle {cycle}");
+    }
 }

@@ -318,3 +318,87 @@ fn stop_b_ends_at_standstill() {
     machine.both(|local| local.position.0 += 3);
     assert_eq!(levels(&machine.at(20)), both(Level::A));
 }
+
+/// Table 5-3 and the examples of STOP F (S840D-STOP-021, S840D-STOP-023): the axis stands already when STOP B comes, so the
+/// pulses are cancelled in that very cycle, in both channels.
+#[test]
+fn stop_b_on_an_axis_that_stands_cancels_the_pulses_at_once() {
+    let parameters = Parameters {
+        standstill_velo_tol: 50_000,
+        ..parameters()
+    };
+    let mut machine = Machine::powered(&parameters, false, None);
+    machine.both(|local| local.sge.sbh_sg_off = false);
+    // Different signals, which the comparison finds after t_chg: STOP F, and after t_F STOP B.
+    let _ = machine.at(5);
+    machine.inputs.drive.sge.sg_0 = true;
+    let mut stopped = None;
+    for cycle in 6..400 {
+        let out = machine.step();
+        assert_ne!(out.nck.channel.stop.level, Level::B, "cycle {cycle}");
+        assert_ne!(out.drive.channel.stop.level, Level::B, "cycle {cycle}");
+        if levels(&out) == both(Level::A) {
+            stopped = stopped.or(Some(cycle));
+            assert!(!out.nck.channel.pulses.enable && !out.drive.channel.pulses.enable);
+        }
+    }
+    assert!(stopped.is_some());
+}
+
+/// Table 5-3 (S840D-STOP-031): with t_C = 0 the operating stop is active in the cycle of the STOP C, around the position of
+/// that cycle. An axis that does not brake leaves the window with the next sample that lies beyond it.
+#[test]
+fn stop_c_without_a_time_is_the_operating_stop_at_once() {
+    let parameters = Parameters {
+        stop_switch_time_c: 0,
+        ..parameters()
+    };
+    let mut machine = Machine::powered(&parameters, false, None);
+    for cycle in 1..=12 {
+        machine.both(move_to(cycle * 1_001));
+        machine.inputs.nck.sge.stop_c_off = cycle < 10;
+        let out = machine.step();
+        assert_eq!(
+            out.nck.sga.sbh_active,
+            (10..=11).contains(&cycle),
+            "cycle {cycle}"
+        );
+        assert_eq!(
+            out.drive.sga.sbh_active,
+            (11..=12).contains(&cycle),
+            "cycle {cycle}"
+        );
+        let level = match cycle {
+            ..10 => Level::None,
+            10 => Level::C,
+            _ => Level::B,
+        };
+        assert_eq!(out.nck.channel.stop.level, level, "cycle {cycle}");
+    }
+}
+
+/// S840D-STOP-053: `$VA_STOPSI` shows STOP F where no stop is effective, and the test of the external shutdown.
+#[test]
+fn stopsi_shows_stop_f_and_the_external_test() {
+    let mut machine = Machine::powered(&parameters(), false, None);
+    assert_eq!(machine.step().nck.channel.stop.stopsi, -1);
+    machine.inputs.nck.shutdown_test_select = true;
+    let out = machine.step();
+    assert_eq!(out.nck.channel.stop.stopsi, 11);
+    assert_eq!(out.drive.channel.stop.stopsi, -1);
+    let mut machine = Machine::powered(
+        &Parameters {
+            function_enable: 1,
+            ..parameters()
+        },
+        false,
+        None,
+    );
+    machine.inputs.drive.position = Position(500);
+    let found = machine.first(300, |out| out.nck.alarms.contains(Alarm::CrossComparison));
+    assert!(found.is_some());
+    let out = machine.step();
+    assert_eq!(levels(&out), both(Level::None));
+    assert_eq!(out.nck.channel.stop.stopsi, 5);
+    assert_eq!(out.drive.channel.stop.stopsi, 5);
+}

@@ -242,6 +242,7 @@ fn feed(local: &Local, out: &axis::Outputs, told: &axis::Exchange) -> channel::I
         position: local.position,
         encoder_speed: local.encoder_speed,
         parking: local.parking,
+        set_anew: out.reference.compare_due,
         test_select: sge.test_stop,
         feedback: local.feedback,
         discrepancy: compared,
@@ -276,6 +277,7 @@ fn numbers(bound: &Bound, fed: &channel::Inputs, power_on: bool) -> Vec<i32> {
             "rx_fault" => i32::from(fed.rx_fault),
             "rx_internal" => i32::from(fed.rx_internal.level().rank()),
             "rx_external" => i32::from(fed.rx_external.level().rank()),
+            "set_anew" => i32::from(fed.set_anew),
             _ => 0,
         }
     };

@@ -35,9 +35,11 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
     let (local, other, monitors) = (&inputs.local, &inputs.other, &config.monitors);
     let sge = &local.sge;
     let referenced = reference_axis(&state, config, inputs);
-    let compared = compare_channels(&state, config, inputs);
     let reset_taken = local.reset && joint(&state, local.power_on, other);
     let (shutdown, shutdown_out) = test_external_path(&state, config, inputs);
+    let testing = present(shutdown);
+    let begins_or_ends = testing != present(state.shutdown_test);
+    let compared = compare_channels(&state, config, inputs, begins_or_ends);
 
     let codes = [
         compared.compare.1.code,
@@ -66,6 +68,8 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
             position: local.position,
             encoder_speed: local.encoder_speed,
             parking: local.parking,
+            // The axis has been referenced in this cycle: its position counts from the new zero.
+            set_anew: referenced.reference.0.fresh,
             test_select: sge.test_stop,
             feedback: local.feedback,
             external_test: shutdown_out.active,
@@ -91,7 +95,12 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
         position,
         speed: channel_out.motion.speed,
         reference: standstill_reference(&state, inputs, &channel, compared.slip),
-        external: channel_out.external.request.max(passed),
+        // Under the test the NCK presents no stop of its own, so that one at the drive is found (code 58).
+        external: if testing {
+            ExternalStop::None
+        } else {
+            channel_out.external.request.max(passed)
+        },
         over: monitors
             .channel
             .selection
@@ -130,6 +139,7 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
         braking: channel.stop.phase == Phase::Braking,
         agreed: referenced.agreement.1.agreed,
         set: told.set,
+        confirmed: referenced.reference.1.confirmed,
         changing: compared.compare.1.changing || told.turned,
         cams: own_cams,
         test,
@@ -176,7 +186,11 @@ fn standstill_reference(
     let forced = before == Mode::Sbh && after == Mode::SbhForced;
     if !standstill(after) {
         channel.selection.reference
-    } else if standstill(before) && !forced && !inputs.local.power_on {
+    } else if standstill(before)
+        && !forced
+        && !inputs.local.power_on
+        && channel.selection.reference == state.channel.selection.reference
+    {
         state.told.reference
     } else {
         slip.correct(channel.selection.reference)
@@ -186,6 +200,11 @@ fn standstill_reference(
 /// The first position after parking was read in this cycle.
 const fn unparked(state: &State, power_on: bool, channel: &channel::State) -> bool {
     !power_on && !state.channel.motion.known && channel.motion.known
+}
+
+/// The test of the external shutdown is selected, or runs on although its selection has been withdrawn.
+const fn present(test: shutdown_test::State) -> bool {
+    test.selected || test.active()
 }
 
 /// RESET may be taken: neither channel brakes, and both have latched the same.
@@ -263,7 +282,7 @@ fn reference_axis(state: &State, config: &Config, inputs: &Inputs) -> Referenced
             reference_lost: local.reference_lost,
             parking: local.parking,
             agreed_1: agreement_out.agreed,
-            agreed_2: inputs.other.agreed,
+            agreed_2: inputs.other.confirmed,
         },
     );
     Referenced {
@@ -274,7 +293,13 @@ fn reference_axis(state: &State, config: &Config, inputs: &Inputs) -> Referenced
     }
 }
 
-fn compare_channels(state: &State, config: &Config, inputs: &Inputs) -> Compared {
+/// `test_changes`: the test of the external shutdown has begun or ended in this cycle.
+fn compare_channels(
+    state: &State,
+    config: &Config,
+    inputs: &Inputs,
+    test_changes: bool,
+) -> Compared {
     let (power_on, monitors) = (inputs.local.power_on, &config.monitors);
     let due = state.compare.due(&monitors.compare, power_on);
     let (slip, differs) = match &monitors.slip {
@@ -311,7 +336,8 @@ fn compare_channels(state: &State, config: &Config, inputs: &Inputs) -> Compared
         &monitors.compare,
         &compare::Inputs {
             power_on,
-            change: !power_on && (inputs.local.sge != state.sge || state.told.turned),
+            change: !power_on
+                && (inputs.local.sge != state.sge || state.told.turned || test_changes),
             other_changing: !power_on && inputs.other.changing,
             // In the cycle of power-on the channels have told nothing yet.
             differs: !power_on && differs,
@@ -433,9 +459,9 @@ fn output_signals(
     feedback: bool,
 ) -> Sga {
     let [p1, m1, p2, m2, p3, m3, p4, m4] = cams;
-    let stage = channel.selection.sga_sg.index();
+    let stage = channel.sg_active.index();
     Sga {
-        sbh_sg_active: channel.selection.sga_active,
+        sbh_sg_active: channel.sbh_sg_active,
         pulses_cancelled: feedback,
         safely_referenced: reference.safely_referenced,
         sn_1_plus: p1,
@@ -446,7 +472,7 @@ fn output_signals(
         sn_3_minus: m3,
         sn_4_plus: p4,
         sn_4_minus: m4,
-        sbh_active: channel.selection.sga_sbh_active,
+        sbh_active: channel.sbh_active,
         sg_active_0: stage & 1 == 1,
         sg_active_1: stage & 2 == 2,
         below_n_x: channel.threshold.below,

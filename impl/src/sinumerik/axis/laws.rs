@@ -54,10 +54,53 @@ contract! {
             && (s.before.channel.fault.fault != FaultState::None) == s.inputs.other.fault
             => s.outputs.reset_taken;
 
-    /// "Axis safely referenced" needs the agreements of both channels.
-    safely_referenced_needs_both ["S840D-P-13", "S840D-P-14", "S840D-REF-005"]:
+    /// "Axis safely referenced" needs the agreements of both channels, and the comparison with the history over in both.
+    safely_referenced_needs_both ["S840D-P-13", "S840D-P-14", "S840D-REF-004", "S840D-REF-005", "S840D-REF-015"]:
         when |s| s.outputs.sga.safely_referenced
-            => s.after.agreement.agreed && s.inputs.other.agreed && s.after.reference.axis == AxisState::SafeRef;
+            => s.after.agreement.agreed && s.inputs.other.confirmed && !s.after.reference.fresh
+                && s.after.reference.axis == AxisState::SafeRef;
+
+    /// The agreement is told as confirmed only where it is given and its position referenced and compared in this channel.
+    confirmed_is_compared ["S840D-REF-004", "S840D-REF-015"]:
+        when |s| s.outputs.exchange.confirmed
+            => s.after.agreement.agreed && !s.after.reference.fresh
+                && matches!(s.after.reference.axis, AxisState::Ref | AxisState::SafeRef);
+
+    /// Referencing sets the position anew and moves nothing: neither the window of the operating stop nor the speed sees it.
+    referencing_is_no_motion ["S840D-REF-002", "S840D-REF-003", "S840D-GEAR-506"]:
+        when |s| s.before.reference.axis == AxisState::NotRef && s.after.reference.axis == AxisState::Ref
+            => !s.outputs.channel.standstill.violated
+                && s.outputs.channel.motion.speed <= s.before.channel.motion.speed;
+
+    /// While the external shutdown is tested the NCK presents no external stop for the comparison, so that one at the drive
+    /// is a difference: code 58 once t_chg has passed.
+    stop_under_the_shutdown_test_is_a_difference ["S840D-TEST-019", "S840D-KDV-512"]:
+        when |s| s.after.shutdown_test.selected || s.after.shutdown_test.active()
+            => s.after.told.external == ExternalStop::None && s.outputs.exchange.snapshot.external == ExternalStop::None;
+
+    /// The test of the external shutdown takes nothing from the stop itself: it is told and acts.
+    stop_acts_under_the_shutdown_test ["S840D-TEST-016", "S840D-EXT-013"]:
+        when |s| s.outputs.shutdown_test.active && s.outputs.channel.external.request != ExternalStop::None
+            => s.outputs.exchange.external == s.outputs.channel.external.request
+                && s.outputs.channel.stop.level >= s.outputs.channel.external.request.level();
+
+    /// A change of a signal that selects a stop starts t_chg, and so does the selection of the shutdown test.
+    change_of_a_stop_signal_starts_the_tolerance_time ["S840D-EXT-006", "S840D-KDV-506", "S840D-TEST-019"]:
+        when |s| !s.inputs.local.power_on
+            && (s.inputs.local.sge.stop_a_off != s.before.sge.stop_a_off
+                || s.inputs.local.sge.stop_c_off != s.before.sge.stop_c_off
+                || s.inputs.local.sge.stop_d_off != s.before.sge.stop_d_off
+                || s.inputs.local.sge.stop_e_off != s.before.sge.stop_e_off
+                || (s.after.shutdown_test.selected != s.before.shutdown_test.selected
+                    && !s.before.shutdown_test.active()))
+            => s.after.compare.change_timer == s.config.monitors().compare.t_chg()
+                && s.outputs.exchange.changing != s.config.monitors().compare.t_chg().is_zero();
+
+    /// The cams are shown without agreement too, but then the axis is not safely referenced and the message tells it: to use
+    /// them the agreement is needed.
+    cams_without_agreement_are_not_safe ["S840D-UA-002", "S840D-SN-003", "S840D-REF-013"]:
+        when |s| !s.after.agreement.agreed && s.config.monitors().channel.se_sn_enabled
+            => !s.outputs.sga.safely_referenced && s.outputs.reference.message;
 
     /// A new gear stage withdraws the agreement and the safe reference in the same cycle.
     gear_change_withdraws ["S840D-P-37", "S840D-GEAR-505"]:

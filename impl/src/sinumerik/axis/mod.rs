@@ -179,7 +179,8 @@ pub struct Local {
     pub sge: Sge,
     /// SGE "status pulses cancelled": 1 is cancelled.
     pub feedback: bool,
-    /// SGE "test stop external shutdown" (NCK only): 1 selects the test.
+    /// SGE "test stop external shutdown" (NCK only), of this axis or of any other one of the same output
+    /// ([`crate::sinumerik::shutdown_group::selected`]): 1 selects the test.
     pub shutdown_test_select: bool,
     /// The position read in this cycle.
     pub position: Position,
@@ -187,7 +188,8 @@ pub struct Local {
     pub encoder_speed: Speed,
     /// Parking is selected.
     pub parking: bool,
-    /// The reference approach is correctly done, or the absolute position is transferred.
+    /// The reference approach is correctly done, or the absolute position is transferred: from the cycle in which a
+    /// "not referenced" axis sees it, `position` counts from the new zero.
     pub referenced: bool,
     /// A new reference approach, or the reference is lost.
     pub reference_lost: bool,

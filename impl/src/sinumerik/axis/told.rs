@@ -37,6 +37,8 @@ pub struct Exchange {
     pub agreed: bool,
     /// The actual value was set anew in this cycle: the axis was referenced, or parking has ended. Both channels synchronise.
     pub set: bool,
+    /// The agreement is one to a referenced position whose comparison with the history is over in this channel.
+    pub confirmed: bool,
     /// An own input signal has changed within t_chg, or the forced operating stop has begun or ended (cross comparison).
     pub changing: bool,
     /// The own results of the cams (cam synchronisation).
@@ -62,7 +64,8 @@ pub struct Told {
     pub speed: Speed,
     /// The reference of the operating stop, corrected as the position was when it was captured.
     pub reference: Position,
-    /// The external stop request, that of the other channel included.
+    /// The external stop request, that of the other channel included; none while the external shutdown is tested, since the
+    /// drive must have none then (S840D-TEST-019).
     pub external: ExternalStop,
     /// The override factor selected; none where the override is not enabled.
     pub over: FactorIndex,

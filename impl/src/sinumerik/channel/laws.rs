@@ -41,6 +41,31 @@ contract! {
             && s.outputs.motion.position.distance(s.outputs.selection.reference).0 > s.config.standstill.tolerance().0
             => s.after.stop.internal >= InternalStop::B && s.outputs.stop.sga_stop_ab;
 
+    /// The operating stop begins in the cycle in which the braking of a STOP C, D or E ends, with a time of 0 in that of the
+    /// stop itself.
+    standstill_begins_with_the_end_of_braking ["S840D-STOP-031", "S840D-STOP-080", "S840D-SBH-007"]:
+        when |s| s.after.stop.phase == Phase::SbhInt && s.config.selection.enabled()
+            => s.outputs.sbh_active && s.outputs.sbh_sg_active
+                && (s.before.stop.phase != Phase::SbhInt || s.inputs.power_on
+                    || s.outputs.selection.monitored == Monitored::Standstill);
+
+    /// What is compared from the next cycle on is the position of that one.
+    window_lies_where_the_braking_ended ["S840D-STOP-031", "S840D-STOP-080", "S840D-SBH-001", "S840D-STOP-081"]:
+        when |s| !s.inputs.power_on && s.before.stop.phase == Phase::SbhInt && !s.inputs.set_anew
+            && s.before.selection.mode != Mode::SbhForced && s.config.selection.enabled()
+            => s.outputs.selection.monitored == Monitored::Standstill
+                && s.outputs.selection.reference == s.before.motion.last;
+
+    /// A position set anew by referencing is neither a speed nor a way out of the window.
+    setting_anew_violates_nothing ["S840D-REF-002", "S840D-REF-003", "S840D-GEAR-506"]:
+        when |s| s.inputs.set_anew && !s.inputs.parking
+            => !s.outputs.standstill.violated && s.outputs.motion.speed <= s.before.motion.speed;
+
+    /// `$VA_STOPSI` shows STOP F where no stop is effective, and the test of the external shutdown before it.
+    stopsi_shows_test_and_fault ["S840D-STOP-053"]:
+        when |s| s.outputs.stop.level == Level::None && (s.inputs.external_test || s.after.fault.fault != FaultState::None)
+            => s.outputs.stop.stopsi == if s.inputs.external_test { 11 } else { 5 };
+
     /// Faster than the limit in force: the stop of the stage in the same cycle.
     speed_violation_stops ["S840D-P-47", "S840D-P-49", "S840D-SG-006", "S840D-STOP-002", "S840D-STOP-025",
         "S840D-STOP-033", "S840D-SG-007"]:

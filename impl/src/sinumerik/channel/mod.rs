@@ -150,6 +150,8 @@ pub struct Inputs {
     pub encoder_speed: Speed,
     /// The axis is parked.
     pub parking: bool,
+    /// The position has been set anew in this cycle by referencing (see [`crate::sinumerik::motion`]).
+    pub set_anew: bool,
     /// SGE "test stop selection": 1 selects the test.
     pub test_select: bool,
     /// Feedback: the pulses are cancelled.
@@ -195,6 +197,12 @@ pub struct Outputs {
     pub stop: stop::Outputs,
     /// Pulse cancellation.
     pub pulses: pulses::Outputs,
+    /// SGA "SBH/SG active".
+    pub sbh_sg_active: bool,
+    /// SGA "SBH active": selected, or begun by a stop that has ended its braking in this cycle or before.
+    pub sbh_active: bool,
+    /// SGA "SG active bit 1, bit 0": the stage whose limit is monitored; SG1 where none is.
+    pub sg_active: Stage,
     /// The highest stop that the monitors of this channel require in this cycle.
     pub demand: InternalStop,
     /// A safety function is active: SBH, SG, or SE or SN in use (S840D-STOP-089).

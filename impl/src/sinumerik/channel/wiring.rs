@@ -2,6 +2,7 @@
 
 use super::{Config, Inputs, Outputs, State};
 use crate::sinumerik::level::InternalStop;
+use crate::sinumerik::selection::Stage;
 use crate::sinumerik::{
     external, fault, limit_switch, motion, pulses, ramp, selection, speed, standstill, stop,
     test_stop, threshold,
@@ -38,6 +39,7 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
             power_on,
             position: inputs.position,
             parking: inputs.parking,
+            set_anew: inputs.set_anew,
         },
     );
     let (position, actual) = (motion_out.position, motion_out.speed);
@@ -62,6 +64,8 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
             over: inputs.over,
             sbh_internal: stop_before.phase == stop::Phase::SbhInt,
             position,
+            ended_at: state.motion.last,
+            set_anew: inputs.set_anew,
         },
     );
 
@@ -143,6 +147,8 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
             rx_external: inputs.rx_external,
             test: test_out.active,
             standstill: actual < config.standstill_speed,
+            fault: fault_out.interlock,
+            external_test: inputs.external_test,
         },
     );
     let (pulses, pulses_out) = pulses::next(
@@ -167,7 +173,17 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
         stop,
         pulses,
     };
+    // The operating stop is active from the cycle on in which the braking ends, for the monitor to compare in the next one.
+    let begun = config.selection.enabled() && stop_out.sbh_internal;
+    let sbh_active = selection_out.sga_sbh_active || begun;
     let outputs = Outputs {
+        sbh_sg_active: selection_out.sga_active || begun,
+        sbh_active,
+        sg_active: if sbh_active {
+            Stage::Sg1
+        } else {
+            selection_out.sga_sg
+        },
         external: external_out,
         motion: motion_out,
         test: test_out,

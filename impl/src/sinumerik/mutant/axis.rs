@@ -67,6 +67,40 @@ pub(super) fn selection_reference_creeps(
     selection::transition(state, config, inputs)
 }
 
+pub(super) fn selection_forced_late(
+    state: selection::State,
+    config: &selection::Config,
+    inputs: &selection::Inputs,
+) -> (selection::State, selection::Outputs) {
+    let inputs = selection::Inputs {
+        ended_at: inputs.position,
+        ..*inputs
+    };
+    selection::transition(state, config, &inputs)
+}
+
+pub(super) fn selection_window_stays(
+    state: selection::State,
+    config: &selection::Config,
+    inputs: &selection::Inputs,
+) -> (selection::State, selection::Outputs) {
+    let inputs = selection::Inputs {
+        set_anew: false,
+        ..*inputs
+    };
+    selection::transition(state, config, &inputs)
+}
+
+pub(super) fn reference_tells_uncompared(
+    state: reference::State,
+    config: &reference::Config,
+    inputs: &reference::Inputs,
+) -> (reference::State, reference::Outputs) {
+    let (after, mut outputs) = reference::transition(state, config, inputs);
+    outputs.confirmed = inputs.agreed_1;
+    (after, outputs)
+}
+
 pub(super) fn reference_one_agreement(
     state: reference::State,
     config: &reference::Config,

@@ -31,6 +31,8 @@ pub(super) fn channel_forced_stop_unwired(
             over: inputs.over,
             sbh_internal: false,
             position: outputs.motion.position,
+            ended_at: state.motion.last,
+            set_anew: inputs.set_anew,
         },
     );
     (after, outputs)
@@ -76,4 +78,43 @@ pub(super) fn channel_fault_sees_the_new_stop(
         },
     );
     (after, outputs)
+}
+
+pub(super) fn channel_standstill_shown_late(
+    state: channel::State,
+    config: &channel::Config,
+    inputs: &channel::Inputs,
+) -> (channel::State, channel::Outputs) {
+    let (after, mut outputs) = channel::transition(state, config, inputs);
+    outputs.sbh_active = outputs.selection.sga_sbh_active;
+    outputs.sbh_sg_active = outputs.selection.sga_active;
+    outputs.sg_active = outputs.selection.sga_sg;
+    (after, outputs)
+}
+
+pub(super) fn channel_stopsi_hides_fault(
+    state: channel::State,
+    config: &channel::Config,
+    inputs: &channel::Inputs,
+) -> (channel::State, channel::Outputs) {
+    let (after, mut outputs) = channel::transition(state, config, inputs);
+    if matches!(outputs.stop.stopsi, 5 | 11) {
+        outputs.stop.stopsi = -1;
+    }
+    (after, outputs)
+}
+
+pub(super) fn channel_reference_overlooked(
+    state: channel::State,
+    config: &channel::Config,
+    inputs: &channel::Inputs,
+) -> (channel::State, channel::Outputs) {
+    channel::transition(
+        state,
+        config,
+        &channel::Inputs {
+            set_anew: false,
+            ..*inputs
+        },
+    )
 }

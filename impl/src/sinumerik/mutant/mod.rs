@@ -11,6 +11,10 @@ mutants! { sinumerik:
     fn stop {
         /// STOP B never becomes STOP A by its timer, only by standstill.
         StopBNoTimerExit "stop-b-no-timer-exit" => stops::stop_b_no_timer_exit;
+        /// STOP B on an axis that stands waits a cycle before it becomes STOP A.
+        StopBOnStandingAxis "stop-b-on-standing-axis" => stops::stop_b_on_standing_axis;
+        /// `$VA_STOPSI` shows neither STOP F nor the test of the external shutdown.
+        StopWithoutFAndTest "stop-without-f-and-test" => stops::stop_without_f_and_test;
         /// A lower stop displaces a higher latched one.
         StopLowerDisplaces "stop-lower-displaces" => stops::stop_lower_displaces;
         /// RESET acknowledges a STOP C, D or E already while it brakes.
@@ -49,6 +53,10 @@ mutants! { sinumerik:
         SelectionOverrideInSg3 "selection-override-in-sg3" => axis::selection_override_in_sg3;
         /// The reference of the operating stop is captured anew in every cycle.
         SelectionReferenceCreeps "selection-reference-creeps" => axis::selection_reference_creeps;
+        /// The forced operating stop takes its reference a cycle after the braking has ended.
+        SelectionForcedLate "selection-forced-late" => axis::selection_forced_late;
+        /// The window of the operating stop stays where it is when referencing sets the position anew.
+        SelectionWindowStays "selection-window-stays" => axis::selection_window_stays;
     }
     /// The referencing with this mutant in it.
     fn reference {
@@ -56,6 +64,8 @@ mutants! { sinumerik:
         ReferenceOneAgreement "reference-one-agreement" => axis::reference_one_agreement;
         /// "Safely referenced" outlives the agreement by a cycle.
         ReferenceLateReset "reference-late-reset" => axis::reference_late_reset;
+        /// The agreement is told as confirmed before it has been compared with the history.
+        ReferenceTellsUncompared "reference-tells-uncompared" => axis::reference_tells_uncompared;
     }
     /// The agreement with this mutant in it.
     fn agreement {
@@ -122,6 +132,10 @@ mutants! { sinumerik:
         MotionParkingOverlooked "motion-parking-overlooked" => watching::motion_parking_overlooked;
         /// Only motion in the positive direction has a speed.
         MotionOneDirection "motion-one-direction" => watching::motion_one_direction;
+        /// A position set anew by referencing counts as motion.
+        MotionReferenceCounts "motion-reference-counts" => watching::motion_reference_counts;
+        /// A position set anew by referencing takes a moving axis for one that stands.
+        MotionReferenceStops "motion-reference-stops" => watching::motion_reference_stops;
     }
     /// The window of the operating stop with this mutant in it.
     fn standstill {
@@ -176,6 +190,12 @@ mutants! { sinumerik:
         ChannelForcedStopUnwired "channel-forced-stop-unwired" => composing::channel_forced_stop_unwired;
         /// The pulses are cancelled one cycle after their stop.
         ChannelPulsesLate "channel-pulses-late" => composing::channel_pulses_late;
+        /// The operating stop that a stop ends in is shown a cycle late.
+        ChannelStandstillShownLate "channel-standstill-shown-late" => composing::channel_standstill_shown_late;
+        /// `$VA_STOPSI` hides STOP F and the test of the external shutdown.
+        ChannelStopsiHidesFault "channel-stopsi-hides-fault" => composing::channel_stopsi_hides_fault;
+        /// Referencing is not told to the monitors: the new position counts as motion.
+        ChannelReferenceOverlooked "channel-reference-overlooked" => composing::channel_reference_overlooked;
         /// A STOP C, D or E of the same cycle keeps STOP F from starting its delay.
         ChannelFaultSeesTheNewStop "channel-fault-sees-the-new-stop" => composing::channel_fault_sees_the_new_stop;
     }

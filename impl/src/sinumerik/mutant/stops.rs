@@ -17,6 +17,32 @@ pub(super) fn stop_b_no_timer_exit(
     stop::transition(state, config, inputs)
 }
 
+pub(super) fn stop_b_on_standing_axis(
+    state: stop::State,
+    config: &stop::Config,
+    inputs: &stop::Inputs,
+) -> (stop::State, stop::Outputs) {
+    let braked = state.phase == stop::Phase::BBraking && !inputs.power_on;
+    let inputs = stop::Inputs {
+        standstill: inputs.standstill && braked,
+        ..*inputs
+    };
+    stop::transition(state, config, &inputs)
+}
+
+pub(super) fn stop_without_f_and_test(
+    state: stop::State,
+    config: &stop::Config,
+    inputs: &stop::Inputs,
+) -> (stop::State, stop::Outputs) {
+    let inputs = stop::Inputs {
+        fault: false,
+        external_test: false,
+        ..*inputs
+    };
+    stop::transition(state, config, &inputs)
+}
+
 pub(super) fn stop_lower_displaces(
     state: stop::State,
     config: &stop::Config,

@@ -16,6 +16,30 @@ pub(super) fn motion_parking_overlooked(
     (after, outputs)
 }
 
+pub(super) fn motion_reference_counts(
+    state: motion::State,
+    config: &motion::Config,
+    inputs: &motion::Inputs,
+) -> (motion::State, motion::Outputs) {
+    let inputs = motion::Inputs {
+        set_anew: false,
+        ..*inputs
+    };
+    motion::transition(state, config, &inputs)
+}
+
+pub(super) fn motion_reference_stops(
+    state: motion::State,
+    config: &motion::Config,
+    inputs: &motion::Inputs,
+) -> (motion::State, motion::Outputs) {
+    let (mut after, mut outputs) = motion::transition(state, config, inputs);
+    if inputs.set_anew {
+        (after.speed, outputs.speed) = (Speed(0), Speed(0));
+    }
+    (after, outputs)
+}
+
 pub(super) fn motion_one_direction(
     state: motion::State,
     config: &motion::Config,

@@ -185,9 +185,11 @@ fn external_state<S: Source>(source: &mut S) -> external::State {
 }
 
 fn motion_state<S: Source>(source: &mut S) -> motion::State {
+    let known = source.any_bool();
     motion::State {
         last: source.any_position(),
-        known: source.any_bool(),
+        known,
+        speed: if known { velocity(source) } else { Speed(0) },
     }
 }
 
@@ -227,6 +229,7 @@ fn whole<S: Source>(source: &mut S) -> Option<Step> {
         position: position(source),
         encoder_speed: velocity(source),
         parking: source.any_bool(),
+        set_anew: source.any_bool(),
         test_select: source.any_bool(),
         feedback: source.any_bool(),
         external_test: source.any_bool(),
@@ -290,6 +293,7 @@ const QUIET: channel::Inputs = channel::Inputs {
     position: Position(0),
     encoder_speed: Speed(0),
     parking: false,
+    set_anew: false,
     test_select: false,
     feedback: false,
     external_test: false,
@@ -309,6 +313,7 @@ const RUNNING: channel::State = channel::State {
     motion: motion::State {
         last: Position(0),
         known: true,
+        speed: Speed(0),
     },
     pulses: pulses::State {
         phase: pulses::Phase::Enabled,
@@ -352,6 +357,7 @@ fn stops<S: Source>(source: &mut S) -> Option<Step> {
         power_on: source.any_bool(),
         reset: source.any_bool(),
         sge_sbh_sg: source.any_bool(),
+        position: source.any_position(),
         demand: source.any_of(&[InternalStop::None, InternalStop::D, InternalStop::A]),
         discrepancy: source.any_bool(),
         rx_fault: source.any_bool(),
@@ -382,6 +388,7 @@ fn selected<S: Source>(source: &mut S) -> Option<Step> {
         sge_sbh: source.any_bool(),
         sg_select: source.any_of(&Stage::ALL),
         position: source.any_position(),
+        set_anew: source.any_bool(),
         ..QUIET
     };
     Some((state, config, inputs))
@@ -408,6 +415,7 @@ fn moving<S: Source>(source: &mut S) -> Option<Step> {
         sge_sbh: source.any_bool(),
         position: source.any_position(),
         parking: source.any_bool(),
+        set_anew: source.any_bool(),
         ..QUIET
     };
     Some((state, config, inputs))

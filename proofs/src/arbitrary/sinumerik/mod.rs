@@ -76,6 +76,8 @@ pub fn stop_inputs<S: Source>(source: &mut S) -> stop::Inputs {
         rx_external: source.any_of(&ExternalStop::ALL),
         test: source.any_bool(),
         standstill: source.any_bool(),
+        fault: source.any_bool(),
+        external_test: source.any_bool(),
     }
 }
 
@@ -184,6 +186,8 @@ pub fn selection_inputs<S: Source>(source: &mut S) -> selection::Inputs {
         over: factor_index(source),
         sbh_internal: source.any_bool(),
         position: source.any_position(),
+        ended_at: source.any_position(),
+        set_anew: source.any_bool(),
     }
 }
 

@@ -27,14 +27,17 @@ fn monitored<S: Source>(source: &mut S) -> Monitored {
 pub fn motion<S: Source>(
     source: &mut S,
 ) -> Option<(motion::State, motion::Config, motion::Inputs)> {
+    let known = source.any_bool();
     let state = motion::State {
         last: position(source, 3),
-        known: source.any_bool(),
+        known,
+        speed: if known { source.any_speed() } else { Speed(0) },
     };
     let inputs = motion::Inputs {
         power_on: source.any_bool(),
         position: position(source, 3),
         parking: source.any_bool(),
+        set_anew: source.any_bool(),
     };
     Some((state, motion::Config, inputs))
 }

@@ -26,12 +26,13 @@ impl Parameters {
     }
 }
 
-/// The state of an axis: one referencing, two channels.
+/// The state of both channels of an axis, and what each has told the other one of its agreement.
 #[derive(Clone, Copy, PartialEq, Eq)]
 struct Axis {
-    reference: reference::State,
+    reference: [reference::State; 2],
     agreement: [agreement::State; 2],
     gear: [gear::State; 2],
+    confirmed: [bool; 2],
 }
 
 /// The inputs of an axis; what the machines tell each other is filled in by [`step`].
@@ -39,38 +40,43 @@ struct Axis {
 struct Cycle {
     gear: [gear::Inputs; 2],
     agreement: [agreement::Inputs; 2],
-    reference: reference::Inputs,
+    reference: [reference::Inputs; 2],
 }
 
+/// One cycle of both channels; each reads what the other one has told in the cycle before.
 fn step(
     subject: &Subject,
     parameters: &Parameters,
     axis: Axis,
     cycle: Cycle,
-) -> (Axis, reference::Outputs) {
+) -> (Axis, [reference::Outputs; 2]) {
     let mut after = axis;
+    let mut shown = [reference::Outputs::default(); 2];
     for (channel, other) in [(0, 1), (1, 0)] {
         let (gear, gear_shown) =
             (subject.gear)(axis.gear[channel], &parameters.gear, &cycle.gear[channel]);
         let inputs = agreement::Inputs {
-            axis_ref: axis.reference.axis == AxisState::Ref,
-            compare_due: axis.reference.fresh,
+            axis_ref: axis.reference[channel].axis == AxisState::Ref,
+            compare_due: axis.reference[channel].fresh,
             gear_changed: gear_shown.changed,
             other_agreed: axis.agreement[other].agreed,
             ..cycle.agreement[channel]
         };
         let (agreement, _) =
             (subject.agreement)(axis.agreement[channel], &parameters.agreement, &inputs);
+        let inputs = reference::Inputs {
+            agreed_1: agreement.agreed,
+            agreed_2: axis.confirmed[other],
+            ..cycle.reference[channel]
+        };
+        let (reference, out) =
+            (subject.reference)(axis.reference[channel], &parameters.reference, &inputs);
         after.gear[channel] = gear;
         after.agreement[channel] = agreement;
+        after.reference[channel] = reference;
+        after.confirmed[channel] = out.confirmed;
+        shown[channel] = out;
     }
-    let inputs = reference::Inputs {
-        agreed_1: after.agreement[0].agreed,
-        agreed_2: after.agreement[1].agreed,
-        ..cycle.reference
-    };
-    let (reference, shown) = (subject.reference)(axis.reference, &parameters.reference, &inputs);
-    after.reference = reference;
     (after, shown)
 }
 
@@ -78,14 +84,15 @@ fn quiet() -> Cycle {
     Cycle {
         gear: [gear::Inputs::default(); 2],
         agreement: [agreement::Inputs::default(); 2],
-        reference: reference::Inputs {
+        reference: [reference::Inputs {
             run_up: true,
             ..reference::Inputs::default()
-        },
+        }; 2],
     }
 }
 
-/// A change of the gear stage in one channel ends the safe reference in the same cycle, also when the user agrees in it.
+/// A change of the gear stage in one channel ends the safe reference there in the same cycle, also when the user agrees in
+/// it, and in the other channel in the next one.
 ///
 /// Cover 0: the axis was safely referenced before.
 pub fn gear_change_ends_safe_reference<S: Source>(source: &mut S, subject: &Subject) -> Verdict {
@@ -98,20 +105,19 @@ pub fn gear_change_ends_safe_reference<S: Source>(source: &mut S, subject: &Subj
         return Verdict::Discarded;
     }
     let channel = source.any_in(0, 1) as usize;
+    let agreed = [source.any_bool(), source.any_bool()];
     let known = gear::State {
         stage: old,
         known: true,
     };
     let axis = Axis {
-        reference: reference::State {
+        reference: [reference::State {
             axis: state,
             fresh: false,
-        },
-        agreement: [
-            agreement::State::restored(source.any_bool()),
-            agreement::State::restored(source.any_bool()),
-        ],
+        }; 2],
+        agreement: agreed.map(agreement::State::restored),
         gear: [known; 2],
+        confirmed: agreed.map(|agreed| agreed && state != AxisState::NotRef),
     };
     let mut cycle = quiet();
     cycle.gear = [gear::Inputs {
@@ -129,9 +135,11 @@ pub fn gear_change_ends_safe_reference<S: Source>(source: &mut S, subject: &Subj
     let both = axis.agreement.iter().all(|agreement| agreement.agreed);
     let (after, shown) = step(subject, &parameters, axis, cycle);
     source.cover(0, state == AxisState::SafeRef && both);
-    if !shown.safely_referenced
-        && after.reference.axis != AxisState::SafeRef
+    let (_, next) = step(subject, &parameters, after, cycle);
+    if !shown[channel].safely_referenced
+        && after.reference[channel].axis != AxisState::SafeRef
         && !after.agreement[channel].agreed
+        && !next[1 - channel].safely_referenced
     {
         Verdict::Held
     } else {
@@ -144,13 +152,14 @@ pub fn gear_change_ends_safe_reference<S: Source>(source: &mut S, subject: &Subj
 ///
 /// Cover 0: it succeeds, cover 1: it fails in one channel only.
 pub fn history_decides_after_power_on<S: Source>(source: &mut S, subject: &Subject) -> Verdict {
-    let Some(parameters) = Parameters::new(2) else {
+    let Some(parameters) = Parameters::new(10) else {
         return Verdict::Discarded;
     };
     let mut axis = Axis {
-        reference: reference::State::INITIAL,
+        reference: [reference::State::INITIAL; 2],
         agreement: [agreement::State::restored(true); 2],
         gear: [gear::State::INITIAL; 2],
+        confirmed: [false; 2],
     };
     let mut cycle = quiet();
     for inputs in &mut cycle.agreement {
@@ -160,23 +169,44 @@ pub fn history_decides_after_power_on<S: Source>(source: &mut S, subject: &Subje
     let succeeds = cycle
         .agreement
         .map(|inputs| inputs.stored && inputs.history_ok);
-    let mut power_on = cycle;
-    power_on.reference.power_on = true;
-    let mut referenced = cycle;
-    referenced.reference.referenced = true;
-    // Power-on and run-up, referenced, compared.
-    for (inputs, before_comparison) in [(power_on, true), (referenced, true), (cycle, false)] {
+    let power_on = Cycle {
+        reference: cycle.reference.map(|inputs| reference::Inputs {
+            power_on: true,
+            ..inputs
+        }),
+        ..cycle
+    };
+    // The channels are referenced in any order, or together.
+    let late = [source.any_bool(), source.any_bool()];
+    let referenced = |wanted: bool| Cycle {
+        reference: [0, 1].map(|channel| reference::Inputs {
+            referenced: late[channel] == wanted,
+            ..cycle.reference[channel]
+        }),
+        ..cycle
+    };
+    // Power-on and run-up, referenced, compared, told; in no cycle is it shown in a channel unless both succeed, and not
+    // before both have compared.
+    let run = [power_on, referenced(false), referenced(true), cycle, cycle];
+    let mut compared = [false; 2];
+    for inputs in run {
+        let due = axis.reference.map(|reference| reference.fresh);
         let (after, shown) = step(subject, &parameters, axis, inputs);
         axis = after;
-        if before_comparison && shown.safely_referenced {
+        if shown.iter().any(|shown| shown.safely_referenced)
+            && ([0, 1].iter().any(|&k: &usize| !compared[k] && !due[k]) || succeeds != [true; 2])
+        {
             return Verdict::Broken("no_safe_reference_before_the_comparison");
         }
+        compared = [compared[0] || due[0], compared[1] || due[1]];
     }
     source.cover(0, succeeds == [true, true]);
     source.cover(1, succeeds[0] != succeeds[1]);
-    let safe = axis.reference.axis == AxisState::SafeRef;
+    let safe = axis
+        .reference
+        .map(|reference| reference.axis == AxisState::SafeRef);
     let agreed = axis.agreement.map(|agreement| agreement.agreed);
-    if safe == (succeeds == [true, true]) && agreed == succeeds {
+    if safe == [succeeds == [true, true]; 2] && agreed == succeeds {
         Verdict::Held
     } else {
         Verdict::Broken("history_decides_after_power_on")
@@ -194,23 +224,28 @@ pub fn single_agreement_does_not_last<S: Source>(source: &mut S, subject: &Subje
     };
     let single = source.any_in(0, 1) as usize;
     let mut axis = Axis {
-        reference: reference::State {
+        reference: [reference::State {
             axis: AxisState::Ref,
             fresh: false,
-        },
+        }; 2],
         agreement: [agreement::State::restored(false); 2],
         gear: [gear::State {
             stage: gear::GearIndex::FIRST,
             known: true,
         }; 2],
+        confirmed: [false; 2],
     };
     axis.agreement[single].agreed = true;
+    axis.confirmed[single] = true;
     for _ in 0..=t_differ {
         let mut cycle = quiet();
-        cycle.reference.parking = source.any_bool();
+        let parking = source.any_bool();
+        for inputs in &mut cycle.reference {
+            inputs.parking = parking;
+        }
         let (after, shown) = step(subject, &parameters, axis, cycle);
         axis = after;
-        if shown.safely_referenced {
+        if shown.iter().any(|shown| shown.safely_referenced) {
             return Verdict::Broken("no_safe_reference_with_one_agreement");
         }
     }

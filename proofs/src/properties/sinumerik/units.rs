@@ -89,6 +89,7 @@ pub fn movement_is_compared_exactly<S: Source>(source: &mut S, subject: &Subject
     let state = motion::State {
         last: from,
         known: true,
+        speed: Speed(0),
     };
     let inputs = motion::Inputs {
         position: Position(to),

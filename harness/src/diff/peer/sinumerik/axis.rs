@@ -42,6 +42,8 @@ fn selection(p: &Params, mutant: Option<Mutant>) -> Refusable {
             "over",
             "sbh_internal",
             "position",
+            "ended_at",
+            "set_anew",
         ],
         &[
             "mode",
@@ -63,6 +65,8 @@ fn selection(p: &Params, mutant: Option<Mutant>) -> Refusable {
                 over: factor(i[4]),
                 sbh_internal: i[5] != 0,
                 position: Position(i[6]),
+                ended_at: Position(i[7]),
+                set_anew: i[8] != 0,
             };
             let (after, out) = next(state, &config, &inputs);
             o.extend([
@@ -97,6 +101,7 @@ fn reference(p: &Params, mutant: Option<Mutant>) -> Refusable {
             "nst_reference_reached",
             "safely_referenced",
             "compare_due",
+            "confirmed",
             "message",
         ],
         vec![upto(3), truth()],
@@ -117,6 +122,7 @@ fn reference(p: &Params, mutant: Option<Mutant>) -> Refusable {
                 bit(out.nst_reference_reached),
                 bit(out.safely_referenced),
                 bit(out.compare_due),
+                bit(out.confirmed),
                 bit(out.message),
             ]);
             after

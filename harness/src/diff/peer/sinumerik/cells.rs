@@ -46,9 +46,10 @@ cells! {
         stage = |c| gear::GearIndex::new(small(c)).unwrap_or_default(), |g: gear::GearIndex| i32::from(g.get());
         known = truthy, i32::from;
     }
-    motion::State, 2 {
+    motion::State, 3 {
         last = Position, position;
         known = truthy, i32::from;
+        speed = speed, increments;
     }
     ramp::State, 1 {
         lowest = speed, increments;

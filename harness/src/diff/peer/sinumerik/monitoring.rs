@@ -29,15 +29,16 @@ pub(super) fn make(machine: &str, p: &Params, mutant: Option<Mutant>) -> Made {
 fn motion(p: &Params, mutant: Option<Mutant>) -> Adapter {
     let next = mutant.map_or(motion::next as motion::Next, Mutant::motion);
     Adapter::new(
-        &["power_on", "position", "parking"],
+        &["power_on", "position", "parking", "set_anew"],
         &["actual", "speed"],
-        vec![upto(p.value("pos_max")), truth()],
+        vec![upto(p.value("pos_max")), truth(), upto(p.value("pos_max"))],
         motion::State::INITIAL,
         move |state, i, o| {
             let inputs = motion::Inputs {
                 power_on: i[0] != 0,
                 position: Position(i[1]),
                 parking: i[2] != 0,
+                set_anew: i[3] != 0,
             };
             let (after, out) = next(state, &motion::Config, &inputs);
             o.extend([i64::from(out.position.0), i64::from(out.speed.0)]);

@@ -128,6 +128,8 @@ fn stop(p: &Params, mutant: Option<Mutant>) -> Refusable {
             "rx_external",
             "test",
             "standstill",
+            "fault",
+            "external_test",
         ],
         &[
             "level",
@@ -160,6 +162,8 @@ fn stop(p: &Params, mutant: Option<Mutant>) -> Refusable {
                 rx_external: external_stop(i[6]),
                 test: i[7] != 0,
                 standstill: i[8] != 0,
+                fault: i[9] != 0,
+                external_test: i[10] != 0,
             };
             let (after, out) = next(state, &config, &inputs);
             o.extend([
