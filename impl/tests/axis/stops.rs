@@ -52,7 +52,7 @@ fn standstill_violation_ends_in_stop_a() {
 }
 
 /// S840D-SG-006, S840D-STOP-030, S840D-STOP-080, S840D-ACK-001: too fast in SG1. STOP C at once, the forced operating
-/// stop one cycle after t_C, RESET only then.
+/// stop after t_C, RESET only then.
 #[test]
 fn speed_violation_is_acknowledged_after_its_end() {
     let mut machine = Machine::powered(&parameters(), false, None);
@@ -71,6 +71,7 @@ fn speed_violation_is_acknowledged_after_its_end() {
     let outputs = machine.at(19);
     assert_eq!(outputs.nck.channel.stop.phase, Phase::SbhInt);
     assert_eq!(outputs.nck.channel.selection.mode, Mode::Sg);
+    assert!(outputs.nck.sga.sbh_active && outputs.drive.sga.sbh_active);
     let outputs = machine.at(20);
     assert_eq!(outputs.nck.channel.selection.mode, Mode::SbhForced);
     assert_eq!(outputs.nck.channel.selection.reference, Position(801));

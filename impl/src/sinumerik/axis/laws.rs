@@ -2,7 +2,7 @@
 //! channel.
 
 use super::{Config, Inputs, Outputs, State, TestResult, transition};
-use crate::sinumerik::alarm::Alarm;
+use crate::sinumerik::alarm::{Alarm, Reaction};
 use crate::sinumerik::fault::FaultState;
 use crate::sinumerik::level::{ExternalStop, InternalStop};
 use crate::sinumerik::reference::AxisState;
@@ -143,6 +143,14 @@ contract! {
     raised_stop_has_its_alarm ["S840D-ALARM-501", "S840D-STOP-001", "S840D-STOP-032", "S840D-STOP-041", "S840D-STOP-052"]:
         when |s| s.after.channel.stop.internal > s.before.channel.stop.internal
             => Alarm::of_stop(s.after.channel.stop.internal).is_some_and(|alarm| s.outputs.alarms.contains(alarm));
+
+    /// A STOP A that is latched raises the alarm by which the control stops the whole mode group; a STOP A by signals raises
+    /// none.
+    stop_a_stops_the_mode_group ["S840D-STOP-011", "S840D-ALARM-730"]:
+        when |s| s.after.channel.stop.internal == InternalStop::A
+            && s.before.channel.stop.internal != InternalStop::A
+            => s.outputs.alarms.contains(Alarm::StopA)
+                && Alarm::StopA.nck().reactions.contains(&Reaction::ModeGroupNotReady);
 
     /// The step keeps the invariants of all monitors.
     state_stays_consistent ["S840D-ARCH-501"]:

@@ -167,7 +167,7 @@ contract! {
     ended_stop_is_watched ["S840D-P-07", "S840D-P-46", "S840D-P-47", "S840D-STOP-080", "S840D-SE-008"]:
         when |s| !s.inputs.power_on && s.before.stop.phase == Phase::SbhInt && s.config.selection.enabled()
             => s.outputs.selection.mode == Mode::SbhForced && s.outputs.selection.monitored == Monitored::Standstill
-                && (s.before.selection.mode != Mode::SbhForced
+                && (s.before.selection.mode != Mode::SbhForced || s.inputs.set_anew
                     || s.after.selection.reference == s.before.selection.reference);
 
     /// While the braking ramp is on its limit never rises.
