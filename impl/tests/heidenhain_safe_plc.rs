@@ -78,7 +78,7 @@ fn two_doors_three_groups() {
     }
 }
 
-/// HFS-MAG-006, HFS-MAG-005: the handwheel has no effect on the magazine, whatever the doors and the operating mode; behind its
+/// HFS-MAG-006/a/b/c, HFS-MAG-005: the handwheel has no effect on the magazine, whatever the doors and the operating mode; behind its
 /// closed door it takes part in a reference run. The stops know no kind of group: an SS1 brakes it like the axes.
 #[test]
 fn magazine_and_handwheel() {

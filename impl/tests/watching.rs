@@ -209,7 +209,7 @@ fn result_lists_have_the_bits_of_the_machine_data() {
     assert_eq!(outputs.list_2.bits(), 0b01_10_11_01_00_00_00_00_00_00_01);
 }
 
-/// What the manual calls a parameter error is refused.
+/// What the manual calls a parameter error is refused: S840D-STOP-087, S840D-PARAM-735 among them.
 #[test]
 fn implausible_configurations_are_refused() {
     let refused = |result: Result<cam::Config, ConfigError>| result.err();

@@ -1,5 +1,4 @@
-//! The signals of the monitors lie where the signal table says, and terminals act as its truth tables say (S840D-IO-001,
-//! S840D-IO-002, S840D-IO-004, S840D-IO-005, S840D-IO-007, S840D-EXT-004, S840D-SN-012).
+//! The signals of the monitors lie where the signal table says, and terminals act as its truth tables say.
 
 use std::collections::BTreeSet;
 
@@ -36,6 +35,7 @@ fn ours(places: &[Place]) -> BTreeSet<(String, i64, i64)> {
     places.iter().map(of).collect()
 }
 
+/// S840D-IO-007, S840D-IO-001, S840D-TEST-021: the signals of an axis in the drive channel have their places in its block, each a bit of its own.
 #[test]
 fn every_signal_lies_where_the_table_says() {
     assert_eq!(ours(SGE), placed("SGE"));
@@ -96,6 +96,7 @@ fn the_fields_are_in_the_order_of_the_places() {
     }
 }
 
+/// S840D-SN-012: the cams of the drive channel are bits of the block, in either order of the manual.
 #[test]
 fn cams_can_be_exchanged() {
     for (k, place) in SGA.iter().enumerate() {
@@ -109,6 +110,7 @@ fn cams_can_be_exchanged() {
     }
 }
 
+/// S840D-IO-002, S840D-EXT-004: an unused signal is 0, of an external stop 1.
 #[test]
 fn unused_signals_are_zero_but_external_stops_are_not_requested() {
     for place in SGE {
@@ -150,6 +152,7 @@ fn truth(id: &str) -> Vec<(Vec<bool>, bool)> {
     out
 }
 
+/// S840D-IO-005, S840D-IO-001: a signal of the NCK channel comes from its own terminal, inverted by bit 31 of its assignment.
 #[test]
 fn inputs_follow_their_truth_table() {
     let rows = truth("INPUT_ASSIGNMENT");
@@ -163,6 +166,7 @@ fn inputs_follow_their_truth_table() {
     }
 }
 
+/// S840D-IO-004: the signals of several axes on one output are ANDed, each inverted before if so assigned.
 #[test]
 fn outputs_follow_their_truth_table() {
     let rows = truth("OUTPUT_AND");

@@ -71,7 +71,7 @@ contract! {
                 == (s.inputs.state.is_limited() && s.inputs.state != GroupState::SlsS);
 
     /// At the panel SOM_3 and SOM_4 let several axes move.
-    several_axes_at_the_panel ["HFS-MON-009", "HFS-MODE-005", "HFS-MODE-006"]:
+    several_axes_at_the_panel ["HFS-MON-009", "HFS-MODE-005/c", "HFS-MODE-006"]:
         when |s| matches!(s.inputs.state, GroupState::Sls3 | GroupState::Sls4) && s.inputs.unit.at_panel()
             => s.outputs.demand == Stop::None;
 

@@ -95,7 +95,7 @@ pub struct Outputs {
 
 contract! {
     /// Without feed enable a moving axis brakes, in the cycle in which the enable goes, with its whole time.
-    lost_enable_brakes ["HFS-P-48", "HFS-AXG-009", "HFS-SS2-011", "HFS-FAULT-023"]:
+    lost_enable_brakes ["HFS-SS2-008/a", "HFS-P-48", "HFS-AXG-009", "HFS-SS2-011", "HFS-FAULT-023"]:
         when |s| s.inputs.group_released && s.before.mode == Mode::Released && !s.inputs.feed && s.inputs.moving
             => s.after.mode == Mode::Ss2 && s.after.timer == s.config.started() && !s.outputs.asks_ss1;
 

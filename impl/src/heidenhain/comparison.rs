@@ -83,7 +83,8 @@ impl State {
 pub struct Inputs {
     /// The monitoring state of the group.
     pub state: GroupState,
-    /// The magnitude of nominal minus actual position, the intended following error already taken off.
+    /// By the encoder of this channel, that of the motor in the CC and that of the position in the MC, or what is derived from
+    /// the motor's for it (HFS-NAV-004): the magnitude of nominal minus actual position, the intended following error already taken off.
     pub deviation: Distance,
     /// The nominal speed in increments per cycle, with its sign.
     pub nominal: i32,

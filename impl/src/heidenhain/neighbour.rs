@@ -49,7 +49,7 @@ contract! {
             => s.outputs.demand == Stop::Ss1F;
 
     /// An SS1 of the whole machine that brakes one group brakes the others.
-    wide_stop_spreads ["HFS-SS1-001"]:
+    wide_stop_spreads ["HFS-SS1-001", "HFS-MAG-006/c"]:
         when |s| s.inputs.wide && matches!(s.inputs.phase, Phase::EmergencyBrake | Phase::BrakeCloses)
             => s.outputs.demand >= Stop::Ss1;
 

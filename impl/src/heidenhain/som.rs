@@ -130,7 +130,7 @@ contract! {
             => s.outputs.som == Som::Som1 && s.after.refused;
 
     /// An input alone selects its mode when nothing stands against it.
-    key_selects_its_mode ["HFS-KSW-001", "HFS-P-46"]:
+    key_selects_its_mode ["HFS-KSW-005", "HFS-KSW-001", "HFS-P-46"]:
         when |s| !s.inputs.power_on && s.before == State::INITIAL
             && (s.config.som_4 || s.inputs.wish() != Som::Som4)
             => s.outputs.som == s.inputs.wish();

@@ -97,22 +97,22 @@ pub struct Outputs {
 
 contract! {
     /// Any emergency stop contact, in either channel, stops in both.
-    emergency_stop_stops_both ["HFS-P-07", "HFS-STAT-005", "HFS-STAT-007", "HFS-FAULT-011", "HFS-FAULT-013", "HFS-ES-001"]:
+    emergency_stop_stops_both ["HFS-STAT-002/a", "HFS-TIMING-005", "HFS-TIMING-006", "HFS-P-07", "HFS-STAT-005", "HFS-STAT-007", "HFS-FAULT-011", "HFS-FAULT-013", "HFS-ES-001"]:
         when |s| s.inputs.es_a || s.inputs.es_b || s.inputs.es_a_hw || s.inputs.es_b_hw
             => s.outputs.mc >= Stop::Ss1 && s.outputs.cc >= Stop::Ss1;
 
     /// The watchdogs of the MC stop in both channels.
-    watchdog_of_the_mc_stops_both ["HFS-STAT-005", "HFS-FAULT-013"]:
+    watchdog_of_the_mc_stops_both ["HFS-STAT-002/b", "HFS-STAT-005", "HFS-FAULT-013"]:
         when |s| s.inputs.mc_wd || s.inputs.smc_wd
             => s.outputs.mc >= Stop::Ss1 && s.outputs.cc >= Stop::Ss1;
 
     /// Watchdogs of the others and the voltage of a board are fatal.
-    fatal_bits_are_ss1f ["HFS-STAT-005", "HFS-FAULT-020", "HFS-MON-005"]:
+    fatal_bits_are_ss1f ["HFS-STAT-002/c", "HFS-STAT-005", "HFS-FAULT-020", "HFS-MON-005"]:
         when |s| s.inputs.cc_wd || s.inputs.spl_wd || s.inputs.smop_wd || s.inputs.pf_board
             => s.outputs.mc == Stop::Ss1F && s.outputs.cc == Stop::Ss1F;
 
     /// The DC-link voltage, unless masked, and -N0 stop in the CC.
-    power_failure_stops_in_the_cc ["HFS-STAT-001", "HFS-STAT-005", "HFS-FAULT-021"]:
+    power_failure_stops_in_the_cc ["HFS-STAT-002/f", "HFS-STAT-001", "HFS-STAT-005", "HFS-FAULT-021"]:
         when |s| s.inputs.n0 || (s.inputs.pf_dc && !s.inputs.masked)
             => s.outputs.cc >= Stop::Ss1;
 
@@ -127,12 +127,12 @@ contract! {
             => s.outputs.mc_retrigger == s.inputs.masked;
 
     /// A request for SS2 is followed by both.
-    request_is_followed ["HFS-STAT-005", "HFS-FAULT-022", "HFS-MON-003"]:
+    request_is_followed ["HFS-STAT-002/g", "HFS-STAT-005", "HFS-FAULT-022", "HFS-MON-003"]:
         when |s| s.inputs.req_ss2
             => s.outputs.mc >= Stop::Ss2 && s.outputs.cc >= Stop::Ss2;
 
     /// The line voltage lifts the tool off unless masked, and the spindle bit is noted; neither stops anything.
-    notes_are_no_stops ["HFS-STAT-002", "HFS-STAT-005", "HFS-STAT-006/a"]:
+    notes_are_no_stops ["HFS-STAT-002/d", "HFS-STAT-002/e", "HFS-STAT-005", "HFS-STAT-006/a"]:
         when |s| Inputs { pf_ac: false, stos_mc: false, masked: false, spl_fault: false, smop_fault: false, ..s.inputs } == Inputs::default()
             => s.outputs == Outputs {
                 lift_off: s.inputs.pf_ac && !s.inputs.masked,

@@ -147,7 +147,7 @@ contract! {
             => !s.after.agreed;
 
     /// A due comparison without stored position or beyond the tolerance withdraws the agreement.
-    failed_history_withdraws ["S840D-P-13", "S840D-REF-004", "S840D-REF-008", "S840D-REF-010", "S840D-UA-003",
+    failed_history_withdraws ["S840D-REF-012/b", "S840D-P-13", "S840D-REF-004", "S840D-REF-008", "S840D-REF-010", "S840D-UA-003",
         "S840D-REF-014"]:
         when |s| s.before.agreed && s.inputs.compare_due && !(s.inputs.stored && s.inputs.history_ok)
             => !s.after.agreed && s.outputs.withdrawn;

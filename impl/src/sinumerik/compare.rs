@@ -142,7 +142,7 @@ pub struct Outputs {
 
 contract! {
     /// A difference of a static item is a finding, whatever timer runs.
-    static_difference_is_found ["S840D-P-26", "S840D-P-27", "S840D-KDV-501", "S840D-KDV-502", "S840D-KDV-508",
+    static_difference_is_found ["S840D-STOP-002/f", "S840D-P-26", "S840D-P-27", "S840D-KDV-501", "S840D-KDV-502", "S840D-KDV-508",
         "S840D-KDV-707"]:
         when |s| s.inputs.differs && s.before.due(&s.config, s.inputs.power_on).kind() == Kind::Static
             => s.outputs.discrepancy && s.outputs.code == s.before.due(&s.config, s.inputs.power_on).code();

@@ -97,7 +97,7 @@ contract! {
             => s.outputs.request == ExternalStop::A;
 
     /// External STOP A selected: the other signals change nothing.
-    stop_a_comes_first ["S840D-P-18", "S840D-EXT-005", "S840D-EXT-001"]:
+    stop_a_comes_first ["S840D-SH-002/b", "S840D-STOP-013/e", "S840D-P-18", "S840D-EXT-005", "S840D-EXT-001"]:
         when |s| s.config.enable_ext && !s.inputs.sge_a
             => s.outputs.request == ExternalStop::A && s.outputs.selected == ExternalStop::A;
 

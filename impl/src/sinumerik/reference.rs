@@ -99,7 +99,7 @@ pub struct Outputs {
 
 contract! {
     /// "Safely referenced" only with the agreements of both channels, in the same cycle.
-    safely_referenced_needs_both ["S840D-P-13", "S840D-P-14", "S840D-REF-005", "S840D-REF-006"]:
+    safely_referenced_needs_both ["S840D-P-13", "S840D-P-14", "S840D-REF-005", "S840D-REF-006/a"]:
         when |s| s.outputs.safely_referenced || s.after.axis == AxisState::SafeRef
             => s.inputs.agreed_1 && s.inputs.agreed_2 && s.after.axis == AxisState::SafeRef && s.outputs.safely_referenced;
 
@@ -125,7 +125,7 @@ contract! {
             => s.after.axis != AxisState::SafeRef && !s.outputs.safely_referenced;
 
     /// Parking and the loss of the reference always lead to "not referenced" or keep the axis off.
-    loss_is_followed ["S840D-REF-006", "S840D-REF-016"]:
+    loss_is_followed ["S840D-REF-006/b", "S840D-REF-016"]:
         when |s| s.inputs.parking || s.inputs.reference_lost
             => s.after.axis == AxisState::NotRef || s.after.axis == AxisState::Off;
 
@@ -140,7 +140,7 @@ contract! {
             => s.before.axis == AxisState::NotRef && s.after.axis == AxisState::Ref && !s.inputs.power_on;
 
     /// Power-on without completed run-up leaves the axis off; run-up makes it "not referenced".
-    run_up_starts_it ["S840D-REF-001", "S840D-ARCH-505"]:
+    run_up_starts_it ["S840D-REF-006/c", "S840D-REF-001", "S840D-ARCH-505"]:
         when |s| s.inputs.power_on || s.before.axis == AxisState::Off
             => s.after.axis == if s.inputs.run_up { AxisState::NotRef } else { AxisState::Off };
 

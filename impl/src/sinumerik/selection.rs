@@ -312,7 +312,7 @@ contract! {
             };
 
     /// Without a speed stage before, the selection acts at once.
-    selection_without_speed_acts_at_once ["S840D-SBH-004", "S840D-SBH-006", "S840D-SG-005"]:
+    selection_without_speed_acts_at_once ["S840D-SBH-002/b", "S840D-SBH-002/c", "S840D-SBH-004", "S840D-SBH-006", "S840D-SG-005"]:
         when |s| s.config.enable && !s.inputs.sbh_internal && !s.inputs.sge_sbh_sg
             && (s.inputs.power_on || !s.before.mode.watches_speed())
             => if s.inputs.sge_sbh {
@@ -352,7 +352,7 @@ contract! {
                 };
 
     /// With nothing selected nothing is monitored and every signal is 0.
-    nothing_selected_nothing_monitored ["S840D-SG-012", "S840D-SBH-002"]:
+    nothing_selected_nothing_monitored ["S840D-SG-012", "S840D-SBH-002/a"]:
         when |s| s.after.mode == Mode::Nsb
             => !s.outputs.sga_active && !s.outputs.sga_sbh_active && s.outputs.monitored == Monitored::Nothing;
 

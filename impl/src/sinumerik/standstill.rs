@@ -74,7 +74,7 @@ contract! {
             => !s.outputs.violated && s.outputs.demand == InternalStop::None;
 
     /// Without the operating stop the position is free.
-    watched_only_in_the_operating_stop ["S840D-SBH-002", "S840D-SBH-006"]:
+    watched_only_in_the_operating_stop ["S840D-SBH-002/b", "S840D-SBH-006"]:
         when |s| s.inputs.monitored != Monitored::Standstill
             => s.outputs == Outputs::default();
 

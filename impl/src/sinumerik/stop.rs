@@ -205,7 +205,7 @@ contract! {
             => s.after.internal >= s.before.internal;
 
     /// A latched STOP A cancels the pulses, in the cycle it is latched and until power-on.
-    latched_a_cancels_pulses ["S840D-P-01", "S840D-STOP-010", "S840D-STOP-012", "S840D-PARAM-504"]:
+    latched_a_cancels_pulses ["S840D-SH-002/a", "S840D-P-01", "S840D-STOP-010", "S840D-STOP-012", "S840D-PARAM-504"]:
         when |s| s.after.internal == InternalStop::A
             || (s.before.internal == InternalStop::A && !s.inputs.power_on)
             => s.after.internal == InternalStop::A && s.after.level == Level::A && s.outputs.cancel_pulses;
@@ -282,7 +282,7 @@ contract! {
                 .max(if s.inputs.test { Level::Test } else { Level::None });
 
     /// STOP B ends: each cycle it is still braking its timer is lower; it began with at most t_B. So A follows within t_B.
-    stop_b_ends_in_time ["S840D-P-05", "S840D-STOP-021", "S840D-STOP-022", "S840D-STOP-023"]:
+    stop_b_ends_in_time ["S840D-STOP-013/c", "S840D-P-05", "S840D-STOP-021", "S840D-STOP-022", "S840D-STOP-023"]:
         when |s| s.before.phase == Phase::BBraking && !s.inputs.power_on
             => s.after.level == Level::A
                 || (s.after.phase == Phase::BBraking && s.after.timer < s.before.timer && !s.inputs.standstill);

@@ -45,7 +45,7 @@ contract! {
                 && !s.inputs.power_on && s.before.phase == Phase::Idle;
 
     /// The rise of the selection with enabled pulses starts the test with the whole t_chk.
-    rise_starts_the_test ["S840D-TEST-009", "S840D-TEST-010", "S840D-TEST-015", "S840D-SH-002", "S840D-TEST-031"]:
+    rise_starts_the_test ["S840D-TEST-009", "S840D-TEST-010", "S840D-TEST-015", "S840D-SH-002/c", "S840D-TEST-031"]:
         when |s| !s.inputs.power_on && s.inputs.select && !s.before.selected && s.before.phase == Phase::Idle
             && !s.inputs.pulses_cancelled && !s.inputs.internal_ab && !s.config.t_chk().is_zero()
             => s.after.phase == Phase::Run && s.after.timer == s.config.t_chk() && s.outputs.active;

@@ -68,7 +68,7 @@ contract! {
             => s.outputs.asks_ss1;
 
     /// A spindle that turns without permissive in SOM_2 or SOM_3, or at the handwheel in SOM_4, stops after the axes.
-    spindle_without_permissive_stops ["HFS-AXG-014", "HFS-PB-003", "HFS-FAULT-016", "HFS-MODE-004/e", "HFS-SS2-010"]:
+    spindle_without_permissive_stops ["HFS-MODE-005/e", "HFS-SS2-008/b", "HFS-AXG-014", "HFS-PB-003", "HFS-FAULT-016/a", "HFS-MODE-004/e", "HFS-SS2-010"]:
         when |s| s.config.kind() == Kind::Spindle && s.inputs.moving && !s.inputs.permissive
             && (matches!(s.inputs.state, GroupState::Sls2 | GroupState::Sls3)
                 || (s.inputs.state == GroupState::Sls4 && s.inputs.unit == Unit::Handwheel))
@@ -95,7 +95,7 @@ contract! {
             => s.outputs.asks_ss2;
 
     /// A change between panel, handwheel and reference run stops a released group.
-    change_of_unit_stops ["HFS-SS2-008", "HFS-HW-004", "HFS-FAULT-025", "HFS-AXG-013"]:
+    change_of_unit_stops ["HFS-SS2-008/d", "HFS-HW-004", "HFS-FAULT-025", "HFS-AXG-013"]:
         when |s| Place::of(s.inputs.unit) != s.before.place && s.inputs.state.is_released()
             => s.outputs.asks_ss2 && s.after.place == Place::of(s.inputs.unit);
 

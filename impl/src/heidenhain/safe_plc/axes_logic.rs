@@ -244,7 +244,7 @@ contract! {
             => s.outputs.activate;
 
     /// NC start activates from its edge with the permissive until one of them is released.
-    nc_start_activates_from_its_edge ["HFS-API-007", "HFS-PB-002", "HFS-SEQ-006", "HFS-REF-004"]:
+    nc_start_activates_from_its_edge ["HFS-MODE-005/d", "HFS-API-007", "HFS-PB-002", "HFS-SEQ-006", "HFS-REF-004"]:
         when |s| s.inputs.may_start() && s.inputs.unit != Unit::Handwheel && s.inputs.manual() == 0
             => s.outputs.activate
                 == (s.inputs.panel && s.inputs.start() && (!s.before.starts || s.before.started));
@@ -285,17 +285,17 @@ contract! {
             => s.outputs.stop == Stop::None;
 
     /// With the door open a stop key, a change of the mode and an open magazine door stop along the contour.
-    open_door_stops_by_event ["HFS-API-021", "HFS-SS2-009", "HFS-SEQ-007", "HFS-KSW-003/a"]:
+    open_door_stops_by_event ["HFS-API-021", "HFS-SS2-009/a", "HFS-SS2-009/b", "HFS-SEQ-007", "HFS-KSW-003/a"]:
         when |s| s.inputs.door_open && (s.inputs.stop || s.inputs.som_changed || s.inputs.t_open)
             => s.outputs.stop == Stop::Ss2;
 
     /// A program whose permissive goes in SOM_2 or SOM_3 loses its latch, and the axes stop in that cycle.
-    program_needs_its_permissive ["HFS-API-014", "HFS-MODE-009", "HFS-SS2-009"]:
+    program_needs_its_permissive ["HFS-API-014", "HFS-MODE-009", "HFS-SS2-008/c", "HFS-FAULT-016/b"]:
         when |s| s.before.program && s.inputs.permissive_missing(&s.config)
             => !s.after.program && s.outputs.stop == Stop::Ss2;
 
     /// A door that is opened while a program runs without permissive ends it, in every mode.
-    opened_door_stops_a_program ["HFS-SS2-009"]:
+    opened_door_stops_a_program ["HFS-SS2-009/c"]:
         when |s| s.inputs.door_open && !s.before.open && s.before.program && !s.inputs.permissive()
             => !s.after.program && s.outputs.stop == Stop::Ss2;
 

@@ -102,7 +102,7 @@ contract! {
             => s.outputs.request == GroupState::Auto;
 
     /// With the door open only one key together with the permissive activates.
-    open_door_needs_one_key_and_permissive ["HFS-API-012", "HFS-MAG-001", "HFS-PB-002", "HFS-DOOR-003"]:
+    open_door_needs_one_key_and_permissive ["HFS-MAG-006/b", "HFS-API-012", "HFS-MAG-001", "HFS-PB-002", "HFS-DOOR-003"]:
         when |s| s.inputs.t_open
             => s.outputs.activate == (s.inputs.permissive && s.inputs.keys.is_power_of_two() && s.inputs.gen_safe);
 
@@ -112,7 +112,7 @@ contract! {
             => s.outputs.activate == (s.before.confirmed || (!s.before.open && s.inputs.confirm && !s.before.keyed));
 
     /// With the door closed every axis has its feed enable: keys move without permissive, and the PLC positions.
-    closed_door_enables_every_axis ["HFS-API-017", "HFS-MAG-004"]:
+    closed_door_enables_every_axis ["HFS-MAG-006/a", "HFS-API-017", "HFS-MAG-004"]:
         when |s| !s.inputs.t_open
             => s.outputs.feed == ALL_AXES;
 

@@ -202,7 +202,7 @@ contract! {
 
     /// With its door open alone: SS2 by the stop key, a change of the mode and a jog key that is released, else nothing; one
     /// cycle is enough.
-    open_door_stops_by_event ["HFS-API-022", "HFS-API-019", "HFS-SS2-009", "HFS-FAULT-024", "HFS-SEQ-001", "HFS-SEQ-002", "HFS-KSW-003/b"]:
+    open_door_stops_by_event ["HFS-API-022", "HFS-API-019", "HFS-SS2-009/b", "HFS-SS2-009/d", "HFS-SS2-009/e", "HFS-FAULT-024", "HFS-SEQ-001", "HFS-SEQ-002", "HFS-KSW-003/b"]:
         when |s| s.inputs.door_open && !s.inputs.t_open && s.inputs.som != Som::Som1
             => s.outputs.stop == if s.inputs.stop || s.inputs.som_changed || (s.before.jogged && !s.inputs.jog_held) {
                 Stop::Ss2

@@ -18,7 +18,7 @@ contract! {
 
     /// Every demand is met: the stop in force is at least what was asked for. An SS2 of a group that stands ends at once; one
     /// that is asked for in the cycle of a restart is met by the standstill state that the group takes then.
-    every_demand_is_met ["HFS-STOP-001", "HFS-STOP-003", "HFS-STOP-008", "HFS-P-02"]:
+    every_demand_is_met ["HFS-TIMING-005", "HFS-TIMING-006", "HFS-STOP-001", "HFS-STOP-003", "HFS-P-02"]:
         when |s| s.inputs.demand != Stop::None && !s.inputs.main_switch
             => s.after.level >= s.inputs.demand
                 || (s.inputs.demand == Stop::Ss2 && s.outputs.ss2_ended && s.inputs.still)
@@ -45,7 +45,7 @@ contract! {
             => s.outputs.needs_switch == (s.after.level >= Stop::Ss1F);
 
     /// SS0 takes the torque and closes the brakes in the cycle of its demand.
-    ss0_acts_at_once ["HFS-SS0-001", "HFS-SS0-003/b", "HFS-P-16"]:
+    ss0_acts_at_once ["HFS-STOP-008/a", "HFS-SS0-001", "HFS-SS0-003/b", "HFS-P-16"]:
         when |s| (s.inputs.demand == Stop::Ss0 && !s.inputs.main_switch) || s.after.level == Stop::Ss0
             => s.outputs.torque_off && s.outputs.brake_closed;
 
@@ -75,7 +75,7 @@ contract! {
             };
 
     /// Channel B takes the torque of an SS1 only after the brakes have been closing for their overlap.
-    brake_closes_before_torque_off ["HFS-P-17", "HFS-SS1-006", "HFS-SBC-001"]:
+    brake_closes_before_torque_off ["HFS-STOP-008/b", "HFS-TIMING-010", "HFS-TIMING-011", "HFS-P-17", "HFS-SS1-006", "HFS-SBC-001"]:
         when |s| s.config.is_cc() && s.before.phase == Phase::EmergencyBrake && !s.inputs.main_switch
             && s.inputs.demand != Stop::Ss0 && s.before.timer.count() > 1
             => if !s.inputs.still {
@@ -91,7 +91,7 @@ contract! {
             => s.after.brake == s.before.brake.tick();
 
     /// Channel A keeps the torque until channel B has taken it, or until its own time is up.
-    channel_a_waits_for_b ["HFS-SS1-007", "HFS-STOP-008"]:
+    channel_a_waits_for_b ["HFS-TIMING-011", "HFS-SS1-007", "HFS-STOP-008/c"]:
         when |s| !s.config.is_cc() && s.before.phase == Phase::EmergencyBrake && !s.inputs.main_switch
             && s.inputs.demand != Stop::Ss0 && s.before.timer.count() > 1
             => s.outputs.torque_off == s.inputs.peer_off;
@@ -113,7 +113,7 @@ contract! {
             => s.after.timer == started(s.config.t_ss2());
 
     /// An SS2 leaves the drives and the control voltage on.
-    ss2_keeps_the_torque ["HFS-P-33", "HFS-SS2-001", "HFS-SS2-007"]:
+    ss2_keeps_the_torque ["HFS-STOP-008/e", "HFS-P-33", "HFS-SS2-001", "HFS-SS2-007"]:
         when |s| s.after.level == Stop::Ss2 || s.outputs.ss2_ended
             => !s.outputs.torque_off && !s.outputs.brake_closed && !s.outputs.needs_switch;
 
@@ -170,7 +170,7 @@ contract! {
             => s.before.wide || (s.inputs.wide_cause && s.inputs.demand == Stop::Ss1) || s.before.timer.count() == 1;
 
     /// SS1 and SS1F alike begin on the emergency ramp, in the cycle of their cause, whatever was running below them.
-    ss1_brakes_on_the_emergency_ramp ["HFS-SS1-002", "HFS-SS1F-001"]:
+    ss1_brakes_on_the_emergency_ramp ["HFS-STOP-008/d", "HFS-SS1-002", "HFS-SS1F-001"]:
         when |s| matches!(s.inputs.demand, Stop::Ss1 | Stop::Ss1F) && !s.inputs.main_switch
             && !ramp(s.before.phase) && s.before.phase != Phase::TorqueOff
             => s.outputs.emergency_ramp && s.after.level == s.inputs.demand;

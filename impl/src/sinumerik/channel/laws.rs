@@ -31,12 +31,12 @@ const fn discrepancy(step: &Step) -> bool {
 contract! {
     /// What any monitor requires is latched in the same cycle, also in a cycle of RESET or power-on.
     every_violation_is_latched_at_once ["S840D-P-20", "S840D-P-47", "S840D-P-49", "S840D-P-52", "S840D-STOP-001",
-        "S840D-ACK-002", "S840D-STOP-002", "S840D-STOP-025", "S840D-STOP-033", "S840D-STOP-066"]:
+        "S840D-ACK-002", "S840D-STOP-002/a", "S840D-STOP-002/b", "S840D-STOP-002/c", "S840D-STOP-002/e", "S840D-STOP-025", "S840D-STOP-033", "S840D-STOP-066"]:
         when |s| s.outputs.demand != InternalStop::None
             => s.after.stop.internal >= s.outputs.demand && s.after.stop.level >= s.outputs.demand.level();
 
     /// Outside the window of the operating stop, selected or forced: STOP B or A in the same cycle.
-    standstill_violation_stops ["S840D-P-04", "S840D-SBH-005", "S840D-STOP-081", "S840D-STOP-002", "S840D-ARCH-510"]:
+    standstill_violation_stops ["S840D-STOP-013/f", "S840D-P-04", "S840D-SBH-005", "S840D-STOP-081", "S840D-STOP-002/a", "S840D-ARCH-510"]:
         when |s| s.outputs.selection.monitored == Monitored::Standstill
             && s.outputs.motion.position.distance(s.outputs.selection.reference).0 > s.config.standstill.tolerance().0
             => s.after.stop.internal >= InternalStop::B && s.outputs.stop.sga_stop_ab;
@@ -67,13 +67,13 @@ contract! {
             => s.outputs.stop.stopsi == if s.inputs.external_test { 11 } else { 5 };
 
     /// Faster than the limit in force: the stop of the stage in the same cycle.
-    speed_violation_stops ["S840D-P-47", "S840D-P-49", "S840D-SG-006", "S840D-STOP-002", "S840D-STOP-025",
+    speed_violation_stops ["S840D-STOP-013/b", "S840D-P-47", "S840D-P-49", "S840D-SG-006", "S840D-STOP-002/b", "S840D-STOP-025",
         "S840D-STOP-033", "S840D-SG-007"]:
         when |s| s.outputs.selection.monitored == Monitored::Speed && s.outputs.motion.speed > s.outputs.selection.limit
             => s.after.stop.internal >= s.config.speed.stop(s.outputs.selection.sga_sg);
 
     /// Faster than the braking ramp: pulses off in the same cycle.
-    ramp_violation_cancels_pulses ["S840D-P-01", "S840D-P-11", "S840D-SBR-003", "S840D-STOP-002", "S840D-ARCH-513",
+    ramp_violation_cancels_pulses ["S840D-STOP-013/a", "S840D-P-01", "S840D-P-11", "S840D-SBR-003", "S840D-STOP-002/e", "S840D-ARCH-513",
         "S840D-SBR-005", "S840D-SBR-006"]:
         when |s| !s.inputs.power_on && s.before.stop.sbr_on()
             && s.outputs.motion.speed > s.before.ramp.limit(&s.config.ramp)
@@ -149,7 +149,7 @@ contract! {
             => s.outputs.fault.alarm && s.after.fault.fault != FaultState::None;
 
     /// A failed test ends in STOP A in the same cycle.
-    failed_test_stops ["S840D-P-29", "S840D-P-35", "S840D-TEST-012", "S840D-STOP-002"]:
+    failed_test_stops ["S840D-STOP-013/d", "S840D-P-29", "S840D-P-35", "S840D-TEST-012", "S840D-STOP-002/g"]:
         when |s| s.outputs.test.demand == InternalStop::A
             => s.after.stop.internal == InternalStop::A && !s.outputs.pulses.enable;
 

@@ -18,7 +18,7 @@ use crate::kernel::ConfigError;
 use crate::units::{Axis, ModuloRange};
 use datum::Elements;
 
-/// How many encoders measure the axis (S840D-ARCH-503).
+/// How many encoders measure the axis (S840D-ARCH-503/a).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Encoders {
     /// One, read by both channels.

@@ -153,7 +153,7 @@ inventory! {
     }]
     [run(6) axis_single on sinumerik::"gear, agreement, reference" by axis::single_agreement_does_not_last {
         property: "an agreement in one channel only is withdrawn after t_differ and never makes the axis safely referenced",
-        requirements: ["S840D-P-13", "S840D-UA-009", "S840D-REF-006"],
+        requirements: ["S840D-P-13", "S840D-UA-009", "S840D-REF-006/a"],
         covers: ["one channel alone agreed"],
         domain: NARROW,
         domain_text: "t_differ 1 to 3 cycles; either channel; parking in every pattern",

@@ -163,7 +163,7 @@ inventory! {
     }]
     [run(40) encoder_position on sinumerik::"encoder" by units::encoder_position_rounds_down {
         property: "the position of a rotary encoder is the exact one rounded down, in both directions",
-        requirements: ["S840D-ENC-006"],
+        requirements: ["S840D-ENC-006", "S840D-ARCH-503/b"],
         covers: ["reversed, below zero, rounded"],
         domain: NARROW,
         domain_text: "small pulses, gear ratios and pitches, and the largest; counts -6 to 6 and the ends of 32 bits",
