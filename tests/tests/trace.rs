@@ -78,6 +78,7 @@ fn known_requirements_are_traced_through_every_stage() {
 /// The core requirements that are still open in what is meant to be complete: the family heidenhain-fs, and the axis
 /// monitoring of the family sinumerik-840d (`requirements-functions.toml`). Neither is declared complete while one is left.
 const STILL_OPEN: &[&str] = &[
+    "HFS-KDV-002",
     "HFS-STOP-006",
     "HFS-SS0-003",
     "HFS-FAULT-008",

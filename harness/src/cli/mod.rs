@@ -93,7 +93,7 @@ enum Command {
     Simulate(simulate::Arguments),
     /// The requirement matrix: which rules, monitors, proofs and tests carry each requirement
     #[command(
-        after_help = "Exit status: 0; 1 if a family declared complete has open core requirements or an id is in no catalogue; 2 bad input.\n\nExample: stillpoint trace --html matrix.html"
+        after_help = "Exit status: 0; 1 if a family declared complete has open core requirements, an id is in no catalogue or a delegation leads nowhere; 2 bad input.\n\nExample: stillpoint trace --html matrix.html"
     )]
     Trace(trace::Arguments),
     /// Check whether a machine file is plausible, without exploring anything

@@ -82,7 +82,7 @@ contract! {
                 && (!s.outputs.held || (s.inputs.held_mc && s.inputs.held_cc));
 
     /// Without a difference everything is taken over.
-    equal_requests_are_taken_over ["HFS-KDV-001", "HFS-KDV-002"]:
+    equal_requests_are_taken_over ["HFS-KDV-001", "HFS-KDV-002/a"]:
         when |s| !s.outputs.differ
             => s.inputs.request_mc == s.inputs.request_cc && s.outputs.request == s.inputs.request_mc
                 && s.inputs.stop_mc == s.inputs.stop_cc
@@ -90,7 +90,7 @@ contract! {
                 && s.outputs.held == s.inputs.held_mc && s.inputs.held_mc == s.inputs.held_cc;
 
     /// Any field that differs is a difference.
-    every_field_is_compared ["HFS-KDV-001", "HFS-KDV-002"]:
+    every_field_is_compared ["HFS-KDV-001", "HFS-KDV-002/a"]:
         when |s| s.inputs.request_mc != s.inputs.request_cc || s.inputs.stop_mc != s.inputs.stop_cc
             || s.inputs.starts_mc != s.inputs.starts_cc || s.inputs.held_mc != s.inputs.held_cc
             => s.outputs.differ;

@@ -112,7 +112,7 @@ contract! {
             => !s.outputs.torque_off && !s.outputs.stop.torque_off && s.outputs.group.state.is_released();
 
     /// The other channel is told what this one has taken over, checked.
-    other_channel_is_told ["HFS-KDV-002", "HFS-AXG-012"]:
+    other_channel_is_told ["HFS-KDV-002/b", "HFS-AXG-012"]:
         when |s| s.outputs.differ
             => s.outputs.taken == own(&s)
                 && (s.outputs.taken.request != s.inputs.peer.request || s.outputs.taken.stop != s.inputs.peer.stop
