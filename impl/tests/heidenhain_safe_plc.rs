@@ -189,7 +189,7 @@ fn spindle_by_mode() {
     }
 }
 
-/// HFS-KSW-003 (6.1.6; AMB-74): every change of the mode with the door open is SS2 for axes and spindle, that to SOM_1 too.
+/// HFS-KSW-003/a/b (6.1.6; AMB-74): every change of the mode with the door open is SS2 for axes and spindle, that to SOM_1 too.
 #[test]
 fn every_change_of_the_mode_stops_axes_and_spindle() {
     for (som, door_open) in Som::ALL.into_iter().flat_map(|s| [(s, false), (s, true)]) {

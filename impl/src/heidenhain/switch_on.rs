@@ -140,7 +140,7 @@ contract! {
                 && !s.inputs.dropped;
 
     /// A chain that does not close in time, or a brake that is supplied, is a fault: SS1, in the self-test SS1F.
-    open_chain_is_a_fault ["HFS-NCC-001", "HFS-NCC-002", "HFS-TEST-013", "HFS-FAULT-010"]:
+    open_chain_is_a_fault ["HFS-TEST-012/a", "HFS-NCC-001", "HFS-NCC-002", "HFS-TEST-013", "HFS-FAULT-010"]:
         when |s| s.before.voltage == Voltage::ChainCheck && s.before.timer.count() == 1
             && (!s.inputs.chain || s.inputs.t_brk)
             && s.inputs.may_on && !s.inputs.dropped

@@ -133,7 +133,7 @@ contract! {
             => s.outputs.stop == Stop::Ss1;
 
     /// Otherwise SS2 with the door open, unless it is moved by hand and the mode stays as it is.
-    released_keys_are_ss2 ["HFS-MAG-003", "HFS-API-023", "HFS-SEQ-008"]:
+    released_keys_are_ss2 ["HFS-KSW-003/c", "HFS-MAG-003", "HFS-API-023", "HFS-SEQ-008"]:
         when |s| s.inputs.t_open && (s.before.open || !s.inputs.moving)
             => s.outputs.stop
                 == if s.inputs.permissive && s.inputs.keys.is_power_of_two() && !s.inputs.som_changed {
