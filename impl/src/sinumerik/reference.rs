@@ -151,7 +151,7 @@ contract! {
                 && (s.after.axis == AxisState::Ref || s.after.axis == AxisState::SafeRef);
 
     /// The missing safe reference is reported where position monitors need it, and only there.
-    missing_reference_is_reported ["S840D-REF-011", "S840D-REF-013"]:
+    missing_reference_is_reported ["S840D-REF-011", "S840D-REF-013", "S840D-UA-002/b"]:
         when |s| s.config.se_sn_enabled || s.outputs.message
             => s.config.se_sn_enabled && s.outputs.message != s.outputs.safely_referenced;
 

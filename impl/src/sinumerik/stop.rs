@@ -351,7 +351,7 @@ contract! {
             );
 
     /// Without an effective stop the variable shows the test of the external shutdown, else STOP F, the lowest of all.
-    stopsi_shows_test_and_fault ["S840D-STOP-053"]:
+    stopsi_shows_test_and_fault ["S840D-STOP-053/b", "S840D-STOP-053/c"]:
         when |s| s.after.level == Level::None
             => s.outputs.stopsi == match (s.inputs.external_test, s.inputs.fault) {
                 (true, _) => 11,

@@ -378,7 +378,7 @@ fn stop_c_without_a_time_is_the_operating_stop_at_once() {
     }
 }
 
-/// S840D-STOP-053: `$VA_STOPSI` shows STOP F where no stop is effective, and the test of the external shutdown.
+/// S840D-STOP-053/b, S840D-STOP-053/c: `$VA_STOPSI` shows STOP F where no stop is effective, and the test of the external shutdown.
 #[test]
 fn stopsi_shows_stop_f_and_the_external_test() {
     let mut machine = Machine::powered(&parameters(), false, None);

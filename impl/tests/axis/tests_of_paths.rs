@@ -143,7 +143,7 @@ fn the_external_test_covers_every_axis_of_the_output() {
     }
 }
 
-/// S840D-TEST-019: an external stop under a test that lasts longer than t_chg is code 58 in both channels; the stop itself
+/// S840D-TEST-019/a, S840D-TEST-019/b: an external stop under a test that lasts longer than t_chg is code 58 in both channels; the stop itself
 /// goes on. A test shorter than t_chg, and one without a stop, raise nothing.
 #[test]
 fn an_external_stop_under_the_external_test_is_code_58() {

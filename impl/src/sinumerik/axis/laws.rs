@@ -74,7 +74,7 @@ contract! {
 
     /// While the external shutdown is tested the NCK presents no external stop for the comparison, so that one at the drive
     /// is a difference: code 58 once t_chg has passed.
-    stop_under_the_shutdown_test_is_a_difference ["S840D-TEST-019", "S840D-KDV-512"]:
+    stop_under_the_shutdown_test_is_a_difference ["S840D-TEST-019/a", "S840D-KDV-512"]:
         when |s| s.after.shutdown_test.selected || s.after.shutdown_test.active()
             => s.after.told.external == ExternalStop::None && s.outputs.exchange.snapshot.external == ExternalStop::None;
 
@@ -85,7 +85,7 @@ contract! {
                 && s.outputs.channel.stop.level >= s.outputs.channel.external.request.level();
 
     /// A change of a signal that selects a stop starts t_chg, and so does the selection of the shutdown test.
-    change_of_a_stop_signal_starts_the_tolerance_time ["S840D-EXT-006", "S840D-KDV-506", "S840D-TEST-019"]:
+    change_of_a_stop_signal_starts_the_tolerance_time ["S840D-EXT-006", "S840D-KDV-506", "S840D-TEST-019/b"]:
         when |s| !s.inputs.local.power_on
             && (s.inputs.local.sge.stop_a_off != s.before.sge.stop_a_off
                 || s.inputs.local.sge.stop_c_off != s.before.sge.stop_c_off
@@ -98,7 +98,7 @@ contract! {
 
     /// The cams are shown without agreement too, but then the axis is not safely referenced and the message tells it: to use
     /// them the agreement is needed.
-    cams_without_agreement_are_not_safe ["S840D-UA-002", "S840D-SN-003", "S840D-REF-013"]:
+    cams_without_agreement_are_not_safe ["S840D-UA-002/a", "S840D-SN-003", "S840D-REF-013"]:
         when |s| !s.after.agreement.agreed && s.config.monitors().channel.se_sn_enabled
             => !s.outputs.sga.safely_referenced && s.outputs.reference.message;
 

@@ -65,7 +65,7 @@ pub struct Told {
     /// The reference of the operating stop, corrected as the position was when it was captured.
     pub reference: Position,
     /// The external stop request, that of the other channel included; none while the external shutdown is tested, since the
-    /// drive must have none then (S840D-TEST-019).
+    /// drive must have none then (S840D-TEST-019/a).
     pub external: ExternalStop,
     /// The override factor selected; none where the override is not enabled.
     pub over: FactorIndex,

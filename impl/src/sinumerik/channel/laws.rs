@@ -62,7 +62,7 @@ contract! {
             => !s.outputs.standstill.violated && s.outputs.motion.speed <= s.before.motion.speed;
 
     /// `$VA_STOPSI` shows STOP F where no stop is effective, and the test of the external shutdown before it.
-    stopsi_shows_test_and_fault ["S840D-STOP-053"]:
+    stopsi_shows_test_and_fault ["S840D-STOP-053/b", "S840D-STOP-053/c"]:
         when |s| s.outputs.stop.level == Level::None && (s.inputs.external_test || s.after.fault.fault != FaultState::None)
             => s.outputs.stop.stopsi == if s.inputs.external_test { 11 } else { 5 };
 
