@@ -53,7 +53,7 @@ pub struct Outputs {
 
 contract! {
     /// SOM_2: a second moving axis stops all of them.
-    one_axis_in_som_2 ["HFS-P-32", "HFS-MON-007", "HFS-MON-008"]:
+    one_axis_in_som_2 ["HFS-MODE-004/c", "HFS-P-32", "HFS-MON-007", "HFS-MON-008"]:
         when |s| s.inputs.state == GroupState::Sls2 && s.inputs.moving > 1
             => s.outputs.demand == Stop::Ss2;
 

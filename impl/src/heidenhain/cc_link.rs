@@ -111,7 +111,7 @@ pub struct Outputs {
 
 contract! {
     /// A sound telegram counts as it is, and ends a row of faulty ones.
-    sound_telegram_counts ["HFS-ARCH-003"]:
+    sound_telegram_counts ["HFS-TIMING-003/a", "HFS-ARCH-003"]:
         when |s| s.inputs.sound && !s.inputs.main_switch
             => s.outputs.drive == s.inputs.drive && s.after.last == s.inputs.drive && s.after.faulty == 0;
 

@@ -194,7 +194,7 @@ pub struct Outputs {
     /// A restart is prevented (S840D-STOP-083).
     pub start_inhibit: bool,
     /// The stop as `$VA_STOPSI` shows it: -1 none, 0 A, 1 B, 2 C, 3 D, 4 E, 5 F, 10 test, 11 test of the external shutdown
-    /// (S840D-STOP-053).
+    /// (S840D-STOP-053/a).
     pub stopsi: i8,
 }
 

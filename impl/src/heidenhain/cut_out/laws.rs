@@ -56,7 +56,7 @@ contract! {
                 && s.outputs.watch_cc == (s.outputs.on_cc && !s.outputs.on_mc);
 
     /// A feedback that does not come in its time is a fault of the tested axes and of all others.
-    late_feedback_is_a_fault ["HFS-TEST-020", "HFS-TEST-021", "HFS-BCT-003", "HFS-SS0-004"]:
+    late_feedback_is_a_fault ["HFS-TEST-012/a", "HFS-TEST-012/b", "HFS-TEST-020", "HFS-TEST-021", "HFS-BCT-003", "HFS-SS0-004"]:
         when |s| s.after.step == Phase::Fault && s.before.step != Phase::Fault
             => s.before.timer.count() == 1 && s.outputs.fault && s.outputs.others == Stop::Ss1F
                 && s.outputs.tested == if s.before.step.is_brake_control() { Stop::Ss0 } else { Stop::Ss1F };

@@ -135,7 +135,7 @@ contract! {
             => s.outputs.request == GroupState::StoO;
 
     /// With the door open the mode decides; restricted operation replaces the limit of SOM_2 to SOM_4, never the standstill of SOM_1.
-    open_door_asks_for_the_mode ["HFS-API-003", "HFS-MODE-001", "HFS-MODE-003", "HFS-MODE-013", "HFS-GRP-006"]:
+    open_door_asks_for_the_mode ["HFS-API-004/b", "HFS-API-003", "HFS-MODE-001", "HFS-MODE-003", "HFS-MODE-013", "HFS-GRP-006"]:
         when |s| s.inputs.door_open && !s.inputs.holder_open
             => s.outputs.request == if s.inputs.restricted && s.inputs.som != Som::Som1 {
                 GroupState::SlsS
@@ -175,7 +175,7 @@ contract! {
             => s.outputs.activate;
 
     /// Spindle start activates from its edge with the permissive until one of them is released.
-    start_activates_from_its_edge ["HFS-API-011", "HFS-SEQ-002"]:
+    start_activates_from_its_edge ["HFS-MODE-004/d", "HFS-API-011", "HFS-SEQ-002"]:
         when |s| s.inputs.may_start() && !s.inputs.jog
             => s.outputs.activate == (s.inputs.start() && (!s.before.starts || s.before.started));
 

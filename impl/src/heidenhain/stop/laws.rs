@@ -45,7 +45,7 @@ contract! {
             => s.outputs.needs_switch == (s.after.level >= Stop::Ss1F);
 
     /// SS0 takes the torque and closes the brakes in the cycle of its demand.
-    ss0_acts_at_once ["HFS-STOP-008/a", "HFS-SS0-001", "HFS-SS0-003/b", "HFS-P-16"]:
+    ss0_acts_at_once ["HFS-SS0-003/a", "HFS-STOP-008/a", "HFS-SS0-001", "HFS-SS0-003/b", "HFS-P-16"]:
         when |s| (s.inputs.demand == Stop::Ss0 && !s.inputs.main_switch) || s.after.level == Stop::Ss0
             => s.outputs.torque_off && s.outputs.brake_closed;
 
