@@ -31,7 +31,11 @@ pub fn motion<S: Source>(
     let state = motion::State {
         last: position(source, 3),
         known,
-        speed: if known { source.any_speed() } else { Speed(0) },
+        speed: if known {
+            Speed(source.any_u32(0, u32::MAX))
+        } else {
+            Speed(0)
+        },
     };
     let inputs = motion::Inputs {
         power_on: source.any_bool(),
