@@ -89,7 +89,7 @@ impl Pair {
         let inputs = &system.inputs;
         let k = inputs
             .iter()
-            .position(|i| i.name == name)
+            .position(|i| is(&i.name, name))
             .ok_or_else(|| format!("no input is called {name}"))?;
         let (lo, hi) = self.bound.inputs[k];
         let of = |n: &i32| {
@@ -133,7 +133,7 @@ impl Pair {
             .iter()
             .map(|name| {
                 let mut all = self.bound.system.inputs.iter();
-                all.position(|i| i.name == *name)
+                all.position(|i| is(&i.name, name))
                     .ok_or(format!("no input {name}"))
             })
             .collect::<Result<_, _>>()?;
@@ -170,11 +170,11 @@ impl Pair {
     /// An output's value as a case has it.
     fn value(&self, name: &str, number: i64) -> Value {
         let system = &self.bound.system;
-        let state = system.states.iter().find(|s| s.var.name == name);
+        let state = system.states.iter().find(|s| is(&s.var.name, name));
         let mut outputs = system.lazies.iter().filter(|l| l.kind == LazyKind::Output);
         let ty = match state {
             Some(state) => state.var.ty,
-            None => outputs.find(|l| l.name == name).map_or(Ty::Int, |l| l.ty),
+            None => outputs.find(|l| is(&l.name, name)).map_or(Ty::Int, |l| l.ty),
         };
         match ty {
             Ty::Bool => (number != 0).into(),
@@ -220,6 +220,11 @@ impl Pair {
             _ => Err(format!("{question}: not a question")),
         }
     }
+}
+
+/// Whether a port of a machine on its own, which has its instance before it, has this name.
+fn is(port: &str, name: &str) -> bool {
+    port == name || port.split_once('.').is_some_and(|(_, short)| short == name)
 }
 
 /// A parameter of a table: a number, or a time that the monitors' conversion turns into cycles.
