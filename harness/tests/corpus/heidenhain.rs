@@ -174,7 +174,9 @@ impl Pair {
         let mut outputs = system.lazies.iter().filter(|l| l.kind == LazyKind::Output);
         let ty = match state {
             Some(state) => state.var.ty,
-            None => outputs.find(|l| is(&l.name, name)).map_or(Ty::Int, |l| l.ty),
+            None => outputs
+                .find(|l| is(&l.name, name))
+                .map_or(Ty::Int, |l| l.ty),
         };
         match ty {
             Ty::Bool => (number != 0).into(),
