@@ -5,6 +5,7 @@
 
 mod data;
 mod page;
+mod parameters;
 mod tables;
 
 use std::collections::BTreeSet;
@@ -54,6 +55,10 @@ pub fn pages(folder: &Path) -> Result<Vec<Written>, PagesError> {
         name: "index.md".to_owned(),
         text: index(&family).markdown(),
     }];
+    out.push(Written {
+        name: parameters::NAME.to_owned(),
+        text: parameters::document(&family.known).markdown(),
+    });
     for page in &family.data.page {
         let document = page::document(folder, &family, page, &catalogue, &example)?;
         let stem = page.name.get_ref();

@@ -5,6 +5,7 @@ mod common;
 
 mod acceptance;
 mod answers;
+mod book;
 mod messages;
 mod place;
 
