@@ -256,7 +256,7 @@ fn each_kind_fails_with_a_broken_expectation() {
         // It brakes in time.
         (
             "SG1-NOT-BRAKED-Y",
-            "braking      = \"31 mm/s2\"",
+            "braking      = \"27 mm/s2\"",
             "braking      = \"500 mm/s2\"",
         ),
         (
@@ -313,8 +313,8 @@ fn each_kind_fails_with_a_broken_expectation() {
 #[test]
 fn a_test_that_fails_is_told_with_its_diagram() {
     // An axis that stays below its limit is not stopped; two tests drive it.
-    let fast = "{VELO_LIMIT[k] + MAX(VELO_LIMIT[k] / 10, 60000) : speed}";
-    let slow = [(CATALOGUE, fast, "{VELO_LIMIT[k] / 2 : speed}"); 2];
+    let fast = "v = \"VELO_LIMIT[k] + MAX(VELO_LIMIT[k] / 10, 60000)\"";
+    let slow = [(CATALOGUE, fast, "v = \"VELO_LIMIT[k] / 2\""); 2];
     let file = copied("acceptance-run", MILLING, FAMILY, &slow);
     let output = stillpoint(&["acceptance", &file, "--run"]);
     assert_eq!(output.status.code(), Some(1));
