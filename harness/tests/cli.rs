@@ -438,3 +438,47 @@ fn reductions_keep_verdicts_and_say_what_they_did() {
     assert_eq!(status(&wrong), 2);
     assert!(stderr(&wrong).contains("there is no reduction `slices`"));
 }
+
+#[test]
+fn errors_quote_a_part_of_long_lines() {
+    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("long-lines");
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let long = "x".repeat(400_000);
+    let words = "a AND ".repeat(70_000);
+    let accents = "\u{e9}".repeat(200_000);
+    let spec = |key: &str| {
+        format!(
+            "spec = \"s\"\ntitle = \"t\"\n[machine.m]\ntext = \"t\"\notherwise = \"stay\"\n[machine.m.input]\na = \"BOOL\"\n\
+             [machine.m.state]\nb = {{ type = \"BOOL\", init = \"FALSE\" }}\n[[machine.m.rule]]\nname = \"r\"\n\
+             id = [\"S840D-STOP-020\"]\n{key}\nthen = \"b := TRUE;\"\n[system.m]\ntext = \"t\"\n\
+             [system.m.instance]\nm = {{ machine = \"m\" }}\n[system.m.free]\nports = [\"m.a\"]\n"
+        )
+    };
+    for (number, (text, place)) in [
+        (spec(&format!("when = \"{words} unknown\"")), None),
+        (spec(&format!("when = \"{long}\"")), Some("13:9")),
+        (spec(&format!("{long} = 1")), Some("13:1")),
+        (spec(&format!("when = \"a {long}")), None),
+        (format!("spec = \"{accents}\" \"\n"), None),
+        (format!("title = 1 # {long}\n"), None),
+        (format!("{long}\n{long}\n"), None),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let file = folder.join(format!("{number}.toml"));
+        std::fs::write(&file, text).expect("written");
+        let output = stillpoint(&["check", file.to_str().expect("UTF-8")]);
+        let errors = stderr(&output);
+        assert_eq!(status(&output), 2, "{number}: {} bytes", errors.len());
+        assert!(
+            errors.len() < 6_000,
+            "{number}: {} bytes on stderr",
+            errors.len()
+        );
+        if let Some(place) = place {
+            assert!(errors.contains(place), "{number}: {errors}");
+        }
+    }
+    let _ = std::fs::remove_dir_all(&folder);
+}

@@ -4,7 +4,9 @@ use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
 
-use miette::{LabeledSpan, NamedSource, SourceCode};
+use miette::{LabeledSpan, SourceCode};
+
+use crate::excerpt::{Excerpt, shortened};
 
 /// One finding about an input file.
 #[derive(Debug, Clone)]
@@ -21,7 +23,8 @@ pub struct Diagnostic {
     pub label: String,
     /// What to write instead, or which values are allowed.
     pub help: String,
-    named: NamedSource<String>,
+    /// What is shown of the source: small, whatever its size.
+    excerpt: Option<Excerpt>,
 }
 
 /// All errors found in an input, in file order. Never empty when returned as an error.
@@ -42,25 +45,25 @@ impl Diagnostic {
         Self {
             file: file.to_owned(),
             source: source.clone(),
+            excerpt: span.as_ref().map(|span| Excerpt::new(file, source, span)),
             span,
-            message: message.into(),
+            message: shortened(message.into()),
             label: String::new(),
             help: String::new(),
-            named: NamedSource::new(file, source.to_string()),
         }
     }
 
     /// Sets the text shown at the marked place.
     #[must_use]
     pub fn label(mut self, label: impl Into<String>) -> Self {
-        self.label = label.into();
+        self.label = shortened(label.into());
         self
     }
 
     /// Sets the fix.
     #[must_use]
     pub fn help(mut self, help: impl Into<String>) -> Self {
-        self.help = help.into();
+        self.help = shortened(help.into());
         self
     }
 
@@ -99,11 +102,11 @@ impl miette::Diagnostic for Diagnostic {
     }
 
     fn source_code(&self) -> Option<&dyn SourceCode> {
-        self.span.as_ref().map(|_| &self.named as &dyn SourceCode)
+        self.excerpt.as_ref().map(|e| e as &dyn SourceCode)
     }
 
     fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
-        let span = self.span.clone()?;
+        let span = self.excerpt.as_ref()?.span.clone();
         let label = (!self.label.is_empty()).then(|| self.label.clone());
         Some(Box::new(std::iter::once(LabeledSpan::new(
             label,

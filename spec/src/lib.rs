@@ -12,6 +12,7 @@ pub mod catalogue;
 pub mod codegen;
 pub mod diag;
 pub mod eval;
+mod excerpt;
 pub mod files;
 pub mod fold;
 mod interval;

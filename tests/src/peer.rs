@@ -26,6 +26,22 @@ pub fn tools(programs: &[&str]) -> bool {
     true
 }
 
+/// A peer that `.ci/peers` has put into `target/tools`, if it is there. A user without it sees that the test was skipped; where
+/// the environment has `CI`, it fails then.
+///
+/// # Panics
+/// If it is missing and `CI` is set.
+pub fn fetched(file: &str) -> Option<PathBuf> {
+    let path = crate::root().join("target/tools").join(file);
+    if path.exists() {
+        return Some(path);
+    }
+    let message = format!("SKIPPED: {file} is not in target/tools; .ci/peers puts it there");
+    assert!(std::env::var_os("CI").is_none(), "{message}");
+    eprintln!("{message}");
+    None
+}
+
 /// A folder that goes away with the value.
 pub struct Folder(PathBuf);
 

@@ -156,3 +156,38 @@ fn a_limit_leaves_only_what_was_seen() {
     assert_eq!(open, written.open);
     assert!(open > 15, "{open}");
 }
+
+/// The least time that `work` takes in three runs.
+fn least(mut work: impl FnMut()) -> std::time::Duration {
+    let times = (0..3).map(|_| {
+        let start = std::time::Instant::now();
+        work();
+        start.elapsed()
+    });
+    times.min().unwrap_or_default()
+}
+
+#[test]
+fn a_certificate_costs_at_most_twice_the_check() {
+    let file = root().join("spec/sinumerik-840d/axis.toml");
+    let subject = subject::load(&file, &BTreeMap::new()).unwrap_or_else(|e| panic!("{e}"));
+    let settings = Settings {
+        threads: 1,
+        ..Settings::default()
+    };
+    let explored = || {
+        check(&subject, &settings, &mut |_| Box::new(()))
+            .unwrap_or_else(|(title, e)| panic!("{title}: {e}"))
+    };
+    let checked = explored();
+    let path = scratch("cost.cert");
+    let checking = least(|| drop(explored()));
+    let writing = least(|| {
+        certificate::certify(&path, &subject, &checked, 1, &|_, _| ())
+            .unwrap_or_else(|e| panic!("{e}"));
+    });
+    std::fs::remove_file(path).expect("removed");
+    let ratio = writing.as_secs_f64() / checking.as_secs_f64();
+    eprintln!("check {checking:?}, certificate {writing:?}: {ratio:.2} times");
+    assert!(ratio <= 2.0, "{writing:?} beside {checking:?}");
+}

@@ -52,11 +52,13 @@ pub(crate) struct Leads<'a> {
 impl Leads<'_> {
     /// A cycle from the state at `from` to that at `to`; false if it breaks the rules.
     fn cycle(&self, cycle: &mut Cycle, from: usize, to: usize, most: &mut u32) -> bool {
-        if cycle.atom(self.goal) {
+        let (rank, next) = (self.rank[from], self.rank[to]);
+        // Where nothing is awaited and nothing begins, the goal does not matter.
+        let begins = cycle.atom(self.when);
+        if (rank == 0 && !begins) || cycle.atom(self.goal) {
             return true;
         }
-        let (rank, next) = (self.rank[from], self.rank[to]);
-        if cycle.atom(self.when) {
+        if begins {
             *most = next.max(*most);
             if next == 0 || self.within.is_some_and(|within| next > within) {
                 return false;

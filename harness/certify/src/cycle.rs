@@ -56,6 +56,7 @@ pub struct Cycle<'a> {
     frame: Frame,
     step: Odometer,
     extra: Odometer,
+    /// The named expressions as the step has left them.
     lazies: Vec<i32>,
 }
 
@@ -86,6 +87,7 @@ impl<'a> Cycle<'a> {
             self.frame.start(state);
             let read = &mut |k: usize| self.step.read(k, inputs[k].0);
             let made = self.bound.step(&mut self.frame, read);
+            self.lazies.clone_from(&self.frame.lazies);
             visit(self, made)?;
             if !self.step.advance(|k| inputs[k].1) {
                 return Ok(());
@@ -95,7 +97,6 @@ impl<'a> Cycle<'a> {
 
     /// Whether `judge` is true for every combination of the inputs that it reads and the step did not.
     pub fn all(&mut self, mut judge: impl FnMut(&mut Self) -> bool) -> bool {
-        self.lazies.clone_from(&self.frame.lazies);
         self.extra.clear();
         loop {
             let fine = judge(self);

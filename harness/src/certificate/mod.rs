@@ -3,6 +3,7 @@
 //! What a certificate has to show is defined by its checker, the crate `stillpoint-certify`. This module finds the sets,
 //! ranks and runs it asks for, with another walk through the reachable states; nothing that is confirmed rests on it.
 
+mod cycle;
 mod ranks;
 mod search;
 
@@ -14,6 +15,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use stillpoint_certify::format::{Body, Kind, Proof, Run, Task, Verdict};
 use stillpoint_certify::states::Radix;
 use stillpoint_certify::{subject, write};
+use stillpoint_model::table::{Generated, Interpreted};
 use stillpoint_model::{self as model, Judgement, Trace};
 use stillpoint_spec::bind::Bound;
 use stillpoint_spec::ir::Form;
@@ -136,10 +138,13 @@ fn build(bound: &Bound, checked: &Checked, mut task: Task) -> Result<(Task, Body
     let mut claims = forms.zip(task.property.iter().map(|p| p.verdict));
     if report.complete || claims.any(about_all) {
         let verdicts: Vec<Verdict> = task.property.iter().map(|p| p.verdict).collect();
-        let found = Search::run(bound, radix, &verdicts);
-        found
-            .and_then(|search| search.prove(&mut task, &mut body))
-            .map_err(|e| format!("{}: no certificate can be made: {e}", task.system))?;
+        let found = match Generated::find(bound) {
+            Some(system) => Search::run(bound, &system, radix, &verdicts)
+                .and_then(|search| search.prove(&mut task, &mut body)),
+            None => Search::run(bound, &Interpreted::new(bound), radix, &verdicts)
+                .and_then(|search| search.prove(&mut task, &mut body)),
+        };
+        found.map_err(|e| format!("{}: no certificate can be made: {e}", task.system))?;
     } else {
         for fault in &report.faults {
             let site = bound.system.sites.get(fault.code as usize);

@@ -2,20 +2,23 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use stillpoint_certify::cycle::{Cycle, PairCycle, Pairing};
+use stillpoint_certify::cycle::{PairCycle, Pairing};
 use stillpoint_certify::format::{Body, Run, Task, Verdict};
 use stillpoint_certify::states::Radix;
+use stillpoint_model::System;
 use stillpoint_spec::bind::Bound;
 use stillpoint_spec::ir::Form;
 
+use super::cycle::Cycle;
 use super::ranks::{Edge, distances, ranks};
 
 /// A cycle: the number of the state before it, and the inputs.
 type Place = (u32, Vec<(u32, u32)>);
 
 /// The reachable states, and what each property needs.
-pub(super) struct Search<'a> {
+pub(super) struct Search<'a, S> {
     bound: &'a Bound,
+    system: &'a S,
     radix: Radix,
     /// States in the order in which they were found.
     keys: Vec<u128>,
@@ -94,7 +97,7 @@ impl Need {
     }
 
     /// What one cycle of the first walk shows.
-    fn cycle(&mut self, cycle: &mut Cycle, from: u32, to: u32) {
+    fn cycle<S: System>(&mut self, cycle: &mut Cycle<S>, from: u32, to: u32) {
         if let (Some(atom), None) = (self.witness, &self.seen) {
             let seen = &mut self.seen;
             cycle.all(|c| {
@@ -108,7 +111,7 @@ impl Need {
             self.under[to as usize] = !cycle.all(|c| c.atom(duty.end) || !c.atom(duty.when));
         }
         if let Some((goal, using)) = self.goal {
-            let usable = |c: &mut Cycle| using.is_none_or(|u| c.atom(u));
+            let usable = |c: &mut Cycle<S>| using.is_none_or(|u| c.atom(u));
             if self.usable.last() != Some(&(from, to)) && !cycle.all(|c| !usable(c)) {
                 self.usable.push((from, to));
             }
@@ -127,16 +130,18 @@ impl Need {
     }
 }
 
-impl<'a> Search<'a> {
+impl<'a, S: System> Search<'a, S> {
     /// Walks through all reachable states.
     pub(super) fn run(
         bound: &'a Bound,
+        system: &'a S,
         radix: Radix,
         verdicts: &[Verdict],
     ) -> Result<Self, String> {
         let properties = bound.system.properties.iter().zip(verdicts);
         let mut search = Self {
             bound,
+            system,
             radix,
             keys: Vec::new(),
             number: HashMap::new(),
@@ -145,7 +150,7 @@ impl<'a> Search<'a> {
             faults: BTreeMap::new(),
         };
         search.initial()?;
-        let mut cycles = Cycle::new(bound);
+        let mut cycles = Cycle::new(system);
         let mut state = vec![0; bound.states.len()];
         let mut from = 0;
         while let Some(key) = search.keys.get(from as usize).copied() {
@@ -212,6 +217,7 @@ impl<'a> Search<'a> {
     fn pending(&mut self) -> Result<(), String> {
         let Self {
             bound,
+            system,
             radix,
             keys,
             number,
@@ -227,7 +233,7 @@ impl<'a> Search<'a> {
         let mut queue: Vec<u32> = (0..keys.len() as u32)
             .filter(|state| !todo[*state as usize].is_empty())
             .collect();
-        let mut cycles = Cycle::new(bound);
+        let mut cycles = Cycle::new(*system);
         let mut state = vec![0; bound.states.len()];
         while let Some(from) = queue.pop() {
             let due = std::mem::take(&mut todo[from as usize]);
@@ -364,7 +370,7 @@ impl<'a> Search<'a> {
     /// A shortest run to a state, then the cycle given.
     fn run_to(&self, (state, last): &Place) -> Result<Run, String> {
         let mut steps = vec![last.clone()];
-        let mut cycles = Cycle::new(self.bound);
+        let mut cycles = Cycle::new(self.system);
         let mut before = vec![0; self.bound.states.len()];
         let mut to = *state;
         while self.parent[to as usize] != to {

@@ -37,7 +37,8 @@ enum Format {
     Smv,
     /// Bit-vectors for word-level checkers: `always` and `never` properties as `bad`, `reachable` ones as `output`
     Btor2,
-    /// TLA+ module with TLC's configuration (in FILE.cfg beside FILE.tla): `always`, `never` and `reachable` properties
+    /// TLA+ module with TLC's configurations (beside FILE.tla FILE.cfg with all that must hold, and FILE.PROPERTY.cfg for each
+    /// property alone): `always`, `never` and `reachable` properties
     Tla,
     /// Control-state graph of each machine for Graphviz (explores the system)
     Dot,
@@ -77,7 +78,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     Ok(0)
 }
 
-/// The module and its configuration: two files, or both on stdout, where TLA+ ignores what stands after the module.
+/// The module and its configurations: a file each, or all on stdout, where TLA+ ignores what stands after the module.
 fn tla(arguments: &Arguments, task: &Task) -> Result<u8, Failure> {
     let system = &task.bound.system.name;
     let name = match &arguments.output {
@@ -88,13 +89,24 @@ fn tla(arguments: &Arguments, task: &Task) -> Result<u8, Failure> {
     let made = tla::tla(&task.bound, &task.title, &name)
         .map_err(|e| Failure::Other(format!("{system}: {e}")))?;
     match &arguments.output {
-        None => emit(&format!(
-            "{}\nConfiguration, {name}.cfg:\n\n{}",
-            made.module, made.config
-        )),
+        None => {
+            let mut text = format!(
+                "{}\nConfiguration, {name}.cfg:\n\n{}",
+                made.module, made.config
+            );
+            for (property, config) in &made.single {
+                text.push_str(&format!(
+                    "\nConfiguration, {name}.{property}.cfg:\n\n{config}"
+                ));
+            }
+            emit(&text);
+        }
         Some(path) => {
             write(path, &made.module)?;
             write(&path.with_extension("cfg"), &made.config)?;
+            for (property, config) in &made.single {
+                write(&path.with_extension(format!("{property}.cfg")), config)?;
+            }
         }
     }
     Ok(0)

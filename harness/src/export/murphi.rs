@@ -1,8 +1,10 @@
 //! A system as a Murphi model, for rumur.
 //!
 //! The states of the model are those of the system, each cycle is one firing of the rule `cycle`: one for each state and
-//! each combination of the inputs that the step reads. A second rule judges the cycle and changes nothing, so that all
-//! states are visited whatever the verdicts are, if rumur is told to go on after errors. Each property is one message.
+//! each combination of the inputs that the step reads. A rule for each property judges the cycle and changes nothing, so that
+//! all states are visited whatever the verdicts are, if rumur is told to go on after errors. Each property is one message.
+//!
+//! A rule ends with the first assertion that fails in it: two properties in one rule would hide one another.
 
 use std::fmt::Write;
 
@@ -209,19 +211,22 @@ fn cycle(out: &mut String, writer: &mut Writer<Murphi>) {
 
 fn judge(out: &mut String, writer: &Writer<Murphi>) {
     let circuit = writer.circuit;
-    let all = || circuit.claims.iter().chain(&circuit.goals);
-    if all().next().is_none() {
-        return;
-    }
-    let roots: Vec<Id> = all().map(|c| c.term).collect();
-    out.push('\n');
-    let end = ruleset(out, &inputs(writer, &roots));
-    open(out, writer, "judge", &roots, "");
     let mut say = |word: &str, claim: &Claim| {
-        let message = statement(claim).replace('\\', "/").replace('"', "'");
+        let quoted = |text: String| text.replace('\\', "/").replace('"', "'");
+        let roots = [claim.term];
+        out.push('\n');
+        let end = ruleset(out, &inputs(writer, &roots));
+        open(
+            out,
+            writer,
+            &quoted(format!("judge {}", claim.id())),
+            &roots,
+            "",
+        );
+        let message = quoted(statement(claim));
         let _ = writeln!(out, "  {word} {} \"{message}\";", writer.show(claim.term));
+        let _ = write!(out, "endrule;\n{end}");
     };
     circuit.claims.iter().for_each(|c| say("assert", c));
     circuit.goals.iter().for_each(|c| say("cover", c));
-    let _ = write!(out, "endrule;\n{end}");
 }

@@ -3,6 +3,9 @@
 //! The inputs are variables without an assignment: any value in every cycle. So a state of the model is a state of the
 //! system together with the inputs of the cycle that begins there, and a property of single cycles is an invariant. A
 //! cycle with a range fault leaves the state as it is; that there is none is an invariant of its own.
+//!
+//! A `reachable` property is the invariant that what it names is never seen, which is to be found false. (`EF` would have to
+//! hold in every initial state, with every value of the inputs there, where one run is all that is asked for.)
 
 use std::fmt::Write;
 
@@ -63,6 +66,9 @@ fn header(out: &mut String, circuit: &Circuit, title: &str) {
     let mut lines = about(circuit.bound, title);
     lines.push(String::new());
     lines.push("Run: nuXmv FILE (NuSMV FILE)".to_owned());
+    if !circuit.goals.is_empty() {
+        lines.push("To be found false: the invariants never_...".to_owned());
+    }
     lines.extend(not_carried(&circuit.left_out()));
     for line in lines {
         let _ = writeln!(out, "{}", format!("-- {line}").trim_end());
@@ -154,11 +160,11 @@ fn specifications(out: &mut String, writer: &mut Writer<Smv>) {
         );
     }
     for goal in &circuit.goals {
-        let name = writer.another("p_", &goal.id());
-        let text = writer.show(goal.term);
+        let name = writer.another("never_", &goal.id());
+        let text = writer.syntax.not(&writer.show(goal.term));
         let _ = writeln!(
             out,
-            "-- {}\nCTLSPEC NAME {name} := EF {text};",
+            "-- {}\n-- To be found false: its counterexample is the witness.\nINVARSPEC NAME {name} := {text};",
             statement(goal)
         );
     }

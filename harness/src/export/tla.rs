@@ -1,8 +1,11 @@
-//! A system as a TLA+ module with the configuration for TLC.
+//! A system as a TLA+ module with the configurations for TLC.
 //!
 //! A step of the module is one cycle with any inputs. A property of single cycles is an invariant: in this state the claim
 //! holds for all inputs. A cycle with a range fault is no step; that there is none is an invariant of its own. A
 //! `reachable` property is the invariant that what it names is never seen, which TLC is to find violated.
+//!
+//! TLC ends with the first invariant that fails, and with -continue it judges no other one in the same state. So each
+//! property has a configuration of its own: whatever the others are, its verdict comes out.
 
 use std::fmt::Write;
 
@@ -16,13 +19,15 @@ use super::fold::Folded;
 use super::syntax::{Syntax, usual};
 use super::writer::{Naming, Writer, meaning, statement};
 
-/// A module and its configuration.
+/// A module and its configurations.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Tla {
     /// The module; its file must bear its name.
     pub module: String,
-    /// The configuration for TLC.
+    /// The configuration with all that must hold.
     pub config: String,
+    /// For each property the name of its invariant, and the configuration with this one alone.
+    pub single: Vec<(String, String)>,
 }
 
 /// The module `name` of a system with its parameter values. `title` stands at its top.
@@ -46,9 +51,13 @@ pub fn tla(bound: &Bound, title: &str, name: &str) -> Result<Tla, Unsupported> {
     arithmetic(&mut module);
     initial(&mut module, &writer);
     next(&mut module, &writer);
-    let config = invariants(&mut module, &mut writer);
+    let (config, single) = invariants(&mut module, &mut writer);
     module.push_str("====\n");
-    Ok(Tla { module, config })
+    Ok(Tla {
+        module,
+        config,
+        single,
+    })
 }
 
 /// Whether TLA+ takes a text for a name.
@@ -92,6 +101,7 @@ fn header(out: &mut String, circuit: &Circuit, title: &str) {
     let mut lines = about(circuit.bound, title);
     lines.push(String::new());
     lines.push("Run: java -cp tla2tools.jar tlc2.TLC -deadlock FILE".to_owned());
+    lines.push("One property: the same with -config MODULE.PROPERTY.cfg; those of never_... are to be found violated.".to_owned());
     lines.extend(not_carried(&circuit.left_out()));
     for line in lines {
         let _ = writeln!(out, "{}", format!("\\* {line}").trim_end());
@@ -204,10 +214,15 @@ fn next(out: &mut String, writer: &Writer<Plus>) {
     }
 }
 
-/// The invariants; the answer is the configuration that names them.
-fn invariants(out: &mut String, writer: &mut Writer<Plus>) -> String {
+/// The invariants; the answer is the configuration that names those that must hold, and one for each.
+fn invariants(out: &mut String, writer: &mut Writer<Plus>) -> (String, Vec<(String, String)>) {
     let circuit = writer.circuit;
-    let mut config = "SPECIFICATION Spec\nINVARIANT Types\n".to_owned();
+    const SPEC: &str = "SPECIFICATION Spec\n";
+    let mut config = format!("{SPEC}INVARIANT Types\n");
+    let mut single = Vec::new();
+    let mut alone = |name: &str, remark: &str| {
+        single.push((name.to_owned(), format!("{SPEC}{remark}INVARIANT {name}\n")));
+    };
     let mut add =
         |writer: &mut Writer<Plus>, prefix: &str, id: &str, remark: &str, term: Id, truth| {
             let name = writer.another(prefix, id);
@@ -228,18 +243,20 @@ fn invariants(out: &mut String, writer: &mut Writer<Plus>) -> String {
             false,
         );
         let _ = writeln!(config, "INVARIANT {name}");
+        alone(&name, "");
     }
     let holds = |c: &Claim| statement(c);
     for claim in &circuit.claims {
         let name = add(writer, "p_", &claim.id(), &holds(claim), claim.term, true);
         let _ = writeln!(config, "INVARIANT {name}");
+        alone(&name, "");
     }
     for goal in &circuit.goals {
         let name = add(writer, "never_", &goal.id(), &holds(goal), goal.term, false);
-        let _ = writeln!(
-            config,
-            "\\* To be found violated, one at a time: its error trace is the witness.\n\\* INVARIANT {name}"
+        alone(
+            &name,
+            "\\* To be found violated: its error trace is the witness.\n",
         );
     }
-    config
+    (config, single)
 }
