@@ -1,7 +1,9 @@
 //! The groups of a machine in both channels, wired as an embedding wires them: what one stop makes of the rest.
 
 use stillpoint_monitors::heidenhain::types::{GroupState, Kind, Phase, Stop};
-use stillpoint_monitors::heidenhain::{channel, gate, global_sto, group, neighbour, stop};
+use stillpoint_monitors::heidenhain::{
+    channel, gate, global_sto, group, neighbour, output_enable, stop, switch_on,
+};
 use stillpoint_monitors::kernel::Cycles;
 
 const AXES: usize = 0;
@@ -158,6 +160,60 @@ fn sto_for_all_waits_for_the_others() {
         on_for += usize::from(on);
     }
     assert!((5..15).contains(&on_for), "{on_for}");
+}
+
+/// HFS-SS0-003/a, HFS-SS0-003/b, HFS-SS0-003/c: the signals of an SS0, whichever channel finds it: its own torque and brakes at once, those of the other channel a
+/// cycle later, the permission for outputs at the beginning, and -STO.A.G with -STOS.A.G when the others have no torque either.
+#[test]
+fn an_ss0_sets_every_signal_of_its_pattern() {
+    for finder in [MC, CC] {
+        let mut machine = Machine::running([GroupState::Auto; 3]);
+        let times = global_sto::Config::new(Cycles::new(1000)).expect("plausible");
+        let mut all = global_sto::Monitor::new(times);
+        let running = switch_on::State {
+            voltage: switch_on::Voltage::On,
+            ..switch_on::State::INITIAL
+        };
+        let mut voltage =
+            switch_on::Monitor::resume(switch_on::Config::STANDARD, running).expect("consistent");
+        let latest = output_enable::Config::new(Cycles::new(1000)).expect("plausible");
+        let mut outputs = output_enable::Monitor::new(latest);
+        let ready = output_enable::Inputs {
+            ready: true,
+            ..Default::default()
+        };
+        assert!(outputs.step(&ready).enabled);
+        for cycle in 0..20 {
+            let found = if cycle == 0 { Stop::Ss0 } else { Stop::None };
+            machine.step(AXES, finder, found, 0);
+            machine.moving = [true, cycle < 4, cycle < 4];
+            for channel in [MC, CC] {
+                let out = &machine.seen[AXES][channel];
+                let off = cycle > 0 || channel == finder;
+                assert_eq!((out.stop.torque_off, out.stop.brake_closed), (off, off));
+            }
+            let ss0 = machine.level(AXES)[MC] == Stop::Ss0;
+            let enabled = outputs.step(&output_enable::Inputs {
+                stop: machine.level(AXES)[MC],
+                ..Default::default()
+            });
+            assert_eq!(enabled.enabled, !ss0, "at the beginning");
+            let off = |g: usize| machine.seen[g].iter().all(|out| out.stop.torque_off);
+            let others_off = off(SPINDLE) && off(MAGAZINE);
+            let on = all.step(&global_sto::Inputs { ss0, others_off }).on;
+            let signals = voltage.step(&switch_on::Inputs {
+                cvo: true,
+                chain: true,
+                dropped: !on,
+                ..Default::default()
+            });
+            assert_eq!(
+                (signals.sto_a_g, signals.stos_a_g),
+                (!others_off, !others_off)
+            );
+        }
+        assert!(!all.state().on, "the others have ended");
+    }
 }
 
 /// HFS-SS0-006, HFS-PARAM-021: and SMP2172 after the SS0 at the latest, also where a drive never ends.

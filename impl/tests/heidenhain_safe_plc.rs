@@ -2,11 +2,12 @@
 
 use stillpoint_monitors::heidenhain::jog_increment::Jog;
 use stillpoint_monitors::heidenhain::key_filter::Keys;
-use stillpoint_monitors::heidenhain::types::{GroupState, Phase, Som, Stop, Unit};
+use stillpoint_monitors::heidenhain::types::{GroupState, Kind, Left, Phase, Som, Stop, Unit};
 use stillpoint_monitors::heidenhain::{
-    axes_logic, jog_increment, key_filter, magazine_logic, safe_plc, spindle_logic, stop,
+    axes_logic, axis_count, jog_increment, judge, key_filter, magazine_logic, safe_plc, speed,
+    spindle_logic, stop,
 };
-use stillpoint_monitors::kernel::Cycles;
+use stillpoint_monitors::kernel::{Cycles, Speed};
 
 /// HFS-SLI-001, HFS-SLI-002, HFS-SLI-003: one press is one increment; the release before its end stops by SS2. What is watched
 /// are the conditions: how far the axis goes is no input at all.
@@ -137,6 +138,129 @@ fn magazine_keys() {
     assert!(!step(true, 0b11, true).activate && step(true, 0b11, true).feed == 0);
     assert!(!step(true, 0b01, false).activate);
     assert_eq!(step(false, 0b01, false).feed, axes_logic::ALL_AXES);
+}
+
+/// HFS-MODE-004/a, HFS-MODE-004/b, HFS-MODE-004/c: set-up in SOM_2 with the door open: the limit of the mode, one axis at a time.
+#[test]
+fn set_up_limits_speed_and_number_of_axes() {
+    let limits = speed::Limits {
+        som_2: Speed(1_000),
+        som_3: Speed(2_000),
+        ..speed::Limits::default()
+    };
+    let at = |speed| {
+        let config = speed::Config::new(limits, false).expect("fits");
+        let inputs = speed::Inputs {
+            state: axes_logic::limited(Som::Som2),
+            left: Left::NONE,
+            speed: Speed(speed),
+        };
+        speed::Monitor::new(config).step(&inputs).demand
+    };
+    assert_eq!((at(1_050), at(1_051)), (Stop::None, Stop::Ss1));
+    let moving = |moving| {
+        let inputs = axis_count::Inputs {
+            state: axes_logic::limited(Som::Som2),
+            unit: Unit::Panel,
+            moving,
+        };
+        let mut monitor = axis_count::Monitor::new(axis_count::Config);
+        monitor.step(&inputs).demand
+    };
+    assert_eq!((moving(1), moving(2)), (Stop::None, Stop::Ss2));
+}
+
+/// HFS-MODE-004/d, HFS-MODE-004/e: and each motion by its key: axis keys alone, NC start with the permissive of the panel, the handwheel with its own,
+/// the spindle by jog or start with the permissive, which keeps it turning.
+#[test]
+fn set_up_moves_by_key_and_permissive() {
+    let axes = |keys, unit, start, panel, wheel| {
+        let config = axes_logic::Config::new(Cycles::new(48), true, false).expect("plausible");
+        let mut monitor = axes_logic::Monitor::new(config);
+        let released = axes_logic::Inputs {
+            door_open: true,
+            som: Som::Som2,
+            unit,
+            gen_safe: true,
+            ..Default::default()
+        };
+        monitor.step(&released);
+        let pressed = axes_logic::Inputs {
+            keys,
+            nc_start: start,
+            start_held: start,
+            key_held: keys != 0 || start || wheel,
+            panel,
+            wheel,
+            ..released
+        };
+        monitor.step(&pressed).activate
+    };
+    assert!(axes(1, Unit::Panel, false, false, false));
+    assert!(axes(0, Unit::Panel, true, true, false));
+    assert!(!axes(0, Unit::Panel, true, false, false));
+    assert!(!axes(0, Unit::Panel, false, true, false));
+    assert!(axes(0, Unit::Handwheel, false, false, true));
+    assert!(!axes(1, Unit::Handwheel, true, true, false));
+    let spindle = |jog, start, panel| {
+        let mut monitor = spindle_logic::Monitor::new(spindle_logic::Config);
+        let released = spindle_logic::Inputs {
+            door_open: true,
+            som: Som::Som2,
+            gen_safe: true,
+            ..Default::default()
+        };
+        monitor.step(&released);
+        let pressed = spindle_logic::Inputs {
+            jog,
+            jog_held: jog,
+            spindle_start: start,
+            start_held: start,
+            key_held: jog || start,
+            panel,
+            ..released
+        };
+        monitor.step(&pressed).activate
+    };
+    assert!(spindle(true, false, true) && spindle(false, true, true));
+    assert!(!spindle(true, false, false) && !spindle(false, true, false));
+    assert!(!spindle(false, false, true));
+    let turning = |permissive| {
+        let config = judge::Config::new(Kind::Spindle, true).expect("plausible");
+        let inputs = judge::Inputs {
+            request: GroupState::Sls2,
+            state: GroupState::Sls2,
+            moving: true,
+            permissive,
+            gen_safe: true,
+            ..Default::default()
+        };
+        judge::Monitor::new(config).step(&inputs).demand
+    };
+    assert_eq!((turning(true), turning(false)), (Stop::None, Stop::Ss1D));
+}
+
+/// HFS-KSW-003/c, HFS-API-023: a change of the mode stops the magazine behind its open door although permissive and key are held,
+/// and behind the closed one nothing.
+#[test]
+fn a_change_of_the_mode_stops_the_magazine() {
+    let step = |t_open, som_changed| {
+        magazine_logic::Monitor::new(magazine_logic::Config)
+            .step(&magazine_logic::Inputs {
+                t_open,
+                keys: 1,
+                permissive: true,
+                som_changed,
+                gen_safe: true,
+                ..Default::default()
+            })
+            .stop
+    };
+    assert_eq!(
+        (step(true, false), step(true, true)),
+        (Stop::None, Stop::Ss2)
+    );
+    assert_eq!(step(false, true), Stop::None);
 }
 
 /// HFS-API-024: the simple logic for manual operation: without permissive the group is stopped all the time.

@@ -102,6 +102,9 @@ fn the_shipped_program_keeps_every_row_of_the_event_tables() {
     }
 }
 
+/// What starts a group: HFS-API-005, HFS-API-006, HFS-API-007, HFS-API-008, HFS-API-009, HFS-API-010, HFS-API-011, HFS-API-012.
+/// What stops it: HFS-API-015, HFS-API-017, HFS-API-021, HFS-API-022, HFS-API-023, HFS-API-026, HFS-API-040, HFS-KSW-003/a, HFS-KSW-003/b, HFS-KSW-003/c, HFS-MAG-002,
+/// HFS-MAG-003, HFS-SS2-009, HFS-FAULT-022, HFS-FAULT-023, HFS-FAULT-024, HFS-FAULT-026.
 #[test]
 fn each_row_of_the_event_tables_finds_the_program_that_breaks_it() {
     let mut wrong = Vec::new();

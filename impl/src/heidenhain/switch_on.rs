@@ -153,7 +153,7 @@ contract! {
             => s.after.voltage != Voltage::ChainCheck || s.after.timer < s.before.timer;
 
     /// A stop that drops -STO.A.G wins over everything.
-    stop_drops_the_voltage ["HFS-STO-005", "HFS-SS1-010", "HFS-CVO-001"]:
+    stop_drops_the_voltage ["HFS-STO-005", "HFS-SS0-003/a", "HFS-SS1-010", "HFS-CVO-001"]:
         when |s| s.inputs.dropped
             => s.after.voltage == Voltage::Off && !s.outputs.sto_a_g && s.outputs.demand == Stop::None;
 

@@ -344,6 +344,8 @@ mutants! { heidenhain:
     fn magazine_logic {
         /// A door that is opened in motion is an SS2.
         MagazineLogicDoorIsSs2 "magazine-logic-door-is-ss2" => safe_plc::magazine_logic_door_is_ss2;
+        /// A change of the mode is overlooked.
+        MagazineLogicModeOverlooked "magazine-logic-mode-overlooked" => safe_plc::magazine_logic_mode_overlooked;
         /// The confirmation outlasts the open door.
         MagazineLogicConfirmedForEver "magazine-logic-confirmed-for-ever" => safe_plc::magazine_logic_confirmed_for_ever;
         /// The permissive alone keeps it moving.

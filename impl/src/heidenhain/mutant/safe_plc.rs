@@ -85,6 +85,11 @@ variants! {
         magazine_logic::transition(state, config, &inputs)
     }
 
+    magazine_logic_mode_overlooked: magazine_logic |state, config, inputs| {
+        let inputs = magazine_logic::Inputs { som_changed: false, ..*inputs };
+        magazine_logic::transition(state, config, &inputs)
+    }
+
     magazine_logic_confirmed_for_ever: magazine_logic |state, config, inputs| {
         let (mut after, outputs) = magazine_logic::transition(state, config, inputs);
         after.confirmed |= state.confirmed;

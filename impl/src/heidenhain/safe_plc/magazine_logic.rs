@@ -142,6 +142,11 @@ contract! {
                     Stop::Ss2
                 };
 
+    /// A change of the mode with its door open is SS2 or more, whatever is held and whether it moves or not.
+    change_of_the_mode_stops ["HFS-KSW-003/c", "HFS-API-023", "HFS-MODE-019"]:
+        when |s| s.inputs.t_open && s.inputs.som_changed
+            => s.outputs.stop >= Stop::Ss2;
+
     /// Its own permissive is reported, always.
     own_permissive_is_reported ["HFS-API-026", "HFS-MAG-005", "HFS-PB-004", "HFS-PB-005"]:
         when |s| s.inputs.permissive || s.outputs.permissive
