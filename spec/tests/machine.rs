@@ -153,9 +153,9 @@ fn the_machining_centre_is_explored_by_groups() {
             "Logic splc is that of the machine file: the safe PLC program."
         ]
     );
-    // The longest time of an axis of the group: 600 ms; the spindle has 2.5 s.
+    // The longest time of an axis of the group: 600 ms; the spindle has 2.5 s, rounded down to cycles of 3 ms.
     let channel = |axis: &str| run(&machine, "channel", axis).params["t_ss1"][0];
-    assert_eq!((channel("Z"), channel("S")), (200, 834));
+    assert_eq!((channel("Z"), channel("S")), (200, 833));
     let title = &run(&machine, "channel", "Z").title;
     assert_eq!(title, "stop reaction of a group in the CC, group NC");
     // The keylock is evaluated in the cycle of the PLC.
