@@ -57,10 +57,16 @@ fn all() -> Vec<Pairing> {
     all
 }
 
+/// Whether it is both channels of an axis: the test `pair` explores those.
+fn both_channels(name: &str) -> bool {
+    name.starts_with("pair_")
+}
+
 /// What is explored: the machines alone, and the slices of what is composed of several.
 fn pieces() -> Vec<Pairing> {
     let pieces = all()
         .into_iter()
+        .filter(|p| !both_channels(&p.machine))
         .flat_map(|p| slices(&p).unwrap_or_else(|e| panic!("{e}")));
     pieces.collect()
 }
@@ -78,6 +84,10 @@ fn machine(mutant: Mutant) -> Option<Name> {
     let family = mutant.family();
     let mut names = family.machines.iter().chain(family.systems);
     let found = names.find(|(_, module)| *module == mutant.monitor());
+    // Both channels are compared in parts of their own: see the test `pair`.
+    if mutant.monitor() == "pair" {
+        return None;
+    }
     // The filter is part of the table `splc`, which is paired with the blocks together.
     let uncompared = ["channel", "key_filter", "safe_output"];
     assert!(
@@ -99,7 +109,9 @@ fn no_reachable_pair_differs() {
     let compared: Vec<Compared> = pieces.iter().map(explore).collect();
     let known = peer::FAMILIES.iter().flat_map(|family| {
         let names = family.machines.iter().chain(family.systems);
-        names.map(|(machine, _)| (family.name, (*machine).to_owned()))
+        names
+            .filter(|(machine, _)| !both_channels(machine))
+            .map(|(machine, _)| (family.name, (*machine).to_owned()))
     });
     assert_eq!(
         pieces.iter().map(name).collect::<BTreeSet<_>>(),

@@ -1,6 +1,7 @@
 //! `diff`: checks the production monitors against the tables, exhaustively, with random runs, or both against a recording.
 
 pub mod bytes;
+pub mod compact;
 pub mod pairing;
 pub mod peer;
 pub mod product;
@@ -16,6 +17,7 @@ use stillpoint_model::{Error, Form, Options, Progress, Property, Verdict, explor
 use stillpoint_show::diagram::Diagram;
 
 use crate::report::{grouped, params};
+use compact::Compact;
 pub use pairing::{Pairing, pairings};
 use peer::Mutant;
 use product::Product;
@@ -92,8 +94,11 @@ pub fn exhaustive(
         witnesses: false,
         ..options.clone()
     };
-    let report = explore(&product, &claim, &options, progress)
-        .map_err(|e| DiffError::Explore(pairing.machine.clone(), e))?;
+    let report = match Compact::needed(&product) {
+        Some(compact) => explore(&compact, &claim, &options, progress),
+        None => explore(&product, &claim, &options, progress),
+    };
+    let report = report.map_err(|e| DiffError::Explore(pairing.machine.clone(), e))?;
     let judged = &report.properties[0];
     let divergence = match (
         &judged.trace,

@@ -163,6 +163,12 @@ impl<'a> Product<'a> {
         Ok(())
     }
 
+    /// The names of the table's state variables: its cells stand first.
+    pub fn table_cells(&self) -> Vec<&str> {
+        let states = self.bound.system.states.iter();
+        states.map(|s| s.var.name.as_str()).collect()
+    }
+
     /// Number of outputs compared in each cycle.
     pub fn outputs(&self) -> usize {
         self.compared.len()

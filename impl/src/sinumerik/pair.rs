@@ -100,6 +100,9 @@ pub struct Outputs {
     pub drive: axis::Outputs,
 }
 
+/// The type of [`next`], for code that takes a step function as a parameter.
+pub type Next = fn(State, &Config, &Inputs) -> (State, Outputs);
+
 /// One cycle of both channels.
 pub fn next(state: State, config: &Config, inputs: &Inputs) -> (State, Outputs) {
     let (nck, nck_out) = axis::next(

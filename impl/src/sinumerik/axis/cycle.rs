@@ -106,8 +106,10 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
             .selection
             .choice(Stage::Sg2, factor(sge))
             .factor,
-        turned: (channel.selection.mode == Mode::SbhForced)
-            != (state.channel.selection.mode == Mode::SbhForced),
+        // Power-on begins anew: what it ends is no change for the comparison.
+        turned: !local.power_on
+            && (channel.selection.mode == Mode::SbhForced)
+                != (state.channel.selection.mode == Mode::SbhForced),
         set: referenced.reference.1.compare_due || unparked(&state, local.power_on, &channel),
     };
     let test = if channel_out.test.passed {
@@ -140,7 +142,9 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
         agreed: referenced.agreement.1.agreed,
         set: told.set,
         confirmed: referenced.reference.1.confirmed,
-        changing: compared.compare.1.changing || told.turned,
+        // Without a tolerance time nothing is suspended, and no signal has changed too often (code 1000).
+        changing: compared.compare.1.changing
+            || (told.turned && !monitors.compare.t_chg().is_zero()),
         cams: own_cams,
         test,
         speed: channel_out.motion.speed,
@@ -337,13 +341,25 @@ fn compare_channels(
         &compare::Inputs {
             power_on,
             change: !power_on
-                && (inputs.local.sge != state.sge || state.told.turned || test_changes),
+                && (changed(&inputs.local.sge, &state.sge) || state.told.turned || test_changes),
             other_changing: !power_on && inputs.other.changing,
             // In the cycle of power-on the channels have told nothing yet.
             differs: !power_on && differs,
         },
     );
     Compared { compare, slip }
+}
+
+/// Whether a signal has changed whose change suspends the comparison. That of the gear stage does not: the actual values are
+/// compared during the changeover, too, and must stay within their tolerance (S840D-GEAR-504).
+fn changed(now: &Sge, before: &Sge) -> bool {
+    let gear = Sge {
+        gear_0: before.gear_0,
+        gear_1: before.gear_1,
+        gear_2: before.gear_2,
+        ..*now
+    };
+    gear != *before
 }
 
 /// The test of the external shutdown, in the NCK only.

@@ -18,10 +18,13 @@
 //!   different states (S840D-SN-005, S840D-NX-001).
 //! * The beginning and the end of the operating stop that a STOP C, D or E forces count for the comparison like a change of a
 //!   signal: the channels reach it one cycle apart when one of them was told the stop, so t_chg must pass before result
-//!   list 1 is compared again.
+//!   list 1 is compared again. It is no signal that changes too often, so without t_chg nothing is told (code 1000); and what
+//!   power-on ends is no change.
+//! * A change of the gear stage suspends nothing: the actual values are compared during the changeover (S840D-GEAR-504).
 //! * RESET is joint: both channels take it only while neither brakes and both have latched the same stop and both or none a
 //!   fault. A stop is thus acknowledged in both or in none, and no channel latches a stop anew that the other one still
-//!   tells (S840D-P-45). Stops and faults spread in one cycle, so the condition is met soon.
+//!   tells (S840D-P-45); except where a STOP A by signal or a test has come over the stop in one of them: it keeps the stop and
+//!   tells it again. Stops and faults spread in one cycle, so the condition is met soon.
 //! * The position is stored in every cycle after one with the operating stop, and with enabled limit switches or cams
 //!   cyclically, but only while the axis is referenced: an earlier position is not a safe one (S840D-REF-009, A-23
 //!   SAVE_EVERY_SBH).

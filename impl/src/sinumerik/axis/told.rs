@@ -39,7 +39,8 @@ pub struct Exchange {
     pub set: bool,
     /// The agreement is one to a referenced position whose comparison with the history is over in this channel.
     pub confirmed: bool,
-    /// An own input signal has changed within t_chg, or the forced operating stop has begun or ended (cross comparison).
+    /// An own input signal has changed within t_chg, or the forced operating stop has begun or ended (cross comparison); never
+    /// with t_chg = 0.
     pub changing: bool,
     /// The own results of the cams (cam synchronisation).
     pub cams: [bool; 8],

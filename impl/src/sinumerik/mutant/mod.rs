@@ -3,6 +3,7 @@
 mod axis;
 mod checking;
 mod composing;
+mod pair;
 mod stops;
 mod watching;
 
@@ -198,5 +199,38 @@ mutants! { sinumerik:
         ChannelReferenceOverlooked "channel-reference-overlooked" => composing::channel_reference_overlooked;
         /// A STOP C, D or E of the same cycle keeps STOP F from starting its delay.
         ChannelFaultSeesTheNewStop "channel-fault-sees-the-new-stop" => composing::channel_fault_sees_the_new_stop;
+    }
+    /// The two channels with this mutant between them.
+    fn pair {
+        /// The drive is told a latched stop of the NCK a cycle late.
+        PairStopLate "pair-stop-late" => pair::stop_late;
+        /// The NCK is told an external stop of the drive a cycle late.
+        PairRequestLate "pair-request-late" => pair::request_late;
+        /// A channel passes on an external stop that it was told itself.
+        PairRequestPassedBack "pair-request-passed-back" => pair::request_passed_back;
+        /// The drive reads its own external stop instead of that of the NCK.
+        PairOwnRequestRead "pair-own-request-read" => pair::own_request_read;
+        /// The test stop of the NCK is passed on as an external stop.
+        PairTestPassedOn "pair-test-passed-on" => pair::test_passed_on;
+        /// The NCK is not told a STOP F of the drive.
+        PairFaultNotTold "pair-fault-not-told" => pair::fault_not_told;
+        /// The drive is told a STOP F of the NCK a cycle late.
+        PairFaultLate "pair-fault-late" => pair::fault_late;
+        /// The NCK takes RESET while the drive brakes.
+        PairResetWhileOtherBrakes "pair-reset-while-other-brakes" => pair::reset_while_other_brakes;
+        /// The NCK is told the agreement of the drive a cycle late.
+        PairAgreementStale "pair-agreement-stale" => pair::agreement_stale;
+        /// The drive reads its own agreement instead of that of the NCK.
+        PairOwnAgreementRead "pair-own-agreement-read" => pair::own_agreement_read;
+        /// The drive does not compare its position with the history.
+        PairHistoryNotComparedInDrive "pair-history-not-compared-in-drive" => pair::history_not_compared_in_drive;
+        /// The drive is not told that signals of the NCK change.
+        PairChangeNotTold "pair-change-not-told" => pair::change_not_told;
+        /// The drive compares result lists that are a cycle apart.
+        PairListsApart "pair-lists-apart" => pair::lists_apart;
+        /// The NCK does not hear of a test of the drive.
+        PairTestResultLost "pair-test-result-lost" => pair::test_result_lost;
+        /// The NCK is told nothing but what is compared.
+        PairNothingTold "pair-nothing-told" => pair::nothing_told;
     }
 }

@@ -135,6 +135,26 @@ impl Clock {
     }
 }
 
+#[cfg(feature = "mutants")]
+impl Configuration {
+    /// The same for an exploration of both channels, with two constants of the manual made small: `items`, the list of the
+    /// comparison, usually [`list::CLASSES`]; `t_differ`, how long the user agreements may differ.
+    ///
+    /// # Errors
+    /// Those of [`compare::Config::new`] and [`agreement::Config::new`].
+    pub fn shortened(
+        self,
+        items: &'static [list::Item],
+        t_differ: Cycles,
+    ) -> Result<Self, ConfigError> {
+        Ok(Self {
+            compare: compare::Config::new(self.compare.t_chg(), items)?,
+            agreement: agreement::Config::new(t_differ, self.channel.se_sn_enabled)?,
+            ..self
+        })
+    }
+}
+
 impl Configuration {
     /// The monitoring cycle T_SI in us.
     pub const fn cycle_us(&self) -> NonZeroU32 {

@@ -6,6 +6,8 @@ mod channel;
 mod checking;
 mod monitoring;
 mod numbers;
+mod pair;
+mod register;
 mod stops;
 
 use super::{Family, Made, Params};
@@ -37,7 +39,11 @@ pub(super) static FAMILY: Family = Family {
         ("history", "history"),
         ("test_interval", "forced_check"),
     ],
-    systems: &[("axis_core", "channel")],
+    systems: &[
+        ("axis_core", "channel"),
+        ("pair_stops", "pair"),
+        ("pair_reference", "pair"),
+    ],
     // Constants of the monitors (smaller values only keep a system small), and a variant that a system leaves out.
     fixed: &[("compare", "factor", 10), ("axis_core", "one_encoder", 0)],
     make,
@@ -54,6 +60,7 @@ fn make(machine: &str, params: &Params, mutant: Option<super::Mutant>) -> Made {
         monitoring::make,
         checking::make,
         channel::make,
+        pair::make,
     ] {
         if let Some(adapter) = make(machine, params, mutant)? {
             return Ok(Some(adapter));
