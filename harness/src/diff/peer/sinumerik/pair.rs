@@ -51,6 +51,8 @@ pub(super) fn make(system: &str, p: &Params, mutant: Option<Mutant>) -> Made {
                     sge,
                     ..axis::State::restored(agreed != 0, stored)
                 };
+                // What the channel tells in its first cycle is what was kept, too.
+                side.told.agreed = agreed != 0;
             }
             side
         });
