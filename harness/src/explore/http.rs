@@ -6,6 +6,7 @@
 
 use std::io::{self, Read, Write};
 use std::net::{Shutdown, TcpListener, TcpStream};
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -199,6 +200,8 @@ struct Open {
 #[derive(Default)]
 struct Office {
     open: Mutex<Vec<Open>>,
+    /// Threads that have not ended, also those whose connection has been given to another one.
+    threads: AtomicUsize,
     answering: Mutex<usize>,
     free: Condvar,
 }
@@ -267,6 +270,7 @@ struct Leave<'a>(&'a Office, u64);
 impl Drop for Leave<'_> {
     fn drop(&mut self) {
         lock(&self.0.open).retain(|o| o.number != self.1);
+        self.0.threads.fetch_sub(1, Ordering::SeqCst);
     }
 }
 
@@ -280,9 +284,14 @@ pub fn serve(listener: &TcpListener, site: &impl Site) {
                 thread::sleep(Duration::from_millis(50));
                 continue;
             };
+            // Those whose connection was closed to make room end soon.
+            while office.threads.load(Ordering::SeqCst) >= MOST_CONNECTIONS + ANSWERS {
+                thread::sleep(Duration::from_millis(1));
+            }
             if !office.admit(number, &stream) {
                 continue;
             }
+            office.threads.fetch_add(1, Ordering::SeqCst);
             let own = Arc::clone(&office);
             let work = move || {
                 let _leave = Leave(&own, number);
@@ -462,10 +471,10 @@ mod tests {
             ("GET http://x/ HTTP/1.1", 400),
             ("CONNECT x:1 HTTP/1.1", 400),
             ("GET / HTTP/2.0", 400),
-            ("GET /", 0),
+            ("GET /", 400),
             ("\u{16}\u{3}\u{1}", 400),
         ] {
-            assert_eq!(status(&format!("{first}\r\n")), expected, "{first}");
+            assert_eq!(status(&format!("{first}\r\n\r\n")), expected, "{first}");
         }
         let long = format!("{get}X: {}", "x".repeat(MOST_HEAD));
         assert_eq!(status(&long), 431);

@@ -106,6 +106,7 @@ pub fn reference_does_not_creep<S: Source>(source: &mut S, subject: &Subject) ->
     let at = |position, sbh_internal| Inputs {
         sbh_internal,
         position,
+        ended_at: position,
         ..Inputs::default()
     };
     let start = source.any_position();

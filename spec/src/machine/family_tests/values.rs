@@ -58,7 +58,8 @@ fn values_finer_than_the_control_takes_are_refused() {
 
 /// Systems whose values are their own, as their `note` in `family.toml` or the reason here says: small numbers that show every
 /// branch, or each of the possible wirings.
-const OWN_VALUES: [(&str, &str); 24] = [
+const OWN_VALUES: [(&str, &str); 25] = [
+    ("operation.toml", "ss0_signals"),
     ("mode.toml", "permissive"),
     ("monitors.toml", "standstill"),
     ("monitors.toml", "braking_path"),

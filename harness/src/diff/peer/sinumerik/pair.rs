@@ -166,7 +166,7 @@ impl Gates {
             approves: p.is("approves"),
             leaves: p.is("leaves"),
             shifts: p.is("shifts"),
-            gears: p.is("gears"),
+            gears: p.is("gears") && p.value("gear_max") > 0,
             step: p.value("step"),
         }
     }
