@@ -39,8 +39,9 @@ fn compare(part: &Pairing, mutant: Option<Mutant>) -> Compared {
 /// Parts that take minutes: a deep run, with this variable set to anything.
 const DEEP: &str = "STILLPOINT_DEEP";
 
-/// These parts: a channel with stops of its monitors, tolerance time of the stops, that of the selection, test stops, gear stages.
-const LONG: [usize; 5] = [1, 2, 3, 5, 11];
+/// These parts: a channel with stops of its monitors, tolerance time of the stops, that of the selection, test stops, gear stages,
+/// limit positions. The last two have not been run to their end yet.
+const LONG: [usize; 6] = [1, 2, 3, 5, 11, 12];
 
 #[test]
 fn no_reachable_pair_of_channels_differs() {
