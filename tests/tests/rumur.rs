@@ -20,7 +20,7 @@ const COMBINATIONS: u128 = 10_000;
 const TRANSITIONS: u128 = 400_000;
 
 /// The systems of the shipped specifications that are left out for that reason, as file and system.
-const LEFT_OUT: [&str; 36] = [
+const LEFT_OUT: [&str; 39] = [
     "axis/channel",
     "axis/referencing",
     "axis/stop",
@@ -50,11 +50,14 @@ const LEFT_OUT: [&str; 36] = [
     "monitoring/failsafe",
     "monitoring/override",
     "monitoring/ramp",
+    "pair-reference/pair_reference",
+    "pair/pair_stops",
     "reference/axis",
     "reference/other_axis",
     "status-bits/bits",
     "stop/groups",
     "verification/guard_door",
+    "verification/shutdown_group",
     "verification/test_pair",
     "verification/test_stop",
 ];
