@@ -9,19 +9,33 @@ use stillpoint::check::{Settings, check};
 use stillpoint::subject::{self, Readings, Subject, Task};
 use stillpoint_model::Report;
 
-/// Whether these programs are there. A user without them sees that the test was skipped; where the environment has `CI`,
-/// it fails then.
+/// The variable that names programs, with blanks between them, that this environment cannot start although they are installed:
+/// `.ci/run` sets it, and says why.
+const CANNOT_START: &str = "STILLPOINT_CANNOT_START";
+
+/// Whether these programs are there and start. A user without them sees that the test was skipped; where the environment has
+/// `CI`, it fails then.
 ///
 /// # Panics
 /// If one is missing and `CI` is set.
 pub fn tools(programs: &[&str]) -> bool {
     for program in programs {
-        if Command::new(program).arg("--version").output().is_err() {
-            let message = format!("SKIPPED: {program} is not installed");
-            assert!(std::env::var_os("CI").is_none(), "{message}");
-            eprintln!("{message}");
-            return false;
-        }
+        let reason = match Command::new(program).arg("--version").output() {
+            // SPIN answers with its usage and status 1.
+            Ok(output) if output.status.success() || !output.stdout.is_empty() => continue,
+            Ok(output) => format!(
+                "does not start: {}, {}",
+                output.status,
+                String::from_utf8_lossy(&output.stderr).trim()
+            ),
+            Err(error) => format!("is not installed: {error}"),
+        };
+        let message = format!("SKIPPED: {program} {reason}");
+        let known = std::env::var(CANNOT_START)
+            .is_ok_and(|all| all.split_whitespace().any(|one| one == *program));
+        assert!(known || std::env::var_os("CI").is_none(), "{message}");
+        eprintln!("{message}");
+        return false;
     }
     true
 }
@@ -56,6 +70,14 @@ impl Folder {
         Self(path)
     }
 
+    /// The same file under a name in it.
+    ///
+    /// # Panics
+    /// If it cannot be linked.
+    pub fn link(&self, file: &Path, name: &str) {
+        std::os::unix::fs::symlink(file, self.file(name)).expect("linked");
+    }
+
     /// The path of a file in it.
     pub fn file(&self, name: &str) -> PathBuf {
         self.0.join(name)
@@ -82,9 +104,11 @@ impl Folder {
     /// The same for a program whose status says what it found.
     ///
     /// # Panics
-    /// If it does not run.
+    /// If it does not run, or says nothing.
     pub fn findings(&self, program: &str, arguments: &[&str]) -> String {
-        self.output(program, arguments).0
+        let (text, errors, _) = self.output(program, arguments);
+        assert!(!text.is_empty(), "{program} {arguments:?}: {errors}");
+        text
     }
 
     fn output(&self, program: &str, arguments: &[&str]) -> (String, String, bool) {
@@ -96,7 +120,7 @@ impl Folder {
         let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
         (
             text(&output.stdout),
-            text(&output.stderr),
+            format!("{}: {}", output.status, text(&output.stderr)),
             output.status.success(),
         )
     }

@@ -145,15 +145,20 @@ fn tlc(
 ) -> (BTreeMap<String, bool>, u128) {
     let folder = Folder::new(env!("CARGO_TARGET_TMPDIR"), &format!("tlc-{name}"));
     folder.write("model.tla", &module.module);
+    // A path may hold a colon, which separates the entries of a class path.
+    folder.link(jar, "tla2tools.jar");
     let run = |config: &str| {
         folder.write("one.cfg", config);
-        let jar = jar.to_str().expect("UTF-8");
         let options = [
             "-XX:+UseSerialGC",
-            "-Djava.io.tmpdir=.",
+            "-XX:-UsePerfData",
             "-XX:TieredStopAtLevel=1",
+            "-XX:CompressedClassSpaceSize=64m",
+            "-XX:ReservedCodeCacheSize=64m",
+            "-Xmx512m",
+            "-Djava.io.tmpdir=.",
             "-cp",
-            jar,
+            "tla2tools.jar",
             "tlc2.TLC",
             "-deadlock",
             "-workers",
