@@ -1,7 +1,7 @@
 //! Requests of the safe PLC as the kernel of HEIDENHAIN Functional Safety takes them over.
 
 use stillpoint_monitors::heidenhain::types::{GroupState, Kind, Som, Stop};
-use stillpoint_monitors::heidenhain::{both_channels, gate};
+use stillpoint_monitors::heidenhain::{both_channels, both_fields, gate, general_fields};
 
 fn take(kind: Kind, inputs: gate::Inputs) -> gate::Outputs {
     gate::Monitor::new(gate::Config::new(kind).expect("plausible")).step(&inputs)
@@ -93,4 +93,43 @@ fn the_stricter_channel_counts_until_both_agree() {
     assert!(out.differ && !out.starts);
     inputs.late = true;
     assert_eq!(both.step(&inputs).stop, Stop::Ss1);
+}
+
+/// HFS-KDV-002/a, HFS-KDV-005: not only the requests for a group are compared, but every general field of 8.9.5.
+#[test]
+fn every_general_field_is_compared() {
+    let all = general_fields::Outputs {
+        stop: Stop::None,
+        som: Som::Som2,
+        voltage: true,
+        drives: true,
+        chain: true,
+        keys: true,
+        brakes: true,
+        feed: true,
+    };
+    let mut both = both_fields::Monitor::new(both_fields::Config);
+    let mut look = |cc| both.step(&both_fields::Inputs { mc: all, cc });
+    let out = look(all);
+    assert!(!out.differ && out.voltage && out.drives && out.chain && out.feed);
+    assert_eq!((out.som, out.stop), (Som::Som2, Stop::None));
+    let som = Som::Som3;
+    assert!(look(general_fields::Outputs { som, ..all }).som == Som::Som1);
+    let others: [fn(&mut general_fields::Outputs); 8] = [
+        |f| f.som = Som::Som3,
+        |f| f.voltage = false,
+        |f| f.drives = false,
+        |f| f.chain = false,
+        |f| f.keys = false,
+        |f| f.brakes = false,
+        |f| f.feed = false,
+        |f| f.stop = Stop::Ss1F,
+    ];
+    for (field, change) in others.into_iter().enumerate() {
+        let mut cc = all;
+        change(&mut cc);
+        assert!(look(cc).differ, "field {field}");
+    }
+    let none = look(general_fields::Outputs::default());
+    assert!(!none.voltage && !none.drives && !none.chain && !none.feed && none.keys);
 }

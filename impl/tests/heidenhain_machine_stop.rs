@@ -2,7 +2,8 @@
 
 use stillpoint_monitors::heidenhain::types::{GroupState, Kind, Phase, Stop};
 use stillpoint_monitors::heidenhain::{
-    channel, gate, global_sto, group, neighbour, output_enable, stop, switch_on,
+    agreement, both_status, channel, gate, global_sto, group, neighbour, output_enable, stop,
+    switch_on,
 };
 use stillpoint_monitors::kernel::Cycles;
 
@@ -254,6 +255,63 @@ fn an_ss1_that_is_found_is_one_of_the_machine() {
     for group in [AXES, SPINDLE, MAGAZINE] {
         assert_eq!(machine.level(group), [Stop::Ss1; 2]);
     }
+}
+
+/// HFS-KDV-001, HFS-KDV-002/d: the program of the CC is no longer executed, while its last requests stand. The kernel of either
+/// channel finds it when the window of 22 cycles has passed, and every group stops by SS1 in both channels.
+#[test]
+fn a_program_executed_in_one_channel_only_stops_the_machine() {
+    for finder in [MC, CC] {
+        let mut machine = Machine::running([GroupState::Auto; 3]);
+        let mut compared = both_status::Monitor::new(both_status::Config);
+        let mut window = agreement::Monitor::new(agreement::Config::PUBLISHED);
+        let mc = both_status::Status {
+            executed: true,
+            ..both_status::Status::default()
+        };
+        for cycle in 1..=26 {
+            let cc = both_status::Status {
+                executed: cycle <= 2,
+                ..mc
+            };
+            let status = compared.step(&both_status::Inputs { mc, cc });
+            assert_eq!(status.stop, Stop::None);
+            let late = window.step(&agreement::Inputs {
+                differ: status.differ,
+            });
+            machine.step(AXES, finder, late.demand, 0);
+            if cycle < 24 {
+                assert_eq!(machine.level(AXES), [Stop::None; 2], "cycle {cycle}");
+            }
+        }
+        for group in [AXES, SPINDLE, MAGAZINE] {
+            assert_eq!(machine.level(group), [Stop::Ss1; 2]);
+        }
+    }
+}
+
+/// HFS-KDV-002/c, HFS-KDV-002/e, HFS-FAULT-019: an output that reads back in one channel only is a difference, whichever it is; an
+/// SS1F that one run-time system asks for does not wait for the window.
+#[test]
+fn outputs_and_run_time_systems_are_compared() {
+    let mut compared = both_status::Monitor::new(both_status::Config);
+    let mc = both_status::Status {
+        executed: true,
+        outputs: 0x8001,
+        ..both_status::Status::default()
+    };
+    let mut look = |cc| compared.step(&both_status::Inputs { mc, cc });
+    assert!(!look(mc).differ);
+    for bit in 0..16 {
+        let outputs = mc.outputs ^ 1 << bit;
+        let out = look(both_status::Status { outputs, ..mc });
+        assert!(out.differ && out.stop == Stop::None, "output {bit}");
+    }
+    let out = look(both_status::Status {
+        runtime: true,
+        ..mc
+    });
+    assert!(out.differ && out.stop == Stop::Ss1F);
 }
 
 /// HFS-SS2-010: the spindle turns without its permissive behind an open door. The axes get SS2, and the spindle its SS1 after

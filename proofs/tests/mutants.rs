@@ -36,7 +36,7 @@ family! { sinumerik:
 }
 
 family! { heidenhain:
-    gate both_channels stop report neighbour global_sto judge group startup axis_release som button switch_on output_enable channel
+    gate both_channels both_fields both_status stop report neighbour global_sto judge group startup axis_release som button switch_on output_enable channel
     speed operating_stop stop_path position_limit revolutions comparison deceleration axis_count
     reference agreement brakes tool_holder acceptance cc_link self_test cut_out holding_brake status_bits sampling self_checks start_checks
     key_filter axes_logic spindle_logic magazine_logic

@@ -14,12 +14,13 @@ use stillpoint_tests::root;
 
 /// The tables compared: those of a machine, or with the parameters of their systems. What several files use is compared with
 /// the parameters of the first one, so the file of a machine's own table stands before those that put it together with others.
-const FILES: [&str; 18] = [
+const FILES: [&str; 19] = [
     "spec/sinumerik-840d/axis.toml",
     "spec/machines/milling-840d.toml",
     "spec/heidenhain-fs/stop.toml",
     "spec/heidenhain-fs/group.toml",
     "spec/heidenhain-fs/interface.toml",
+    "spec/heidenhain-fs/compared.toml",
     "spec/heidenhain-fs/mode.toml",
     "spec/heidenhain-fs/monitors.toml",
     "spec/heidenhain-fs/operation.toml",

@@ -60,6 +60,11 @@ fn requests_of_the_safe_logic() {
 }
 
 #[test]
+fn comparison_of_fields_programs_and_outputs() {
+    holds("compared.toml");
+}
+
+#[test]
 fn stops() {
     holds("stop.toml");
 }

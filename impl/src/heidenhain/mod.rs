@@ -10,6 +10,8 @@
 //! | [`button`] | validity of a permissive button or key (safe PLC) | - |
 //! | [`gate`] | what the kernel takes over from its safe PLC for one axis group | - |
 //! | [`both_channels`] | the stricter of what the two channels were asked for | `gate` of both channels |
+//! | [`both_fields`] | the general fields of both channels: compared, the stricter in force | `general_fields` of both channels |
+//! | [`both_status`] | execution of both programs, their run-time systems, outputs that read back: compared | - |
 //! | [`startup`] | protection against unexpected start-up | `group` of the cycle before |
 //! | [`judge`] | stops that requests, machine operating mode and permissive demand | `both_channels`, `startup` |
 //! | [`axis_release`] | feed enable of one axis in a released group, with an SS2 of its own | `group` of the cycle before |
@@ -70,6 +72,8 @@ pub mod agreement;
 pub mod axis_count;
 pub mod axis_release;
 pub mod both_channels;
+pub mod both_fields;
+pub mod both_status;
 pub mod brakes;
 pub mod button;
 pub mod cc_link;

@@ -65,7 +65,7 @@ pub struct Outputs {
 
 contract! {
     /// Voltages, watchdogs, fatal errors, checksums and the safe PLC's run-time system: SS1F in both channels.
-    fatal_faults_are_ss1f ["HFS-MON-005", "HFS-MON-006", "HFS-FAULT-003", "HFS-FAULT-004", "HFS-FAULT-019", "HFS-KDV-002/e"]:
+    fatal_faults_are_ss1f ["HFS-MON-005", "HFS-MON-006", "HFS-FAULT-003", "HFS-FAULT-004", "HFS-FAULT-019"]:
         when |s| s.inputs.supply || s.inputs.watchdog || s.inputs.fatal || s.inputs.checksum || s.inputs.runtime
             => s.outputs.asks_ss1f && s.outputs.demand == Stop::Ss1F;
 
@@ -86,7 +86,7 @@ contract! {
             => s.outputs == Outputs::default();
 
     /// An internal emergency stop, and an output that does not read back: SS1.
-    emergency_stop_and_readback_stop ["HFS-KDV-002/c", "HFS-ES-002", "HFS-FAULT-011", "HFS-KDV-004"]:
+    emergency_stop_and_readback_stop ["HFS-ES-002", "HFS-FAULT-011"]:
         when |s| s.inputs.internal_es || s.inputs.readback
             => s.outputs.asks_ss1 && s.outputs.demand >= Stop::Ss1;
 

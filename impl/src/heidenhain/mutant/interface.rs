@@ -1,7 +1,7 @@
 //! Wrong variants of what is taken over from the safe PLC.
 
 use crate::heidenhain::types::{GroupState, Kind, Stop};
-use crate::heidenhain::{both_channels, gate};
+use crate::heidenhain::{both_channels, both_fields, both_status, gate};
 
 pub(super) fn gate_activates_illegal(
     state: gate::State,
@@ -53,4 +53,40 @@ pub(super) fn both_channels_one_permissive(
     let (after, mut outputs) = both_channels::transition(state, config, inputs);
     outputs.held = inputs.held_mc || inputs.held_cc;
     (after, outputs)
+}
+
+variants! {
+    both_fields_forgets_mode: both_fields |state, config, inputs| {
+        let (after, mut outputs) = both_fields::transition(state, config, inputs);
+        let mut inputs = *inputs;
+        inputs.cc.som = inputs.mc.som;
+        outputs.differ = inputs.mc != inputs.cc;
+        (after, outputs)
+    }
+
+    both_fields_one_drives: both_fields |state, config, inputs| {
+        let (after, mut outputs) = both_fields::transition(state, config, inputs);
+        outputs.drives = inputs.mc.drives || inputs.cc.drives;
+        (after, outputs)
+    }
+
+    both_status_forgets_program: both_status |state, config, inputs| {
+        let mut inputs = *inputs;
+        inputs.cc.executed = inputs.mc.executed;
+        both_status::transition(state, config, &inputs)
+    }
+
+    both_status_forgets_outputs: both_status |state, config, inputs| {
+        let mut inputs = *inputs;
+        inputs.cc.outputs = inputs.mc.outputs;
+        both_status::transition(state, config, &inputs)
+    }
+
+    both_status_needs_both: both_status |state, config, inputs| {
+        let (after, mut outputs) = both_status::transition(state, config, inputs);
+        if !(inputs.mc.runtime && inputs.cc.runtime) {
+            outputs.stop = Stop::None;
+        }
+        (after, outputs)
+    }
 }

@@ -39,6 +39,22 @@ mutants! { heidenhain:
         /// A permissive of one channel is enough.
         BothChannelsOnePermissive "both-channels-one-permissive" => interface::both_channels_one_permissive;
     }
+    /// The joining of the general fields with this mutant in it.
+    fn both_fields {
+        /// The mode is not compared.
+        BothFieldsForgetsMode "both-fields-forgets-mode" => interface::both_fields_forgets_mode;
+        /// The drives may be switched on by one channel.
+        BothFieldsOneDrives "both-fields-one-drives" => interface::both_fields_one_drives;
+    }
+    /// The comparison of programs, run-time systems and outputs with this mutant in it.
+    fn both_status {
+        /// A program that is not executed in one channel is overlooked.
+        BothStatusForgetsProgram "both-status-forgets-program" => interface::both_status_forgets_program;
+        /// The outputs are not compared.
+        BothStatusForgetsOutputs "both-status-forgets-outputs" => interface::both_status_forgets_outputs;
+        /// Both run-time systems must ask for SS1F.
+        BothStatusNeedsBoth "both-status-needs-both" => interface::both_status_needs_both;
+    }
     /// The stop reaction with this mutant in it.
     fn stop {
         /// An SS1F that comes during the ramp loads the timer anew.

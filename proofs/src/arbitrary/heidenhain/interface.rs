@@ -1,7 +1,9 @@
 //! What the kernel takes over from the safe PLC.
 
-use stillpoint_monitors::heidenhain::types::{GroupState, Stop};
-use stillpoint_monitors::heidenhain::{both_channels, gate};
+use stillpoint_monitors::heidenhain::types::{GroupState, Som, Stop};
+use stillpoint_monitors::heidenhain::{
+    both_channels, both_fields, both_status, gate, general_fields,
+};
 
 use super::kind;
 use crate::source::Source;
@@ -44,4 +46,49 @@ pub fn both_channels<S: Source>(
         late: source.any_bool(),
     };
     Some((both_channels::State::INITIAL, config, inputs))
+}
+
+/// Any general fields as a kernel has taken them over; an unknown number has no other effect on what is compared than its stop.
+fn fields<S: Source>(source: &mut S) -> general_fields::Outputs {
+    general_fields::Outputs {
+        stop: source.any_of(&[Stop::None, Stop::Ss1F]),
+        som: source.any_of(&Som::ALL),
+        voltage: source.any_bool(),
+        drives: source.any_bool(),
+        chain: source.any_bool(),
+        keys: source.any_bool(),
+        brakes: source.any_bool(),
+        feed: source.any_bool(),
+    }
+}
+
+/// Any step of the joining of the general fields.
+pub fn both_fields<S: Source>(
+    source: &mut S,
+) -> Option<(both_fields::State, both_fields::Config, both_fields::Inputs)> {
+    let inputs = both_fields::Inputs {
+        mc: fields(source),
+        cc: fields(source),
+    };
+    Some((both_fields::State::INITIAL, both_fields::Config, inputs))
+}
+
+/// Any status of a channel: no output, all, and each of the first two alone.
+fn status<S: Source>(source: &mut S) -> both_status::Status {
+    both_status::Status {
+        executed: source.any_bool(),
+        runtime: source.any_bool(),
+        outputs: source.any_u32(3, u32::from(u16::MAX)) as u16,
+    }
+}
+
+/// Any step of the comparison of programs, run-time systems and outputs.
+pub fn both_status<S: Source>(
+    source: &mut S,
+) -> Option<(both_status::State, both_status::Config, both_status::Inputs)> {
+    let inputs = both_status::Inputs {
+        mc: status(source),
+        cc: status(source),
+    };
+    Some((both_status::State::INITIAL, both_status::Config, inputs))
 }

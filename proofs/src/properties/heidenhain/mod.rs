@@ -8,6 +8,10 @@ monitors! { heidenhain:
     gate
     /// Requests of both channels.
     both_channels
+    /// General fields of both channels.
+    both_fields
+    /// Programs, run-time systems and outputs of both channels.
+    both_status
     /// Limited speed.
     speed
     /// Operating stop.

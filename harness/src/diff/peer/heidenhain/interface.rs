@@ -1,7 +1,10 @@
 //! What the kernel takes over from the safe PLC.
 
 use stillpoint_monitors::heidenhain::mutant::Mutant;
-use stillpoint_monitors::heidenhain::{both_channels, gate};
+use stillpoint_monitors::heidenhain::types::Stop;
+use stillpoint_monitors::heidenhain::{
+    both_channels, both_fields, both_status, gate, general_fields,
+};
 
 use super::numbers::*;
 use crate::diff::peer::adapter::Adapter;
@@ -12,6 +15,8 @@ pub(super) fn make(machine: &str, p: &Params, mutant: Option<Mutant>) -> Made {
     Ok(Some(match machine {
         "gate" => gate(p, mutant)?,
         "both_channels" => both_channels(mutant)?,
+        "both_fields" => both_fields(mutant),
+        "both_status" => both_status(mutant),
         _ => return Ok(None),
     }))
 }
@@ -89,4 +94,98 @@ fn both_channels(mutant: Option<Mutant>) -> Refusable {
             ]);
         },
     ))
+}
+
+fn both_fields(mutant: Option<Mutant>) -> Adapter {
+    let next = mutant.map_or(both_fields::next as both_fields::Next, Mutant::both_fields);
+    Adapter::stateless(
+        &[
+            "wrong_mc",
+            "wrong_cc",
+            "som_mc",
+            "som_cc",
+            "voltage_mc",
+            "voltage_cc",
+            "drives_mc",
+            "drives_cc",
+            "chain_mc",
+            "chain_cc",
+            "keys_mc",
+            "keys_cc",
+            "brakes_mc",
+            "brakes_cc",
+            "feed_mc",
+            "feed_cc",
+        ],
+        &[
+            "mode",
+            "voltage",
+            "drives",
+            "chain_closed",
+            "keys",
+            "enabled",
+            "differ",
+            "stop",
+        ],
+        move |i, o| {
+            // The inputs of the channels stand in turn.
+            let fields = |channel: usize| general_fields::Outputs {
+                stop: if i[channel] != 0 {
+                    Stop::Ss1F
+                } else {
+                    Stop::None
+                },
+                som: som(i[2 + channel]),
+                voltage: i[4 + channel] != 0,
+                drives: i[6 + channel] != 0,
+                chain: i[8 + channel] != 0,
+                keys: i[10 + channel] != 0,
+                brakes: i[12 + channel] != 0,
+                feed: i[14 + channel] != 0,
+            };
+            let inputs = both_fields::Inputs {
+                mc: fields(0),
+                cc: fields(1),
+            };
+            let (_, out) = next(both_fields::State::INITIAL, &both_fields::Config, &inputs);
+            o.extend([
+                som_rank(out.som),
+                bit(out.voltage),
+                bit(out.drives),
+                bit(out.chain),
+                bit(out.keys),
+                bit(out.feed),
+                bit(out.differ),
+                stop_rank(out.stop),
+            ]);
+        },
+    )
+}
+
+fn both_status(mutant: Option<Mutant>) -> Adapter {
+    let next = mutant.map_or(both_status::next as both_status::Next, Mutant::both_status);
+    Adapter::stateless(
+        &[
+            "runs_mc",
+            "runs_cc",
+            "runtime_mc",
+            "runtime_cc",
+            "output_mc",
+            "output_cc",
+        ],
+        &["differ", "stop"],
+        move |i, o| {
+            let status = |channel: usize| both_status::Status {
+                executed: i[channel] != 0,
+                runtime: i[2 + channel] != 0,
+                outputs: u16::from(i[4 + channel] != 0),
+            };
+            let inputs = both_status::Inputs {
+                mc: status(0),
+                cc: status(1),
+            };
+            let (_, out) = next(both_status::State::INITIAL, &both_status::Config, &inputs);
+            o.extend([bit(out.differ), stop_rank(out.stop)]);
+        },
+    )
 }

@@ -21,6 +21,8 @@ pub(super) static FAMILY: Family = Family {
     machines: &[
         ("gate", "gate"),
         ("both_channels", "both_channels"),
+        ("both_fields", "both_fields"),
+        ("both_status", "both_status"),
         ("stop", "stop"),
         ("report", "report"),
         ("neighbour", "neighbour"),
