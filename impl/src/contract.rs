@@ -5,7 +5,8 @@
 //! come
 //!
 //! * a predicate function per clause, and `CLAUSES`, the list as data (the proof harnesses and the inventory read it);
-//! * under `cfg(kani)` one `kani::requires` and one `kani::ensures` per clause on `next`, and a cover per premise;
+//! * under `cfg(kani)` `assert_clauses`, which asserts every clause on one step and covers every premise: a harness
+//!   assumes the invariant, calls `next` and asserts;
 //! * with debug assertions a check of every clause after every call of `next`: it panics when, and only when, the
 //!   contract is broken. Release builds contain neither checks nor panics;
 //! * with the feature `creusot` one `requires` and one `ensures` per clause as Creusot contracts.
@@ -148,16 +149,12 @@ macro_rules! contract {
         ///
         /// Requires a state that satisfies [`State::invariant`]; ensures every clause of [`CLAUSES`]. Pure; total also for
         /// states that break the invariant, of whose outcome nothing is then claimed.
-        #[cfg_attr(kani, kani::requires(state.invariant(config)))]
-        $(#[cfg_attr(kani, kani::ensures(|result| $clause($crate::contract::Step {
-            before: state, config: *config, inputs: *inputs, after: result.0, outputs: result.1,
-        })))])+
         #[cfg_attr(feature = "creusot", creusot_contracts::macros::requires(state.invariant(config)))]
         $(#[cfg_attr(feature = "creusot", creusot_contracts::macros::ensures($clause($crate::contract::Step {
             before: state, config: *config, inputs: *inputs, after: result.0, outputs: result.1,
         })))])+
         pub fn next(state: State, config: &Config, inputs: &Inputs) -> (State, Outputs) {
-            // Kani and Creusot check the attributes; asserting the same again would only slow them down.
+            // Kani asserts in its harness, Creusot checks the attributes; asserting here again would only slow them down.
             #[cfg(all(debug_assertions, not(any(kani, creusot))))]
             assert!(state.invariant(config), "the state before the step breaks the invariant");
             let result = transition(state, config, inputs);
@@ -171,13 +168,23 @@ macro_rules! contract {
             result
         }
 
-        /// States for Kani that the premise of every clause can be met: no clause holds vacuously.
+        /// Asserts every clause on one step, for Kani, each under its name; and covers every premise, so that no clause
+        /// holds vacuously.
+        ///
+        /// Plain assertions, because the enforcement of a Kani contract takes every static as arbitrary, constants that the
+        /// compiler has promoted to statics included: clauses that compare with a constant would fail falsely.
         #[cfg(kani)]
-        pub fn cover_premises(step: Step) {
-            $({
-                let $step = step;
-                kani::cover!($premise);
-            })+
+        pub fn assert_clauses(step: Step) {
+            // The covers read bits, not the premises: the compiler threads jumps through the parts of a premise and would
+            // make several covers of one, some of which cannot be met.
+            let premises = evaluate(step).premises;
+            let mut clause = 0_u32;
+            $(
+                kani::cover((premises >> clause) & 1 == 1, concat!("premise of ", stringify!($clause)));
+                assert!($clause(step), stringify!($clause));
+                clause += 1;
+            )+
+            let _ = clause;
         }
 
         /// The monitor as an object: the state kept between the cycles, with its configuration.

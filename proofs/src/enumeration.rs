@@ -120,6 +120,10 @@ impl Source for Odometer {
         if digit > reach { highest } else { digit }
     }
 
+    fn enumerates(&self) -> bool {
+        true
+    }
+
     fn any_part(&mut self, parts: u32) -> u32 {
         1 + self.choose(parts.saturating_sub(1))
     }

@@ -1,6 +1,7 @@
 //! The source for Kani: every value of the full width, symbolically.
 
-use stillpoint_monitors::kernel::{Cycles, Position, Speed};
+use stillpoint_monitors::kernel::{Cycles, Percent, Position, Speed};
+use stillpoint_monitors::units::ModuloRange;
 
 use crate::source::{Source, Verdict};
 
@@ -21,7 +22,14 @@ impl Symbolic {
 
 impl Source for Symbolic {
     fn any_in(&mut self, low: u32, high: u32) -> u32 {
-        let value: u32 = kani::any();
+        // As few bits as the range needs: those above are then constants, and what is calculated with them is small.
+        let value = if high <= u32::from(u8::MAX) {
+            u32::from(kani::any::<u8>())
+        } else if high <= u32::from(u16::MAX) {
+            u32::from(kani::any::<u16>())
+        } else {
+            kani::any()
+        };
         kani::assume(low <= value && value <= high);
         value
     }
@@ -50,6 +58,21 @@ impl Source for Symbolic {
         self.any_in(0, highest)
     }
 
+    fn any_cut(&mut self, _: u32, highest: u32, bits: u32) -> u32 {
+        self.any_in(0, highest.min((1 << bits) - 1))
+    }
+
+    fn any_cut_i32(&mut self, _: u32, bits: u32) -> i32 {
+        let value = if bits <= i8::BITS {
+            i32::from(kani::any::<i8>())
+        } else {
+            i32::from(kani::any::<i16>())
+        };
+        let reach = 1 << (bits - 1);
+        kani::assume(-reach <= value && value < reach);
+        value
+    }
+
     fn cover(&mut self, index: usize, met: bool) {
         if met && index < 32 {
             self.covers |= 1 << index;
@@ -65,4 +88,26 @@ impl Source for Symbolic {
 pub(crate) fn conclude(verdict: Verdict) {
     kani::assume(verdict != Verdict::Discarded);
     assert!(verdict == Verdict::Held);
+}
+
+/// [`Speed::reduced`] where the reduced limit is at most 255; a limit that is not reduced is free. The monitors compare
+/// limits and treat none by its value, so that 8 bits show every order; that a wide one is reduced exactly is the property
+/// `units_factor`.
+#[allow(dead_code, reason = "named by an attribute of Kani only")]
+pub(crate) fn reduced_byte(speed: Speed, factor: Percent) -> Speed {
+    if factor == Percent::WHOLE {
+        return speed;
+    }
+    kani::assume(speed.0 <= u32::from(u8::MAX));
+    Speed(u32::from(
+        u16::from(speed.0 as u8) * u16::from(factor.get()) / 100,
+    ))
+}
+
+/// [`ModuloRange::folded`] for a position in the range, which is folded to itself. What a monitor makes of any other
+/// position is what it makes of the one it is folded to: it reads no other.
+#[allow(dead_code, reason = "named by an attribute of Kani only")]
+pub(crate) fn folded_in_range(range: ModuloRange, position: Position) -> Position {
+    kani::assume(!range.folds() || (range.lower() <= position && position < range.upper()));
+    position
 }

@@ -7,7 +7,8 @@
 //!   so a pass is a proof for that domain;
 //! * sampling ([`sampling`], driven by proptest in the tests): random choices over the full width, with shrinking. A test,
 //!   never a proof;
-//! * Kani (`cargo kani -p stillpoint-proofs -Z function-contracts`): every choice over the full width, symbolically.
+//! * Kani (`cargo kani`, in the folder of the workspace or in this one): every choice over the full width, symbolically. The
+//!   binary `kani` runs it and keeps the answers in `kani.toml` ([`results`]).
 //!
 //! Every harness has covers: situations that must be met, or the harness proves nothing. [`inventory`] lists the harnesses;
 //! the macro that lists one also makes its Kani harness, so that list and harnesses cannot drift apart. The binary
@@ -19,7 +20,10 @@ pub mod inventory;
 pub mod arbitrary;
 #[cfg(kani)]
 mod kani_source;
+#[cfg(not(kani))]
 pub mod page;
 pub mod properties;
+#[cfg(not(kani))]
+pub mod results;
 pub mod sampling;
 pub mod source;

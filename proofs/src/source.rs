@@ -39,6 +39,24 @@ pub trait Source {
     /// Any number of at most `highest`; the enumeration takes those up to `reach`, and `highest` itself.
     fn any_u32(&mut self, reach: u32, highest: u32) -> u32;
 
+    /// As [`Source::any_u32`], but Kani takes only the numbers of `bits` bits: for the factors and divisors of arithmetic that
+    /// it cannot decide at full width. Each use is a caveat of the harness.
+    fn any_cut(&mut self, reach: u32, highest: u32, _bits: u32) -> u32 {
+        self.any_u32(reach, highest)
+    }
+
+    /// As [`Source::any_i32`], but Kani takes only the numbers of `bits` bits, one of them the sign: see
+    /// [`Source::any_cut`].
+    fn any_cut_i32(&mut self, reach: u32, _bits: u32) -> i32 {
+        self.any_i32(reach)
+    }
+
+    /// Whether every choice is tried one after the other, so that a domain must be small. A draw that is narrowed for this
+    /// engine takes everything in the others.
+    fn enumerates(&self) -> bool {
+        false
+    }
+
     /// Which part of a domain that is too large to enumerate as a whole: the enumeration takes the parts 1 to `parts`; the
     /// other engines take 0, which is everything.
     fn any_part(&mut self, _parts: u32) -> u32 {

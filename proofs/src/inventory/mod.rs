@@ -25,6 +25,10 @@ pub struct Entry {
     pub bound: &'static str,
     /// What a reader must know before relying on it.
     pub caveat: &'static str,
+    /// The file of the property in `src`; `None` for a contract, which stands in its monitor.
+    pub file: Option<&'static str>,
+    /// The attributes of the Kani harness, with spaces as the compiler prints them: solver, stubs. Empty for the defaults.
+    pub kani: &'static str,
     /// The clauses of a contract: name, text, requirements. Empty for runs.
     pub clauses: fn() -> Vec<ClauseText>,
     /// Tries every choice.
@@ -56,7 +60,7 @@ fn requirements_of(clauses: Vec<ClauseText>) -> Vec<&'static str> {
 }
 
 macro_rules! entry {
-    (contract $id:ident on $family:ident::$monitor:ident {
+    (contract $(#[$($kani:tt)+])* $id:ident on $family:ident::$monitor:ident {
         property: $property:literal, domain: $domain:expr, domain_text: $domain_text:literal, caveat: $caveat:literal $(,)?
     }) => {
         $crate::inventory::Entry {
@@ -69,6 +73,8 @@ macro_rules! entry {
             domain: $domain_text,
             bound: "one step from any consistent state; inductive",
             caveat: $caveat,
+            file: None,
+            kani: concat!($(stringify!($($kani)+), "; "),*),
             clauses: $crate::properties::$family::clauses::$monitor,
             enumerate: |subject| {
                 let covers = stillpoint_monitors::$family::$monitor::CLAUSES.len();
@@ -79,7 +85,7 @@ macro_rules! entry {
             sample: |tape, subject| $crate::properties::$family::contracts::$monitor(tape, &subject.$family),
         }
     };
-    (run($unwind:literal) $id:ident on $family:ident::$monitor:literal by $module:ident::$function:ident {
+    (run($unwind:literal) $(#[$($kani:tt)+])* $id:ident on $family:ident::$monitor:literal by $module:ident::$function:ident {
         property: $property:literal, requirements: [$($requirement:literal),+], covers: [$($cover:literal),+],
         domain: $domain:expr, domain_text: $domain_text:literal, bound: $bound:literal, caveat: $caveat:literal $(,)?
     }) => {
@@ -93,6 +99,8 @@ macro_rules! entry {
             domain: $domain_text,
             bound: $bound,
             caveat: $caveat,
+            file: Some(concat!("properties/", stringify!($family), "/", stringify!($module), ".rs")),
+            kani: concat!($(stringify!($($kani)+), "; "),*),
             clauses: Vec::new,
             enumerate: |subject| {
                 $crate::enumeration::enumerate($domain, [$($cover),+].len(), |source| {
@@ -106,23 +114,26 @@ macro_rules! entry {
 
 #[cfg(kani)]
 macro_rules! kani_harness {
-    (contract $id:ident on $family:ident::$monitor:ident { $($rest:tt)* }) => {
-        #[kani::proof_for_contract(stillpoint_monitors::$family::$monitor::next)]
+    (contract $(#[$($kani:tt)+])* $id:ident on $family:ident::$monitor:ident { $($rest:tt)* }) => {
+        #[kani::proof]
+        $(#[kani::$($kani)+])*
         fn $id() {
-            use stillpoint_monitors::$family::$monitor::{State, Step, cover_premises, next};
+            use stillpoint_monitors::$family::$monitor::{State, Step, assert_clauses, next};
             let mut source = Symbolic::default();
             if let Some((before, config, inputs)) = crate::arbitrary::$family::$monitor(&mut source) {
-                assert!(State::INITIAL.invariant(&config));
+                kani::assume(before.invariant(&config));
+                assert!(State::INITIAL.invariant(&config), "initial_state_satisfies_the_invariant");
                 let (after, outputs) = next(before, &config, &inputs);
-                cover_premises(Step { before, config, inputs, after, outputs });
+                assert_clauses(Step { before, config, inputs, after, outputs });
             }
         }
     };
-    (run($unwind:literal) $id:ident on $family:ident::$monitor:literal by $module:ident::$function:ident {
+    (run($unwind:literal) $(#[$($kani:tt)+])* $id:ident on $family:ident::$monitor:literal by $module:ident::$function:ident {
         property: $property:literal, requirements: $requirements:tt, covers: [$($cover:literal),+], $($rest:tt)*
     }) => {
         #[kani::proof]
         #[kani::unwind($unwind)]
+        $(#[kani::$($kani)+])*
         fn $id() {
             let mut source = Symbolic::default();
             conclude(crate::properties::$family::$module::$function(&mut source, &Subject::PRODUCTION.$family));

@@ -321,7 +321,7 @@ pub fn holding_brake<S: Source>(
     holding_brake::Config,
     holding_brake::Inputs,
 )> {
-    let factor = source.any_of(&[0, 1, holding_brake::Config::HIGHEST]);
+    let factor = source.any_u32(1, u32::from(holding_brake::Config::HIGHEST)) as u16;
     let config = holding_brake::Config::new(factor).ok()?;
     let state = holding_brake::State {
         step: source.any_of(&holding_brake::Phase::ALL),

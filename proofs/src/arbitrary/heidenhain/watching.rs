@@ -127,9 +127,14 @@ pub fn revolutions<S: Source>(
 ) -> Option<(revolutions::State, revolutions::Config, revolutions::Inputs)> {
     let turns = source.any_u32(3, (1 << 30) - 1);
     let config = revolutions::Config::new(turns).ok()?;
-    // The highest bits of a number of 32 bits leave the range of the angle.
+    let angle = source.any_i32(4);
     let before = revolutions::State {
-        angle: source.any_i32(4) >> 1,
+        // The ends of 32 bits are outside; halved they are the ends of the range.
+        angle: if source.enumerates() {
+            angle >> 1
+        } else {
+            angle
+        },
     };
     if !before.invariant(&config) {
         return None;

@@ -98,8 +98,28 @@ pub fn pulses<S: Source>(
     })
 }
 
-/// A short list, the list of models or the whole list.
+/// The longest list that is accepted.
+const LONGEST: usize = 256;
+
+/// All items again and again. A step reads one item; with the lists of this that begin anywhere in the first round, every item
+/// stands at every place of lists of every length.
+static ROUNDS: [Item; ITEMS.len() + LONGEST] = {
+    let mut all = [ITEMS[0]; ITEMS.len() + LONGEST];
+    let mut place = 0;
+    while place < all.len() {
+        all[place] = ITEMS[place % ITEMS.len()];
+        place += 1;
+    }
+    all
+};
+
+/// A list of any length; the enumeration takes a short one, the list of models and the whole one.
 pub fn items<S: Source>(source: &mut S) -> &'static [Item] {
+    if !source.enumerates() {
+        let first = source.any_in(0, ITEMS.len() as u32 - 1) as usize;
+        let length = source.any_in(1, LONGEST as u32) as usize;
+        return ROUNDS.get(first..first + length).unwrap_or(&ITEMS);
+    }
     match source.any_in(0, 2) {
         0 => CLASSES.get(..1).unwrap_or(&CLASSES),
         1 => &CLASSES,

@@ -157,10 +157,17 @@ pub fn selection_config<S: Source>(source: &mut S) -> Option<(selection::Config,
     ];
     let mut config = selection::Config::new(source.any_bool(), t_vel, limits).ok()?;
     if source.any_bool() {
-        // Two factors are enough: what is chosen at index 0 and what elsewhere.
-        let (first, others) = (any_factor(source), any_factor(source));
-        let mut factors = [others; 16];
-        factors[0] = first;
+        let first = any_factor(source);
+        let mut factors = [first; 16];
+        let (_, others) = factors.split_at_mut(1);
+        if source.enumerates() {
+            // Two factors: what is chosen at index 0 and what elsewhere.
+            others.fill(any_factor(source));
+        } else {
+            for factor in others {
+                *factor = any_factor(source);
+            }
+        }
         config = config.with_override(factors).ok()?;
     }
     Some((config, t_vel))

@@ -76,7 +76,7 @@ inventory! {
         domain_text: "motor speeds -1 to 1, 99 to 101, rated speeds -1 to 1, and the ends of 32 bits; every state and signal",
         caveat: "none",
     }]
-    [run(4) hfs_units on heidenhain::"parameters" by units::values_round_to_the_earlier_reaction {
+    [run(13) #[solver(kissat)] hfs_units on heidenhain::"parameters" by units::values_round_to_the_earlier_reaction {
         property: "a safe machine parameter in its printed range becomes the exact value rounded to the earlier reaction; any other is refused",
         requirements: ["HFS-PARAM-010", "HFS-TIMING-001"],
         covers: ["accepted", "refused", "rounded down", "rounded up"],

@@ -4,7 +4,7 @@ use crate::enumeration::Domain;
 use crate::inventory::NARROW;
 
 inventory! {
-    [contract hfs_speed_contract on heidenhain::speed {
+    [contract #[solver(kissat)] hfs_speed_contract on heidenhain::speed {
         property: "every clause of the limited speed's contract: 5 % margin, restricted operation, limits that are not set",
         domain: NARROW,
         domain_text: "limits 0, 1 and the highest; speeds 0 to 3, the highest, and those around each limit and its margin; every state",
@@ -34,7 +34,7 @@ inventory! {
         domain_text: "permitted angles 1 to 3 and the largest, angles -2 to 2 and the largest, steps -5 to 5 and the ends of 32 bits",
         caveat: "reading AMB-32 AT_START",
     }]
-    [contract hfs_comparison_contract on heidenhain::comparison {
+    [contract #[solver(kissat)] hfs_comparison_contract on heidenhain::comparison {
         property: "every clause of the comparison's contract: what is compared when, tolerance, window",
         domain: Domain { delays: &[1, 3], highest_speed: 0 },
         domain_text: "windows of 1 and 3 cycles, 0, 99 and 100 percent, deviations and speeds near 0 and the ends of 32 bits; every state",

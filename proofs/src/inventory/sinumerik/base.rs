@@ -22,7 +22,7 @@ inventory! {
         domain_text: "t_F 0, 1, 2, 3 or 5 cycles; every consistent state; every input",
         caveat: "what counts as an active function and as a discrepancy comes from outside",
     }]
-    [contract selection_contract on sinumerik::selection {
+    [contract #[solver(kissat)] #[stub(stillpoint_monitors::kernel::Speed::reduced, crate::kani_source::reduced_byte)] selection_contract on sinumerik::selection {
         property: "every clause of the selection's contract: delays, override, forced operating stop, reference position, feedback",
         domain: Domain { delays: &[0, 1, 3], highest_speed: 2 },
         domain_text: "t_vel 0, 1 or 3 cycles; limits 0 to 2 in every order; no override, or factors of 1 or 100 % at 0 and elsewhere; two positions; every consistent state and input",
@@ -52,7 +52,7 @@ inventory! {
         domain_text: "complete: every setting and input",
         caveat: "of several stopping axes the highest reaction counts: a maximum, tested in the monitor's module",
     }]
-    [run(4) initial_states on sinumerik::"all" by initial::initial_states {
+    [run(18) initial_states on sinumerik::"all" by initial::initial_states {
         property: "the initial state of every monitor satisfies its invariant: the base of the induction",
         requirements: ["S840D-ARCH-504"],
         covers: ["an accepted configuration"],
@@ -115,7 +115,7 @@ inventory! {
         bound: "t_vel at most 4; longer delays follow from the contract (lower_limit_comes_in_time, standstill_comes_in_time)",
         caveat: "none",
     }]
-    [run(4) selection_forced on sinumerik::"selection" by selection::forced_standstill_does_not_depend_on_signals {
+    [run(18) #[solver(kissat)] #[stub(stillpoint_monitors::kernel::Speed::reduced, crate::kani_source::reduced_byte)] selection_forced on sinumerik::"selection" by selection::forced_standstill_does_not_depend_on_signals {
         property: "two runs of a forced operating stop that differ in the signals only are the same",
         requirements: ["S840D-P-07", "S840D-STOP-080", "S840D-EXT-018"],
         covers: ["the signals differ and one of them de-selects"],
@@ -142,7 +142,7 @@ inventory! {
         bound: "one cycle of two channels",
         caveat: "the exchange between the channels takes one cycle at most",
     }]
-    [run(4) axis_history on sinumerik::"gear, agreement, reference" by axis::history_decides_after_power_on {
+    [run(7) axis_history on sinumerik::"gear, agreement, reference" by axis::history_decides_after_power_on {
         property: "after power-on with stored agreements the history of both channels decides on the safe reference",
         requirements: ["S840D-P-15", "S840D-REF-004", "S840D-REF-008", "S840D-REF-014", "S840D-REF-015"],
         covers: ["the comparison succeeds", "it fails in one channel only"],

@@ -3,7 +3,7 @@
 use crate::enumeration::Domain;
 
 inventory! {
-    [contract channel_contract on sinumerik::channel {
+    [contract #[solver(kissat)] #[stub(stillpoint_monitors::kernel::Speed::reduced, crate::kani_source::reduced_byte)] channel_contract on sinumerik::channel {
         property: "every law of the channel: what a monitor requires is latched and acts in the same cycle, whatever else happens",
         domain: Domain { delays: &[0, 2], highest_speed: 0 },
         domain_text: "five parts: stops and faults; selection; ramp; tests and pulses; limit switches. Times 0 or 2 cycles, two positions; the states and inputs of the part in every combination, the others quiet",

@@ -16,7 +16,7 @@ inventory! {
         domain_text: "tolerances 0 to 3 and the largest; positions and references -5 to 5 and the ends of 32 bits",
         caveat: "none",
     }]
-    [contract speed_contract on sinumerik::speed {
+    [contract #[solver(kissat)] #[stub(stillpoint_monitors::kernel::Speed::reduced, crate::kani_source::reduced_byte)] speed_contract on sinumerik::speed {
         property: "every clause of the speed limit's contract: configured stop, encoder limit, setpoint limit",
         domain: NARROW,
         domain_text: "every common stop, one per stage from A, B, C and a delayed E; speeds 0 to 2, limits 0 and 1, and 32 bits",
@@ -40,13 +40,13 @@ inventory! {
         domain_text: "speeds and thresholds 0 to 5 and 32 bits",
         caveat: "none",
     }]
-    [contract cam_contract on sinumerik::cam {
+    [contract #[stub(stillpoint_monitors::units::ModuloRange::folded, crate::kani_source::folded_in_range)] cam_contract on sinumerik::cam {
         property: "every clause of a cam's contract: side, hysteresis, modulo range, synchronisation",
         domain: NARROW,
         domain_text: "cams -1 to 1, ranges -2 to 2, tolerances 0 to 2, positions -5 to 5, and the ends of 32 bits",
         caveat: "the signal is safe only together with \"axis safely referenced\"",
     }]
-    [contract results_contract on sinumerik::results {
+    [contract #[unwind(12)] results_contract on sinumerik::results {
         property: "every clause of the result lists' contract: a field for each function, none hidden",
         domain: NARROW,
         domain_text: "every result; every pattern of the first two cams with the others off, and all on",
@@ -89,7 +89,7 @@ inventory! {
         bound: "four cycles, tolerance at most 3; the rest follows from the contract (hysteresis_keeps)",
         caveat: "reading A-40 HYST_UP",
     }]
-    [run(4) selection_override on sinumerik::"selection" by watching::override_means_nothing_in_sg1_and_sg3 {
+    [run(18) #[solver(kissat)] #[stub(stillpoint_monitors::kernel::Speed::reduced, crate::kani_source::reduced_byte)] selection_override on sinumerik::"selection" by watching::override_means_nothing_in_sg1_and_sg3 {
         property: "with SG1 or SG3 selected two runs that differ in the override signals only are the same",
         requirements: ["S840D-P-31", "S840D-OVR-001"],
         covers: ["the signals differ where an override exists"],
@@ -116,7 +116,7 @@ inventory! {
         bound: "none",
         caveat: "none",
     }]
-    [run(4) units_speed on sinumerik::"units" by units::speed_rounds_down {
+    [run(4) #[solver(kissat)] units_speed on sinumerik::"units" by units::speed_rounds_down {
         property: "a speed limit in increments per cycle is the exact one rounded down",
         requirements: ["S840D-TIMING-512", "S840D-KDV-711", "S840D-SG-001"],
         covers: ["rounded", "exact"],
@@ -125,7 +125,7 @@ inventory! {
         bound: "none",
         caveat: "products of 128 bits: Kani may take long",
     }]
-    [run(4) speed_movement on sinumerik::"units, motion, speed" by units::movement_is_compared_exactly {
+    [run(4) #[solver(kissat)] speed_movement on sinumerik::"units, motion, speed" by units::movement_is_compared_exactly {
         property: "a movement in one cycle violates the stage exactly if it is more than the exact limit times the cycle",
         requirements: ["S840D-TIMING-512", "S840D-SG-001", "S840D-KDV-711"],
         covers: ["a violation", "the largest movement permitted"],
@@ -134,7 +134,7 @@ inventory! {
         bound: "none",
         caveat: "whole increments: the encoder rounds to less than one",
     }]
-    [run(4) units_factor on sinumerik::"units, selection" by units::factor_rounds_down {
+    [run(4) #[solver(kissat)] units_factor on sinumerik::"units, selection" by units::factor_rounds_down {
         property: "an override or setpoint factor rounds a limit down",
         requirements: ["S840D-OVR-001", "S840D-PARAM-011", "S840D-PARAM-012"],
         covers: ["rounded"],
@@ -143,7 +143,7 @@ inventory! {
         bound: "none",
         caveat: "none",
     }]
-    [run(4) units_limits on sinumerik::"units" by units::limits_round_inwards {
+    [run(4) #[solver(kissat)] units_limits on sinumerik::"units" by units::limits_round_inwards {
         property: "tolerances and upper limits are rounded down, lower limits up",
         requirements: ["S840D-SBH-001", "S840D-SE-001", "S840D-SN-002"],
         covers: ["a broken increment below zero"],
@@ -152,7 +152,7 @@ inventory! {
         bound: "32 bits of thousandths",
         caveat: "none",
     }]
-    [run(4) units_folding on sinumerik::"units, cam" by units::folding_keeps_the_position {
+    [run(4) #[solver(kissat)] units_folding on sinumerik::"units, cam" by units::folding_keeps_the_position {
         property: "a folded position is in the modulo range, a whole number of ranges away",
         requirements: ["S840D-SN-011", "S840D-PARAM-014"],
         covers: ["folded down", "folded up", "no range"],
@@ -161,7 +161,7 @@ inventory! {
         bound: "none",
         caveat: "none",
     }]
-    [run(40) encoder_position on sinumerik::"encoder" by units::encoder_position_rounds_down {
+    [run(9) #[solver(kissat)] encoder_position on sinumerik::"encoder" by units::encoder_position_rounds_down {
         property: "the position of a rotary encoder is the exact one rounded down, in both directions",
         requirements: ["S840D-ENC-006", "S840D-ARCH-503/b"],
         covers: ["reversed, below zero, rounded"],
@@ -170,7 +170,7 @@ inventory! {
         bound: "ratios of 32 bits in lowest terms; others are refused",
         caveat: "Kani would have to unwind Euclid's algorithm: bounded there",
     }]
-    [run(40) encoder_speed on sinumerik::"encoder" by units::encoder_speed_rounds_down {
+    [run(9) #[solver(kissat)] encoder_speed on sinumerik::"encoder" by units::encoder_speed_rounds_down {
         property: "the highest speed under the encoder limit frequency is the exact one rounded down, at load and encoder",
         requirements: ["S840D-FREQ-001", "S840D-FREQ-002", "S840D-FREQ-003"],
         covers: ["an extended limit frequency"],

@@ -103,10 +103,17 @@ pub fn values_round_to_the_earlier_reaction<S: Source>(
     source: &mut S,
     _subject: &Subject,
 ) -> Verdict {
-    let which = source.any_in(0, CONVERSIONS.len() as u32 - 1);
-    let Some(conversion) = CONVERSIONS.get(which as usize) else {
-        return Verdict::Discarded;
-    };
+    let which = source.any_in(0, CONVERSIONS.len() as u32 - 1) as usize;
+    // One after the other, so that Kani divides by constants.
+    for (place, conversion) in CONVERSIONS.iter().enumerate() {
+        if place == which {
+            return rounds_to_the_earlier_reaction(source, conversion);
+        }
+    }
+    Verdict::Discarded
+}
+
+fn rounds_to_the_earlier_reaction<S: Source>(source: &mut S, conversion: &Conversion) -> Verdict {
     let (low, high) = conversion.range;
     let value = match source.any_in(0, 2) {
         0 => source.any_u32(40, u32::MAX),
@@ -116,23 +123,22 @@ pub fn values_round_to_the_earlier_reaction<S: Source>(
     let result = (conversion.convert)(value);
     let (numerator, denominator) = conversion.factor;
     let product = u64::from(value) * numerator;
-    let inexact = product % denominator != 0;
     let accepted = low <= value && value <= high;
+    let scaled = result.map(|converted| u64::from(converted) * denominator);
+    let inexact = scaled != Ok(product);
     source.cover(0, accepted);
     source.cover(1, !accepted);
     source.cover(2, accepted && inexact && !conversion.up);
     source.cover(3, accepted && inexact && conversion.up);
-    let exact = if conversion.up {
-        product.div_ceil(denominator)
-    } else {
-        product / denominator
+    let right = match scaled {
+        Ok(scaled) if conversion.up => {
+            accepted && product <= scaled && scaled - product < denominator
+        }
+        Ok(scaled) => accepted && scaled <= product && product - scaled < denominator,
+        // No accepted value is too large for the result.
+        Err(error) => !accepted && error == ConfigError::ValueOutOfRange,
     };
-    let expected = if accepted {
-        u32::try_from(exact).map_err(|_| ConfigError::ValueTooLarge)
-    } else {
-        Err(ConfigError::ValueOutOfRange)
-    };
-    if result == expected {
+    if right {
         Verdict::Held
     } else {
         Verdict::Broken("value_rounds_to_the_earlier_reaction")

@@ -13,9 +13,9 @@ use stillpoint_monitors::units::{
 use super::Subject;
 use crate::source::{Source, Verdict};
 
-/// Any number that is not 0.
+/// Any number that is not 0; Kani takes 1 to 4, since Euclid's algorithm is unwound.
 fn positive<S: Source>(source: &mut S, reach: u32, highest: u32) -> Option<NonZeroU32> {
-    NonZeroU32::new(source.any_u32(reach, highest - 1) + 1)
+    NonZeroU32::new(source.any_cut(reach, highest - 1, 2) + 1)
 }
 
 /// Any monitoring cycle; the enumeration takes the longest ones and the shortest.
@@ -24,17 +24,23 @@ fn cycle<S: Source>(source: &mut S, reach: u32) -> Option<NonZeroU32> {
 }
 
 /// Increments of a millimetre or a revolution.
-const fn increments(axis: Axis) -> u128 {
+const fn increments(axis: Axis) -> u64 {
     match axis {
         Axis::Linear => 1_000,
         Axis::Rotary => 360_000,
     }
 }
 
-/// Whether `converted` is `numerator / denominator` rounded down.
-fn rounded_down(converted: u32, numerator: u128, denominator: u128) -> bool {
+/// Whether `converted` is `numerator / denominator` rounded down; the denominator has at most 31 bits.
+fn rounded_down(converted: u32, numerator: u64, denominator: u64) -> bool {
+    let scaled = u64::from(converted) * denominator;
+    scaled <= numerator && numerator - scaled < denominator
+}
+
+/// [`rounded_down`] for larger numbers.
+fn rounded_down_wide(converted: u32, numerator: u128, denominator: u128) -> bool {
     let scaled = u128::from(converted) * denominator;
-    scaled <= numerator && numerator < scaled + denominator
+    scaled <= numerator && numerator - scaled < denominator
 }
 
 /// A speed in thousandths of mm/min or rev/min is the exact number of increments per cycle rounded down: never more.
@@ -53,10 +59,12 @@ pub fn speed_rounds_down<S: Source>(source: &mut S, _subject: &Subject) -> Verdi
     let Ok(converted) = scale.speed_from_thousandths(value) else {
         return Verdict::Discarded;
     };
-    let exact = u128::from(value) * increments(axis) * u128::from(cycle_us.get());
-    source.cover(0, exact % 60_000_000_000 != 0);
-    source.cover(1, exact % 60_000_000_000 == 0 && exact > 0);
-    if rounded_down(converted.0, exact, 60_000_000_000) {
+    // In thousandths of an increment: numbers of 32, 9 and 15 bits; a minute has 60 million microseconds.
+    let exact = value * (increments(axis) / 1_000 * u64::from(cycle_us.get()));
+    let inexact = u64::from(converted.0) * 60_000_000 != exact;
+    source.cover(0, inexact);
+    source.cover(1, !inexact && exact > 0);
+    if rounded_down(converted.0, exact, 60_000_000) {
         Verdict::Held
     } else {
         Verdict::Broken("speed_rounds_down")
@@ -79,11 +87,19 @@ pub fn movement_is_compared_exactly<S: Source>(source: &mut S, subject: &Subject
     let Ok(config) = speed::Config::new(2, [0; 4], None, 0) else {
         return Verdict::Discarded;
     };
-    // Movements around the limit, and any other.
     let from = Position(source.any_i32(1));
     let forward = source.any_bool();
-    let moved = i64::from(limit.0) + i64::from(source.any_i32(1)) % 1_000_000;
-    let Ok(to) = i32::try_from(i64::from(from.0) + if forward { moved } else { -moved }) else {
+    let other = i64::from(source.any_i32(1));
+    let to = if source.enumerates() {
+        // Movements around the limit, and large ones.
+        let moved = i64::from(limit.0) + other % 1_000_000;
+        i64::from(from.0) + if forward { moved } else { -moved }
+    } else if forward {
+        i64::from(from.0) + i64::from(limit.0) + other
+    } else {
+        other
+    };
+    let Ok(to) = i32::try_from(to) else {
         return Verdict::Discarded;
     };
     let state = motion::State {
@@ -104,8 +120,9 @@ pub fn movement_is_compared_exactly<S: Source>(source: &mut S, subject: &Subject
         encoder_speed: Speed(0),
     };
     let (_, outputs) = (subject.speed)(speed::State, &config, &inputs);
-    let permitted = u128::from(per_minute) * increments(axis) * u128::from(cycle_us.get());
-    let beyond = u128::from(from.0.abs_diff(to)) * 60_000_000 > permitted;
+    // Numbers of 16, 19 and 15 bits, and of 32 and 26.
+    let permitted = u64::from(per_minute) * increments(axis) * u64::from(cycle_us.get());
+    let beyond = u64::from(from.0.abs_diff(to)) * 60_000_000 > permitted;
     source.cover(0, beyond);
     source.cover(1, actual.speed == limit && limit > Speed(0));
     if outputs.violated == beyond {
@@ -124,9 +141,10 @@ pub fn factor_rounds_down<S: Source>(source: &mut S, _subject: &Subject) -> Verd
     let Ok(factor) = Percent::new(percent as u8) else {
         return Verdict::Broken("permitted_factor_is_accepted");
     };
-    let exact = u128::from(limit.0) * u128::from(percent);
-    source.cover(0, exact % 100 != 0);
-    if rounded_down(limit.reduced(factor).0, exact, 100) {
+    let exact = u64::from(limit.0) * u64::from(percent);
+    let reduced = limit.reduced(factor).0;
+    source.cover(0, u64::from(reduced) * 100 != exact);
+    if rounded_down(reduced, exact, 100) {
         Verdict::Held
     } else {
         Verdict::Broken("factor_rounds_down")
@@ -142,7 +160,7 @@ pub fn limits_round_inwards<S: Source>(source: &mut S, _subject: &Subject) -> Ve
         return Verdict::Broken("small_position_is_accepted");
     };
     let (above, below) = (i64::from(upper.0) * 1000, i64::from(lower.0) * 1000);
-    source.cover(0, thousandths < 0 && thousandths % 1000 != 0);
+    source.cover(0, thousandths < 0 && above != thousandths);
     let magnitude = thousandths.unsigned_abs();
     let Ok(tolerance) = distance_down(magnitude) else {
         return Verdict::Broken("small_distance_is_accepted");
@@ -151,7 +169,7 @@ pub fn limits_round_inwards<S: Source>(source: &mut S, _subject: &Subject) -> Ve
         && thousandths < above + 1000
         && below >= thousandths
         && thousandths > below - 1000
-        && rounded_down(tolerance.0, u128::from(magnitude), 1000)
+        && rounded_down(tolerance.0, magnitude, 1000)
     {
         Verdict::Held
     } else {
@@ -163,8 +181,8 @@ pub fn limits_round_inwards<S: Source>(source: &mut S, _subject: &Subject) -> Ve
 ///
 /// Cover 0: folded down, cover 1: folded up, cover 2: no range.
 pub fn folding_keeps_the_position<S: Source>(source: &mut S, _subject: &Subject) -> Verdict {
-    let (lower, upper) = (source.any_i32(3), source.any_i32(3));
-    let position = source.any_i32(9);
+    let (lower, upper) = (source.any_cut_i32(3, 8), source.any_cut_i32(3, 8));
+    let position = source.any_cut_i32(9, 8);
     let Ok(range) = ModuloRange::new(Position(lower), Position(upper)) else {
         return Verdict::Discarded;
     };
@@ -205,7 +223,7 @@ pub fn encoder_position_rounds_down<S: Source>(source: &mut S, _subject: &Subjec
         load,
     };
     let reversed = source.any_bool();
-    let count = source.any_i32(6);
+    let count = source.any_cut_i32(6, 8);
     let Ok(encoder) = Encoder::new(mounting, subdivision, reversed) else {
         return Verdict::Discarded;
     };
@@ -267,8 +285,8 @@ pub fn encoder_speed_rounds_down<S: Source>(source: &mut S, _subject: &Subject) 
     let exact = micro_pulses * u128::from(denom.get()) * u128::from(load.get());
     let divisor = 1_000_000 * u128::from(pulses.get()) * u128::from(numera.get());
     source.cover(0, hz > LimitFrequency::STANDARD.hz());
-    if rounded_down(at_load.0, exact, divisor)
-        && rounded_down(at_encoder.0, micro_pulses, 1_000_000)
+    if rounded_down_wide(at_load.0, exact, divisor)
+        && rounded_down_wide(at_encoder.0, micro_pulses, 1_000_000)
     {
         Verdict::Held
     } else {

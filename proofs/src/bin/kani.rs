@@ -1,0 +1,190 @@
+//! Runs Kani over the harnesses and writes what it answered to `proofs/kani.toml`.
+//!
+//! * without arguments: every harness;
+//! * with names of harnesses: those only; the other rows of the file are kept;
+//! * `--within SECONDS`: the harnesses that held in the last run, the quickest first, as many as fit; nothing is written;
+//! * `--log FILE`: no run, the answers of `FILE`, the output of such a run.
+//!
+//! `cargo kani` is looked for in `PATH`, behind the folders of the variable `KANI_PATH` if it is set. Exit status: 0 if every
+//! harness that was run holds, 1 if one fails, is vacuous or, with `--within`, has no answer in its time; 2 if nothing was run.
+
+use std::ffi::OsString;
+use std::io::{BufRead, BufReader, Write};
+use std::path::PathBuf;
+use std::process::{Command, ExitCode, Stdio};
+
+use stillpoint_proofs::inventory;
+use stillpoint_proofs::results::{self, FILE, LIMIT_SECONDS, Results, Row, Verdict};
+
+const USAGE: &str = "usage: kani [--within SECONDS | --log FILE | HARNESS...]";
+
+fn main() -> ExitCode {
+    match run() {
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => ExitCode::FAILURE,
+        Err(error) => {
+            eprintln!("{error}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+fn run() -> Result<bool, String> {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let mut file = Results::read()?;
+    let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    let (log, writes) = match arguments.as_slice() {
+        ["--log", path] => {
+            let log = std::fs::read_to_string(path).map_err(|error| format!("{path}: {error}"))?;
+            (log, true)
+        }
+        ["--within", seconds] => {
+            let seconds = seconds.parse().map_err(|_| USAGE.to_owned())?;
+            (kani(&quickest(&file, seconds))?, false)
+        }
+        names => {
+            if let Some(unknown) = names.iter().find(|name| !is_harness(name)) {
+                return Err(format!("{unknown}: there is no such harness\n{USAGE}"));
+            }
+            let names: Vec<String> = names.iter().copied().map(str::to_owned).collect();
+            (kani(&names)?, true)
+        }
+    };
+    let answers = results::answers(&log);
+    if answers.is_empty() {
+        return Err("no harness was run".to_owned());
+    }
+    let mut holds = true;
+    let count = answers.len();
+    let mut seconds = 0.0;
+    for (id, answer) in answers {
+        let Some(entry) = inventory::all().find(|entry| entry.id == id) else {
+            // Harnesses outside the inventory: the broken monitors.
+            continue;
+        };
+        seconds += answer.seconds;
+        holds &= match answer.verdict {
+            Verdict::Holds => true,
+            Verdict::NoAnswer => writes,
+            Verdict::Fails(_) | Verdict::Vacuous => false,
+        };
+        if answer.verdict != Verdict::Holds {
+            println!("{id}: {}", answer.verdict);
+        }
+        let row = Row {
+            answer,
+            solver: results::solver(entry).to_owned(),
+            sources: results::fingerprint(entry),
+        };
+        file.rows.insert(id, row);
+    }
+    println!("{count} harnesses, {seconds:.0} s of verification");
+    if writes {
+        if let Some(version) = log
+            .lines()
+            .find_map(|line| line.strip_prefix("Kani Rust Verifier "))
+        {
+            file.kani = version.split(' ').next().unwrap_or_default().to_owned();
+        }
+        file.cbmc = cbmc_version(&file.kani);
+        std::fs::write(FILE, file.render()).map_err(|error| format!("{FILE}: {error}"))?;
+    }
+    Ok(holds)
+}
+
+fn is_harness(name: &str) -> bool {
+    inventory::all().any(|entry| entry.id == name)
+}
+
+/// The harnesses that held, the quickest first, as many as take `seconds` together.
+fn quickest(file: &Results, seconds: f64) -> Vec<String> {
+    /// What a harness costs beside its verification: linking and instrumentation.
+    const BESIDE: f64 = 1.0;
+    let held = file
+        .rows
+        .iter()
+        .filter(|(_, row)| row.answer.verdict == Verdict::Holds);
+    let mut held: Vec<_> = held
+        .map(|(id, row)| (row.answer.seconds + BESIDE, id))
+        .collect();
+    held.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut sum = 0.0;
+    let fits = held.into_iter().take_while(|(cost, _)| {
+        sum += cost;
+        sum <= seconds
+    });
+    fits.map(|(_, id)| id.clone()).collect()
+}
+
+/// The search path: `KANI_PATH`, then `PATH`.
+fn search_path() -> OsString {
+    let paths = ["KANI_PATH", "PATH"]
+        .into_iter()
+        .filter_map(std::env::var_os);
+    let folders = paths.flat_map(|path| std::env::split_paths(&path).collect::<Vec<PathBuf>>());
+    std::env::join_paths(folders).unwrap_or_default()
+}
+
+/// Runs Kani over these harnesses, over all of them if the list is empty; its output, which is shown as well.
+fn kani(names: &[String]) -> Result<String, String> {
+    let mut command = Command::new("cargo");
+    command
+        .args(["kani", "-Z", "unstable-options", "--output-format", "terse"])
+        .args(["--harness-timeout", &format!("{LIMIT_SECONDS}s")])
+        .current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
+        .env("PATH", search_path())
+        .stdout(Stdio::piped());
+    // Kani brings a compiler of its own; what `cargo run` has set for this program would lead it to another one.
+    for variable in [
+        "RUSTUP_TOOLCHAIN",
+        "CARGO",
+        "RUSTC",
+        "RUSTDOC",
+        "LD_LIBRARY_PATH",
+    ] {
+        command.env_remove(variable);
+    }
+    for name in names {
+        command.args(["--harness", &format!("kani_harnesses::{name}")]);
+    }
+    let mut child = command
+        .spawn()
+        .map_err(|error| format!("cargo kani: {error}"))?;
+    let mut log = String::new();
+    let output = child.stdout.take().map(BufReader::new);
+    for line in output.into_iter().flat_map(BufRead::lines) {
+        let line = line.map_err(|error| format!("cargo kani: {error}"))?;
+        let _ = writeln!(std::io::stdout(), "{line}");
+        log.push_str(&line);
+        log.push('\n');
+    }
+    child
+        .wait()
+        .map_err(|error| format!("cargo kani: {error}"))?;
+    Ok(log)
+}
+
+/// The version of CBMC: of the one in the search path, or of the one that Kani has brought along.
+fn cbmc_version(kani: &str) -> String {
+    let home = std::env::var_os("KANI_HOME")
+        .map(PathBuf::from)
+        .or_else(|| std::env::var_os("HOME").map(|home| PathBuf::from(home).join(".kani")));
+    let brought = home.map(|home| home.join(format!("kani-{kani}/bin/cbmc")));
+    let candidates = brought
+        .into_iter()
+        .filter(|path| path.exists())
+        .chain([PathBuf::from("cbmc")]);
+    for program in candidates {
+        let output = Command::new(program)
+            .arg("--version")
+            .env("PATH", search_path())
+            .output();
+        if let Ok(output) = output {
+            let text = String::from_utf8_lossy(&output.stdout);
+            if let Some(version) = text.split_whitespace().next() {
+                return version.to_owned();
+            }
+        }
+    }
+    "unknown".to_owned()
+}

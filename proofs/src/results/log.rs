@@ -1,0 +1,132 @@
+//! Reads what `cargo kani --output-format terse` prints.
+
+use std::collections::BTreeMap;
+
+use super::{Answer, LIMIT_SECONDS, Verdict};
+
+/// The answers in the log of a run, by harness. A harness that was begun and has no answer is left out.
+pub fn answers(log: &str) -> BTreeMap<String, Answer> {
+    let mut answers = BTreeMap::new();
+    let mut harness = None;
+    let mut block = String::new();
+    for line in log.lines().chain(["Checking harness end..."]) {
+        let begins = line.strip_prefix("Checking harness ");
+        let Some(path) = begins.and_then(|rest| rest.strip_suffix("...")) else {
+            block.push_str(line);
+            block.push('\n');
+            continue;
+        };
+        if let Some((name, answer)) = harness.take().zip(answer(&block)) {
+            answers.insert(name, answer);
+        }
+        harness = path.rsplit("::").next().map(str::to_owned);
+        block.clear();
+    }
+    answers
+}
+
+fn answer(block: &str) -> Option<Answer> {
+    let line = |prefix: &str| block.lines().find_map(|line| line.strip_prefix(prefix));
+    if line("CBMC timed out").is_some() {
+        return Some(Answer {
+            verdict: Verdict::NoAnswer,
+            seconds: f64::from(LIMIT_SECONDS),
+            checks: 0,
+            met: 0,
+            covers: 0,
+        });
+    }
+    let verdict = line("VERIFICATION:- ")?;
+    let seconds = line("Verification Time: ")?.strip_suffix('s')?;
+    let (_, checks) = counts(block, " failed")?;
+    let (met, covers) = counts(block, " cover properties satisfied").unwrap_or((0, 0));
+    Some(Answer {
+        verdict: if verdict != "SUCCESSFUL" {
+            let check = line("Failed Checks: ").unwrap_or("no check named");
+            Verdict::Fails(check.to_owned())
+        } else if met < covers || covers == 0 {
+            Verdict::Vacuous
+        } else {
+            Verdict::Holds
+        },
+        seconds: seconds.parse().ok()?,
+        checks,
+        met,
+        covers,
+    })
+}
+
+/// The numbers of ` ** 2 of 5 failed` and the like.
+fn counts(block: &str, what: &str) -> Option<(u64, u64)> {
+    block.lines().find_map(|line| {
+        let (some, rest) = line.strip_prefix(" ** ")?.split_once(" of ")?;
+        let (all, rest) = rest.split_at_checked(rest.find(|c: char| !c.is_ascii_digit())?)?;
+        rest.starts_with(what)
+            .then(|| Some((some.parse().ok()?, all.parse().ok()?)))?
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_kind_of_answer_is_read() {
+        let log = "\
+Kani Rust Verifier 0.57.0 (cargo plugin)
+Checking harness inventory::a::kani_harnesses::good...
+
+VERIFICATION RESULT:
+ ** 0 of 222 failed (3 unreachable)
+
+ ** 2 of 2 cover properties satisfied
+
+
+VERIFICATION:- SUCCESSFUL
+Verification Time: 2.25s
+
+Checking harness inventory::a::kani_harnesses::late...
+
+CBMC failed
+VERIFICATION:- FAILED
+CBMC timed out. You may want to rerun your proof with a larger timeout or use stubbing to reduce the size of the code the verifier reasons about.
+
+Checking harness inventory::a::kani_harnesses::bad...
+
+VERIFICATION RESULT:
+ ** 1 of 40 failed
+
+ ** 0 of 3 cover properties satisfied
+
+Failed Checks: stop_b_ends_in_time
+ File: \"stop.rs\", line 1, in f
+
+VERIFICATION:- FAILED
+Verification Time: 0.5s
+
+Checking harness inventory::a::kani_harnesses::empty...
+
+VERIFICATION RESULT:
+ ** 0 of 7 failed
+
+ ** 1 of 2 cover properties satisfied
+
+VERIFICATION:- SUCCESSFUL
+Verification Time: 0.5s
+
+Checking harness inventory::a::kani_harnesses::broken_off...
+";
+        let answers = answers(log);
+        let seen = |name: &str| {
+            answers
+                .get(name)
+                .map(|a| (&a.verdict, a.checks, a.met, a.covers))
+        };
+        assert_eq!(answers.len(), 4);
+        assert_eq!(seen("good"), Some((&Verdict::Holds, 222, 2, 2)));
+        assert_eq!(seen("late"), Some((&Verdict::NoAnswer, 0, 0, 0)));
+        let law = Verdict::Fails("stop_b_ends_in_time".to_owned());
+        assert_eq!(seen("bad"), Some((&law, 40, 0, 3)));
+        assert_eq!(seen("empty"), Some((&Verdict::Vacuous, 7, 1, 2)));
+    }
+}

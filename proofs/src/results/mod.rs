@@ -1,0 +1,260 @@
+//! What Kani answered: the file `kani.toml`, which a run writes and the inventory shows.
+
+mod log;
+mod sources;
+
+pub use log::answers;
+pub use sources::fingerprint;
+
+use std::collections::BTreeMap;
+use std::fmt::{self, Write};
+
+use crate::inventory::{self, Entry};
+
+/// The file, in the folder of this crate.
+pub const FILE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/kani.toml");
+
+/// The time that a harness has.
+pub const LIMIT_SECONDS: u32 = 60;
+
+/// What Kani answered for one harness.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Answer {
+    /// The verdict.
+    pub verdict: Verdict,
+    /// The time of the verification, without that of the compiler.
+    pub seconds: f64,
+    /// The checks made: assertions, overflows, indices, dereferences.
+    pub checks: u64,
+    /// The covers that were met.
+    pub met: u64,
+    /// All covers of the harness.
+    pub covers: u64,
+}
+
+/// How a harness ended.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// Every check holds, every cover was met.
+    Holds,
+    /// Every check holds, but a cover cannot be met: the harness proves less than it says.
+    Vacuous,
+    /// A check fails; its description.
+    Fails(String),
+    /// Not within [`LIMIT_SECONDS`].
+    NoAnswer,
+}
+
+impl fmt::Display for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Holds => f.write_str("holds"),
+            Self::Vacuous => f.write_str("vacuous"),
+            Self::Fails(check) => write!(f, "fails: {check}"),
+            Self::NoAnswer => f.write_str("no answer"),
+        }
+    }
+}
+
+impl Verdict {
+    fn parse(text: &str) -> Option<Self> {
+        match text {
+            "holds" => Some(Self::Holds),
+            "vacuous" => Some(Self::Vacuous),
+            "no answer" => Some(Self::NoAnswer),
+            _ => Some(Self::Fails(text.strip_prefix("fails: ")?.to_owned())),
+        }
+    }
+}
+
+/// One row of the file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// The answer.
+    pub answer: Answer,
+    /// The solver that gave it.
+    pub solver: String,
+    /// The [`fingerprint`] of the sources it was given for.
+    pub sources: String,
+}
+
+/// The file.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Results {
+    /// The version of Kani.
+    pub kani: String,
+    /// The version of CBMC.
+    pub cbmc: String,
+    /// The rows by harness.
+    pub rows: BTreeMap<String, Row>,
+}
+
+/// The solver of a harness.
+pub fn solver(entry: &Entry) -> &'static str {
+    if entry.kani.contains("kissat") {
+        "kissat"
+    } else if entry.kani.contains("minisat") {
+        "minisat"
+    } else {
+        // Kani's own choice.
+        "cadical"
+    }
+}
+
+impl Results {
+    /// Reads [`FILE`]; a file that is not there has no rows.
+    ///
+    /// # Errors
+    /// What is wrong with the file.
+    pub fn read() -> Result<Self, String> {
+        match std::fs::read_to_string(FILE) {
+            Ok(text) => Self::parse(&text),
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(Self::default()),
+            Err(error) => Err(format!("{FILE}: {error}")),
+        }
+    }
+
+    /// Reads the text of a file.
+    ///
+    /// # Errors
+    /// What is wrong with it; also a row of a harness that does not exist.
+    pub fn parse(text: &str) -> Result<Self, String> {
+        let table: toml::Table = text.parse().map_err(|error| format!("{error}"))?;
+        let word = |table: &toml::Table, key: &str| {
+            let value = table.get(key).and_then(toml::Value::as_str);
+            value
+                .map(str::to_owned)
+                .ok_or_else(|| format!("no text `{key}`"))
+        };
+        let number = |table: &toml::Table, key: &str| {
+            let value = table.get(key).and_then(toml::Value::as_integer);
+            value
+                .and_then(|value| u64::try_from(value).ok())
+                .ok_or_else(|| format!("no number `{key}`"))
+        };
+        let mut results = Self {
+            kani: word(&table, "kani")?,
+            cbmc: word(&table, "cbmc")?,
+            rows: BTreeMap::new(),
+        };
+        let rows = table.get("harness").and_then(toml::Value::as_table);
+        for (id, row) in rows.into_iter().flatten() {
+            let row = row.as_table().ok_or(format!("{id}: not a table"))?;
+            let read = || {
+                let verdict = word(row, "verdict")?;
+                Ok::<_, String>(Row {
+                    answer: Answer {
+                        verdict: Verdict::parse(&verdict)
+                            .ok_or(format!("no verdict `{verdict}`"))?,
+                        seconds: (row.get("seconds").and_then(toml::Value::as_float))
+                            .ok_or("no decimal `seconds`")?,
+                        checks: number(row, "checks")?,
+                        met: number(row, "met")?,
+                        covers: number(row, "covers")?,
+                    },
+                    solver: word(row, "solver")?,
+                    sources: word(row, "sources")?,
+                })
+            };
+            let row = read().map_err(|error| format!("{id}: {error}"))?;
+            if inventory::all().all(|entry| entry.id != id) {
+                return Err(format!("{id}: there is no such harness"));
+            }
+            results.rows.insert(id.clone(), row);
+        }
+        Ok(results)
+    }
+
+    /// The text of the file, in the order of the inventory.
+    pub fn render(&self) -> String {
+        let mut text = format!(
+            "# Answers of Kani. Written by `cargo run -p stillpoint-proofs --bin kani`; shown in the proof inventory.\n\
+             # `sources`: fingerprint of what the harness is made of; another one means that the answer is older.\n\
+             kani = \"{}\"\ncbmc = \"{}\"\n\n[harness]\n",
+            self.kani, self.cbmc
+        );
+        for entry in inventory::all() {
+            let Some(Row {
+                answer,
+                solver,
+                sources,
+            }) = self.rows.get(entry.id)
+            else {
+                continue;
+            };
+            let verdict = answer.verdict.to_string().replace(['"', '\\'], "'");
+            let _ = writeln!(
+                text,
+                "{} = {{ verdict = \"{verdict}\", seconds = {:.1}, checks = {}, met = {}, covers = {}, \
+                 solver = \"{solver}\", sources = \"{sources}\" }}",
+                entry.id, answer.seconds, answer.checks, answer.met, answer.covers
+            );
+        }
+        text
+    }
+
+    /// The row of a harness, and whether its sources are still the same.
+    pub fn row(&self, entry: &Entry) -> Option<(&Row, bool)> {
+        let row = self.rows.get(entry.id)?;
+        Some((row, row.sources == fingerprint(entry)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_is_read_as_it_was_written() {
+        let row = |verdict| Row {
+            answer: Answer {
+                verdict,
+                seconds: 1.5,
+                checks: 200,
+                met: 2,
+                covers: 3,
+            },
+            solver: "kissat".to_owned(),
+            sources: "00ff".to_owned(),
+        };
+        let results = Results {
+            kani: "0.57.0".to_owned(),
+            cbmc: "6.6.0".to_owned(),
+            rows: BTreeMap::from([
+                ("stop_contract".to_owned(), row(Verdict::Vacuous)),
+                (
+                    "fault_contract".to_owned(),
+                    row(Verdict::Fails("a_clause".to_owned())),
+                ),
+                ("gear_contract".to_owned(), row(Verdict::NoAnswer)),
+            ]),
+        };
+        assert_eq!(Results::parse(&results.render()), Ok(results));
+    }
+
+    #[test]
+    fn a_harness_that_does_not_exist_is_refused() {
+        let mut results = Results::default();
+        let answer = Answer {
+            verdict: Verdict::Holds,
+            seconds: 0.0,
+            checks: 0,
+            met: 0,
+            covers: 0,
+        };
+        let (solver, sources) = (String::new(), String::new());
+        results.rows.insert(
+            "stop_contract".to_owned(),
+            Row {
+                answer,
+                solver,
+                sources,
+            },
+        );
+        let text = results.render().replace("stop_contract", "stop_contrakt");
+        assert_eq!(
+            Results::parse(&text),
+            Err("stop_contrakt: there is no such harness".to_owned())
+        );
+    }
+}

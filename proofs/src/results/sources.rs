@@ -1,0 +1,162 @@
+//! Whether an answer is older than what it was given for: a fingerprint of the sources of a harness.
+//!
+//! The sources are found by names: a file needs the modules of its family that it names as `module::`, and so on. That may be
+//! a few too many, so that an answer counts as older than it is; comments and blank lines do not count.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+
+use crate::inventory::Entry;
+
+/// The fingerprint of everything the harness is made of: monitors, kernel, draws, property, attributes.
+pub fn fingerprint(entry: &Entry) -> String {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let monitors = root.join("../impl/src");
+    let modules = modules(&monitors.join(entry.family));
+    let draws = modules_of_draws(&root.join("src/arbitrary").join(entry.family));
+
+    // What every harness of a family is made of.
+    let mut files: Vec<PathBuf> = ["kernel.rs", "units.rs", "contract.rs"]
+        .map(|name| monitors.join(name))
+        .into();
+    files.extend(["kani_source.rs", "source.rs"].map(|name| root.join("src").join(name)));
+    let mut texts: Vec<String> = files.iter().map(|file| code(file)).collect();
+
+    let mut open: Vec<String> = Vec::new();
+    if let Some(file) = entry.file {
+        let text = code(&root.join("src").join(file));
+        // The draws of the monitors that the property names, and those it shares with others.
+        open.extend(named(&text, &modules));
+        texts.extend(draws.values().cloned());
+        texts.push(text);
+    } else {
+        open.push(entry.monitor.to_owned());
+        let draw = format!("pub fn {}<", entry.monitor);
+        texts.extend(draws.values().filter(|text| text.contains(&draw)).cloned());
+        texts.extend(draws.get("mod").cloned());
+    }
+    let mut seen = BTreeSet::new();
+    while let Some(module) = open.pop() {
+        if let Some(files) = modules.get(&module).filter(|_| seen.insert(module.clone())) {
+            for text in files {
+                open.extend(named(text, &modules));
+            }
+        }
+    }
+    texts.extend(
+        seen.iter()
+            .filter_map(|name| modules.get(name))
+            .flatten()
+            .cloned(),
+    );
+    texts.push(format!("{} {}", entry.id, entry.kani));
+    hash(&texts)
+}
+
+/// The modules of `modules` that a text names.
+fn named(text: &str, modules: &BTreeMap<String, Vec<String>>) -> Vec<String> {
+    let is_named = |name: &&String| {
+        text.match_indices(&format!("{name}::")).any(|(at, _)| {
+            let before = text.get(..at).and_then(|text| text.chars().next_back());
+            !before.is_some_and(|c| c.is_alphanumeric() || c == '_')
+        })
+    };
+    modules.keys().filter(is_named).cloned().collect()
+}
+
+/// The modules of a family of monitors, each with its files without comments; the wrong variants are left out.
+fn modules(folder: &Path) -> BTreeMap<String, Vec<String>> {
+    let mut modules: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    for (path, text) in texts(folder) {
+        let inside = path.strip_prefix(folder).unwrap_or(&path);
+        let name = inside
+            .components()
+            .next()
+            .map(|part| part.as_os_str().to_string_lossy());
+        let name = name.unwrap_or_default().trim_end_matches(".rs").to_owned();
+        if name != "mutant" && name != "mod" {
+            modules.entry(name).or_default().push(text);
+        }
+    }
+    modules
+}
+
+/// The files of the draws of a family by name.
+fn modules_of_draws(folder: &Path) -> BTreeMap<String, String> {
+    let name = |path: PathBuf| {
+        path.file_stem()
+            .unwrap_or_default()
+            .to_string_lossy()
+            .into_owned()
+    };
+    texts(folder)
+        .into_iter()
+        .map(|(path, text)| (name(path), text))
+        .collect()
+}
+
+/// Every source in a folder, in the order of the paths.
+fn texts(folder: &Path) -> BTreeMap<PathBuf, String> {
+    let mut texts = BTreeMap::new();
+    for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
+        let path = entry.path();
+        if path.is_dir() {
+            texts.append(&mut self::texts(&path));
+        } else if path.extension().is_some_and(|end| end == "rs") {
+            let text = code(&path);
+            texts.insert(path, text);
+        }
+    }
+    texts
+}
+
+/// The lines of a file that are neither blank nor a comment; nothing of a file that cannot be read.
+fn code(path: &Path) -> String {
+    let text = std::fs::read_to_string(path).unwrap_or_default();
+    let lines = text.lines().map(str::trim);
+    let lines: Vec<&str> = lines
+        .filter(|line| !line.is_empty() && !line.starts_with("//"))
+        .collect();
+    lines.join("\n")
+}
+
+/// FNV-1a of 64 bits: tells that something was edited, not that somebody has forged it.
+fn hash(texts: &[String]) -> String {
+    let bytes = texts.iter().flat_map(|text| text.bytes().chain([0]));
+    let hash = bytes.fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
+    });
+    format!("{hash:016x}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_monitor_needs_the_modules_it_names() {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../impl/src/sinumerik");
+        let modules = modules(&root);
+        assert!(!modules.contains_key("mutant"));
+        assert_eq!(
+            modules["selection"].len(),
+            2,
+            "the module and its file of limits"
+        );
+        let needed = |name: &str| named(&modules[name].join("\n"), &modules);
+        assert!(needed("channel").contains(&"ramp".to_owned()));
+        assert!(!needed("ramp").contains(&"channel".to_owned()));
+    }
+
+    #[test]
+    fn comments_do_not_count() {
+        let folder = std::env::temp_dir().join(format!("fingerprint-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).expect("a folder");
+        let file = folder.join("a.rs");
+        std::fs::write(&file, "// one\nfn a() {}\n\n").expect("a file");
+        let first = code(&file);
+        std::fs::write(&file, "fn a() {}\n/// two\n").expect("a file");
+        assert_eq!(first, code(&file));
+        std::fs::remove_dir_all(&folder).expect("removed");
+    }
+}
