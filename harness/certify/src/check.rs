@@ -12,7 +12,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use stillpoint_spec::bind::Bound;
 use stillpoint_spec::ir::Form;
 
-use crate::cycle::{Cycle, PairCycle, Pairing};
+use crate::cycle::{Cycle, PairCycle, Pairing, View};
 use crate::format::{Body, Task, Verdict};
 use crate::states::{Radix, place};
 
@@ -33,6 +33,25 @@ pub(crate) enum Duty<'a> {
     Near(usize, Option<usize>, &'a [u32]),
     /// The map is not 0 in lost states: their cycles (with `using`) do not meet the goal and lead to lost states.
     Lost(usize, Option<usize>, &'a [u32]),
+}
+
+impl Duty<'_> {
+    /// The atoms it reads, and whether it asks where the cycle leads.
+    fn reads(&self) -> (Vec<usize>, bool) {
+        match self {
+            Duty::None => (Vec::new(), false),
+            Duty::Implies(when, then) => (when.iter().copied().chain([*then]).collect(), false),
+            Duty::Never(atom) => (vec![*atom], false),
+            Duty::Unless(when, holds, unless, _) => (vec![*when, *holds, *unless], true),
+            Duty::Leads(leads) => {
+                let atoms = leads.fair.iter().chain(&leads.assuming).copied();
+                (atoms.chain([leads.when, leads.goal]).collect(), true)
+            }
+            Duty::Near(goal, using, _) | Duty::Lost(goal, using, _) => {
+                (using.iter().copied().chain([*goal]).collect(), true)
+            }
+        }
+    }
 }
 
 /// A response. A cycle that begins it without the goal leads to a state with a rank, at most the bound if there is one.
@@ -181,6 +200,9 @@ impl<'a> Checker<'a> {
     /// Each cycle from a state of the set leads into the set and does its duties. For each duty the greatest rank with
     /// which a response begins.
     fn closed(&self, duties: &[Duty]) -> Result<Vec<u32>, String> {
+        let views: Vec<(View, bool)> = (duties.iter().map(Duty::reads))
+            .map(|(atoms, leads)| (View::of(self.bound, atoms), leads))
+            .collect();
         let parts = self.share(self.body.states.len(), |range| {
             let mut cycles = Cycle::new(self.bound);
             let mut state = vec![0; self.bound.states.len()];
@@ -189,6 +211,7 @@ impl<'a> Checker<'a> {
             for from in range {
                 self.radix.state(self.body.states[from], &mut state);
                 moves.fill(false);
+                let mut last = None;
                 cycles.each(&state, |cycle, made| {
                     if let Err(site) = made {
                         return self.claimed(site);
@@ -199,7 +222,14 @@ impl<'a> Checker<'a> {
                             self.body.states[from]
                         )
                     })?;
-                    for (number, duty) in duties.iter().enumerate() {
+                    let elsewhere = last.replace(to) != Some(to);
+                    let changed = cycle.changed();
+                    for (number, (duty, (view, leads))) in duties.iter().zip(&views).enumerate() {
+                        // Nothing it depends on differs from the cycle before, in which it was done.
+                        let same = changed.is_some_and(|changed| !view.meets(changed));
+                        if same && !(*leads && elsewhere) {
+                            continue;
+                        }
                         if !done(
                             duty,
                             cycle,

@@ -2,6 +2,7 @@
 
 use stillpoint_spec::bind::{Bound, Bounds};
 use stillpoint_spec::eval::{Frame, UNSET};
+use stillpoint_spec::ir::{Node, Space};
 
 use crate::format::Run;
 use crate::states::Radix;
@@ -50,14 +51,142 @@ impl Odometer {
     }
 }
 
+/// A frame as it was at the start of an instance's step.
+#[derive(Debug, Default)]
+struct Mark {
+    /// The inputs read until then.
+    reads: usize,
+    now: Vec<i32>,
+    inputs: Vec<i32>,
+    lazies: Vec<i32>,
+}
+
+/// Steps that differ in the last input read: what lies before the instance that reads it is not made again.
+#[derive(Debug, Default)]
+struct Steps {
+    /// One for each instance whose step was begun, and others left over.
+    marks: Vec<Mark>,
+    begun: usize,
+}
+
+impl Steps {
+    /// The next step is one from another state, or with other inputs from the first one on.
+    fn clear(&mut self) {
+        self.begun = 0;
+    }
+
+    /// The step from `state` with the inputs that `read` takes from the odometer.
+    fn step(
+        &mut self,
+        bound: &Bound,
+        (frame, state): (&mut Frame, &[i32]),
+        odometer: &mut Odometer,
+        read: impl Fn(&mut Odometer, usize) -> i32,
+    ) -> Result<(), u32> {
+        let changed = odometer.reads.len().saturating_sub(1);
+        let same = |mark: &Mark| mark.reads <= changed;
+        let from = self.marks[..self.begun].iter().rposition(same);
+        match from.map(|k| &self.marks[k]) {
+            Some(mark) => {
+                frame.now.copy_from_slice(&mark.now);
+                frame.inputs.copy_from_slice(&mark.inputs);
+                frame.lazies.copy_from_slice(&mark.lazies);
+                odometer.at = mark.reads;
+            }
+            None => frame.start(state),
+        }
+        for k in from.unwrap_or(0)..bound.system.instances.len() {
+            if self.marks.len() == k {
+                self.marks.push(Mark::default());
+            }
+            let mark = &mut self.marks[k];
+            mark.reads = odometer.at;
+            mark.now.clone_from(&frame.now);
+            mark.inputs.clone_from(&frame.inputs);
+            mark.lazies.clone_from(&frame.lazies);
+            self.begun = k + 1;
+            bound.step_instance(k, frame, &mut |input| read(odometer, input))?;
+        }
+        Ok(())
+    }
+}
+
+/// A set of variables of a cycle: state after it, inputs, named expressions as the step has left them. Those whose numbers
+/// agree in the last 7 bits are in it together.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct View {
+    now: u128,
+    inputs: u128,
+    lazies: u128,
+}
+
+impl View {
+    /// What the value of these atoms can depend on, besides the state before the cycle.
+    pub fn of(bound: &Bound, atoms: impl IntoIterator<Item = usize>) -> Self {
+        let mut view = Self::default();
+        for atom in atoms {
+            view.add(bound, &bound.system.atoms[atom]);
+        }
+        view
+    }
+
+    fn add(&mut self, bound: &Bound, node: &Node) {
+        node.visit(&mut |node| match node {
+            Node::Cell(space, k) => self.cell(*space, *k),
+            Node::Element {
+                space, base, len, ..
+            } => (*base..base + len).for_each(|k| self.cell(*space, k)),
+            // Where the step has not evaluated it, it is evaluated now.
+            Node::Lazy(k) => {
+                self.lazies |= bit(*k as usize);
+                self.add(bound, &bound.system.lazies[*k as usize].value);
+            }
+            _ => {}
+        });
+    }
+
+    fn cell(&mut self, space: Space, k: u32) {
+        match space {
+            Space::Now => self.now |= bit(k as usize),
+            Space::Input => self.inputs |= bit(k as usize),
+            Space::Before | Space::Param => {}
+        }
+    }
+
+    /// Whether the sets have a variable in common.
+    pub fn meets(self, other: Self) -> bool {
+        self.now & other.now | self.inputs & other.inputs | self.lazies & other.lazies != 0
+    }
+}
+
+fn bit(k: usize) -> u128 {
+    1 << (k % 128)
+}
+
+/// Brings a copy up to date; the set of the places that differed.
+fn update(copy: &mut [i32], from: &[i32]) -> u128 {
+    let mut changed = 0;
+    for (k, (old, new)) in copy.iter_mut().zip(from).enumerate() {
+        if old != new {
+            *old = *new;
+            changed |= bit(k);
+        }
+    }
+    changed
+}
+
 /// The cycles of one state after the other.
 pub struct Cycle<'a> {
     bound: &'a Bound,
     frame: Frame,
+    steps: Steps,
     step: Odometer,
     extra: Odometer,
-    /// The named expressions as the step has left them.
+    /// The state after the step, the inputs and the named expressions as the step has left them.
+    now: Vec<i32>,
+    inputs: Vec<i32>,
     lazies: Vec<i32>,
+    changed: Option<View>,
 }
 
 impl<'a> Cycle<'a> {
@@ -66,9 +195,13 @@ impl<'a> Cycle<'a> {
         Self {
             bound,
             frame: Frame::new(bound),
+            steps: Steps::default(),
             step: Odometer::default(),
             extra: Odometer::default(),
-            lazies: Vec::new(),
+            now: vec![UNSET; bound.states.len()],
+            inputs: vec![UNSET; bound.inputs.len()],
+            lazies: vec![UNSET; bound.system.lazies.len()],
+            changed: None,
         }
     }
 
@@ -83,16 +216,31 @@ impl<'a> Cycle<'a> {
     ) -> Result<(), E> {
         let inputs: &[Bounds] = &self.bound.inputs;
         self.step.clear();
+        self.steps.clear();
+        let mut first = true;
         loop {
-            self.frame.start(state);
-            let read = &mut |k: usize| self.step.read(k, inputs[k].0);
-            let made = self.bound.step(&mut self.frame, read);
-            self.lazies.clone_from(&self.frame.lazies);
+            let from = (&mut self.frame, state);
+            let read = |odometer: &mut Odometer, k: usize| odometer.read(k, inputs[k].0);
+            let made = self.steps.step(self.bound, from, &mut self.step, read);
+            if made.is_ok() {
+                let changed = View {
+                    now: update(&mut self.now, &self.frame.now),
+                    inputs: update(&mut self.inputs, &self.frame.inputs),
+                    lazies: update(&mut self.lazies, &self.frame.lazies),
+                };
+                self.changed = (!std::mem::take(&mut first)).then_some(changed);
+            }
             visit(self, made)?;
             if !self.step.advance(|k| inputs[k].1) {
                 return Ok(());
             }
         }
+    }
+
+    /// In what this cycle differs from the last one without a range fault before it, which started in the same state; none if
+    /// there is none.
+    pub fn changed(&self) -> Option<View> {
+        self.changed
     }
 
     /// Whether `judge` is true for every combination of the inputs that it reads and the step did not.
@@ -150,6 +298,7 @@ pub struct PairCycle<'a> {
     bound: &'a Bound,
     pairing: Pairing<'a>,
     frames: [Frame; 2],
+    steps: [Steps; 2],
     inputs: Odometer,
 }
 
@@ -160,6 +309,7 @@ impl<'a> PairCycle<'a> {
             bound,
             pairing,
             frames: [Frame::new(bound), Frame::new(bound)],
+            steps: Default::default(),
             inputs: Odometer::default(),
         }
     }
@@ -178,6 +328,7 @@ impl<'a> PairCycle<'a> {
         let bounds = &self.bound.inputs;
         let of = |k: usize| bounds[k % bounds.len()];
         self.inputs.clear();
+        self.steps.iter_mut().for_each(Steps::clear);
         loop {
             if let Some(agree) = self.pair(before) {
                 visit([&self.frames[0].now, &self.frames[1].now], agree)?;
@@ -197,19 +348,24 @@ impl<'a> PairCycle<'a> {
         } = self.pairing;
         let (bound, odometer) = (self.bound, &mut self.inputs);
         let [first, second] = &mut self.frames;
-        first.start(before[0]);
-        second.start(before[1]);
-        let own = &mut |k: usize| odometer.again(k, bound.inputs[k].0);
-        bound.step(first, own).ok()?;
-        let mut both = condition.is_none_or(|c| bound.atom(c, first, own));
+        let [steps, others] = &mut self.steps;
+        let own = |odometer: &mut Odometer, k: usize| odometer.again(k, bound.inputs[k].0);
+        let changed = odometer.reads.len().saturating_sub(1);
+        let made = steps.step(bound, (first, before[0]), odometer, own);
+        if others.marks.first().is_none_or(|mark| mark.reads > changed) {
+            others.clear();
+        }
+        made.ok()?;
+        let mut both = condition.is_none_or(|c| bound.atom(c, first, &mut |k| own(odometer, k)));
         // A listed input has a number of its own in the second run, where it may differ.
         let free = both;
-        let other = &mut |k: usize| {
+        let other = |odometer: &mut Odometer, k: usize| {
             let number = k + bound.inputs.len() * usize::from(free && of.contains(&k));
             odometer.again(number, bound.inputs[k].0)
         };
-        bound.step(second, other).ok()?;
-        both = both && condition.is_none_or(|c| bound.atom(c, second, other));
+        let made = others.step(bound, (second, before[1]), odometer, other);
+        made.ok()?;
+        both = both && condition.is_none_or(|c| bound.atom(c, second, &mut |k| other(odometer, k)));
         if !both {
             let read = |f: &Frame, k: usize| Some(f.inputs[k]).filter(|v| *v != UNSET);
             let differ = |k: &usize| match (read(first, *k), read(second, *k)) {
