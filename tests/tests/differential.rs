@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use stillpoint::diff::pairing::vary;
 use stillpoint::diff::peer::Mutant;
 use stillpoint::diff::product::Product;
 use stillpoint::diff::random::Random;
@@ -189,12 +190,7 @@ fn differs(pairings: &[Pairing], mutant: Mutant, machine: &Name) -> bool {
 
 #[test]
 fn random_runs_find_no_difference_and_repeat() {
-    // Random runs of both channels find one that is still open: with t_c = 0 and an external STOP C in the first cycle the table
-    // shows the operating stop a cycle after the monitor (`diff spec/sinumerik-840d/pair.toml --random 100000 --seed 3`).
-    let pairings: Vec<Pairing> = all()
-        .into_iter()
-        .filter(|p| !both_channels(&p.machine))
-        .collect();
+    let pairings = all();
     let runs = |threads| {
         sample(&pairings, None, 3_000_000, 3, threads, &|_, _| ()).unwrap_or_else(|e| panic!("{e}"))
     };
@@ -215,6 +211,58 @@ fn random_runs_find_no_difference_and_repeat() {
         to_json(&runs(3), Some(3)),
         "the number of threads does not matter"
     );
+}
+
+/// Parameters that a table has for itself.
+const OF_THE_TABLE: [(&str, &str, &[&str]); 11] = [
+    // Widths of its cells and ports.
+    ("heidenhain-fs", "speed", &["v_max"]),
+    ("sinumerik-840d", "axis_core", &["stages"]),
+    ("sinumerik-840d", "cam", &["pos_min", "pos_max"]),
+    ("sinumerik-840d", "end_stop", &["pos_max"]),
+    ("sinumerik-840d", "speed", &["v_max", "limit_max"]),
+    ("sinumerik-840d", "standstill", &["pos_max"]),
+    ("sinumerik-840d", "threshold", &["v_max"]),
+    // Of other readings than the recommended ones.
+    ("sinumerik-840d", "axis_core", &["t_other"]),
+    ("sinumerik-840d", "cam", &["minus"]),
+    ("sinumerik-840d", "pulses", &["t_other"]),
+    // A constant of the monitor, held at its value.
+    ("sinumerik-840d", "compare", &["factor"]),
+];
+
+/// Parameters of functions that a system leaves out: the override and the limit frequency.
+fn left_out(machine: &str, param: &str) -> bool {
+    let factor = param
+        .strip_prefix("f_")
+        .is_some_and(|n| n.parse::<u8>().is_ok());
+    (both_channels(machine) && (factor || param == "encoder_max"))
+        || (machine == "axis_core" && param == "encoder_max")
+}
+
+/// A parameter of a table that its monitor never hears of makes both differ for a reason that is none, or hides one.
+#[test]
+fn every_parameter_of_a_table_reaches_its_monitor() {
+    let mut random = Random::new(1);
+    let mut found = BTreeSet::new();
+    for pairing in all() {
+        let mut unread = peer::unread(&pairing.machine, &pairing.bound);
+        for _ in 0..40 {
+            if let Some(other) = vary(&pairing, &mut random) {
+                let now = peer::unread(&other.machine, &other.bound);
+                unread.retain(|name| now.contains(name));
+            }
+        }
+        let (family, machine) = name(&pairing);
+        unread.retain(|param| !left_out(&machine, param));
+        found.extend(unread.into_iter().map(|p| (family, machine.clone(), p)));
+    }
+    let known = OF_THE_TABLE.iter().flat_map(|(family, machine, params)| {
+        params
+            .iter()
+            .map(|p| (*family, (*machine).to_owned(), (*p).to_owned()))
+    });
+    assert_eq!(found, known.collect());
 }
 
 #[test]

@@ -17,8 +17,9 @@ struct Slice {
     free: &'static [&'static str],
 }
 
-/// The value of an input that is held: nothing is asked for, a speed stage is selected. All others are 0.
-const CALM: [(&str, i32); 11] = [
+/// The value of an input that is held: nothing is asked for, a speed stage is selected, the axis is referenced and the key
+/// switch on. All others are 0.
+const CALM: [(&str, i32); 14] = [
     ("terminals.a", 1),
     ("terminals.c", 1),
     ("terminals.d", 1),
@@ -30,9 +31,12 @@ const CALM: [(&str, i32); 11] = [
     ("seen[2].c", 1),
     ("seen[1].sbh", 1),
     ("seen[2].sbh", 1),
+    ("key", 1),
+    ("user[1].home", 1),
+    ("user[2].home", 1),
 ];
 
-const SLICES: [Slice; 19] = [
+const SLICES: [Slice; 20] = [
     // Both channels: external stops, STOP F by their difference, RESET.
     Slice {
         system: "pair_stops",
@@ -77,10 +81,17 @@ const SLICES: [Slice; 19] = [
             "seen[1].sbh",
         ],
     },
-    // Both channels: SBH, and an axis that moves under it.
+    // Both channels: SBH, and an axis that moves under it, at times not slower than n_x in one of them.
     Slice {
         system: "pair_stops",
-        params: &[("selects", 1), ("stops", 0), ("moves", 1), ("pos_tol", 1)],
+        params: &[
+            ("selects", 1),
+            ("stops", 0),
+            ("moves", 1),
+            ("pos_tol", 1),
+            ("step", 4),
+            ("velo_x", 2),
+        ],
         free: &[
             "power_on",
             "reset",
@@ -164,7 +175,14 @@ const SLICES: [Slice; 19] = [
             "user[1].slid",
         ],
     },
-    // Both channels: gear stages, and no tolerance time for their change.
+    // Both channels: gear stages and the agreement they withdraw. Left out is an axis that moves meanwhile: the next part.
+    Slice {
+        system: "pair_reference",
+        params: &[("gears", 1), ("t_chg", 1)],
+        free: &["user[1].gear", "user[2].gear", "user[1].set", "user[2].set"],
+    },
+    // Both channels: gear stages while one channel sees the axis move: no tolerance time for their change. Left out is the
+    // agreement, which has come before the first cycle or never comes.
     Slice {
         system: "pair_reference",
         params: &[
@@ -174,26 +192,17 @@ const SLICES: [Slice; 19] = [
             ("step", 2),
             ("pos_tol", 1),
         ],
-        free: &[
-            "user[1].gear",
-            "user[2].gear",
-            "key",
-            "user[1].set",
-            "user[2].set",
-            "user[1].home",
-            "seen[1].away",
-        ],
+        free: &["user[1].gear", "user[2].gear", "seen[1].away"],
     },
-    // Both channels: limit positions with and without the agreement of both.
+    // Both channels: limit positions with and without the agreement of both. Left out are power-on, the key and an axis that
+    // is not referenced: their part is that of the agreement.
     Slice {
         system: "pair_reference",
         params: &[("moves", 1), ("se_mode", 2)],
         free: &[
             "reset",
-            "key",
             "user[1].set",
             "user[2].set",
-            "user[1].home",
             "seen[1].away",
             "seen[2].away",
         ],

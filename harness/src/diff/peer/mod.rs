@@ -5,6 +5,9 @@ mod heidenhain;
 mod numbers;
 mod sinumerik;
 
+use std::cell::RefCell;
+use std::collections::BTreeSet;
+
 use stillpoint_model::Domain;
 use stillpoint_monitors::kernel::{ConfigError, Cycles, Speed};
 use stillpoint_spec::bind::Bound;
@@ -150,15 +153,28 @@ type Made = Result<Option<Adapter>, Refusal>;
 /// An adapter, or why there is none under these parameters.
 type Refusable = Result<Adapter, Refusal>;
 
-/// The parameters of a machine or system.
-struct Params<'a>(&'a Bound);
+/// The parameters of a machine or system, and which of them the monitor has been given.
+struct Params<'a> {
+    bound: &'a Bound,
+    read: RefCell<BTreeSet<usize>>,
+}
 
-impl Params<'_> {
+impl<'a> Params<'a> {
+    fn new(bound: &'a Bound) -> Self {
+        Self {
+            bound,
+            read: RefCell::default(),
+        }
+    }
+
     /// A value; 0 for a name that the table does not have.
     fn value(&self, name: &str) -> i32 {
-        let mut params = self.0.system.params.iter();
-        let named = params.position(|p| p.var.name == name);
-        named.map_or(0, |k| self.0.values[k])
+        let mut params = self.bound.system.params.iter();
+        let Some(k) = params.position(|p| p.var.name == name) else {
+            return 0;
+        };
+        self.read.borrow_mut().insert(k);
+        self.bound.values[k]
     }
 
     fn is(&self, name: &str) -> bool {
@@ -188,11 +204,28 @@ pub fn peer(
         return Ok(None);
     };
     let mutant = mutant.filter(|m| m.family().name == family.name);
-    let made = (family.make)(machine, &Params(bound), mutant).map_err(|e| match e {
+    let made = (family.make)(machine, &Params::new(bound), mutant).map_err(|e| match e {
         Refusal::Monitor(e) => {
             format!("the monitor of `{machine}` refuses these parameters: {e:?}")
         }
         Refusal::Table(text) => format!("machine `{machine}`: {text}"),
     })?;
     Ok(made.map(|adapter| Box::new(adapter) as Box<dyn Peer>))
+}
+
+/// The names of the parameters that the monitor of `machine` is given none of, under the values of `bound`: the table has its way
+/// with them alone. Empty for what has no monitor; readings aside.
+pub fn unread(machine: &str, bound: &Bound) -> Vec<String> {
+    let params = Params::new(bound);
+    let Some(family) = family(&bound.system.name) else {
+        return Vec::new();
+    };
+    if !matches!((family.make)(machine, &params, None), Ok(Some(_))) {
+        return Vec::new();
+    }
+    let read = params.read.borrow();
+    let all = bound.system.params.iter().enumerate();
+    all.filter(|(k, p)| p.reading.is_none() && !read.contains(k))
+        .map(|(_, p)| p.var.name.clone())
+        .collect()
 }
