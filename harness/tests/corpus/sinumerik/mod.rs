@@ -1,10 +1,13 @@
 //! Runners of the SINUMERIK 840D.
 
+mod comparison;
+mod datum;
 mod single;
 mod story;
 
 use crate::case::{Given, Runner};
 use stillpoint_monitors::sinumerik::parameters::{Configuration, Parameters};
+use stillpoint_spec::machine::Machine;
 
 /// The runners by name; every one is used by a case.
 pub const RUNNERS: &[(&str, Runner)] = &[
@@ -12,6 +15,18 @@ pub const RUNNERS: &[(&str, Runner)] = &[
     ("external_stops", single::external_stops),
     ("priority", single::priority),
     ("signal", single::signal),
+    ("alarm", single::alarm),
+    ("gear_stage", single::gear_stage),
+    ("encoder", single::encoder),
+    ("encoder_speed", single::encoder_speed),
+    ("machine_datum", datum::machine_datum),
+    ("enable_word", datum::enable_word),
+    ("monitoring_cycle", datum::monitoring_cycle),
+    ("entry", datum::entry),
+    ("compared", comparison::compared),
+    ("code", comparison::code),
+    ("limits", comparison::limits),
+    ("result_list", comparison::result_list),
 ];
 
 /// The machine data of axis X of a machine file, in the units of the monitors. Given: `axis`, the lines of the table of the axis;
@@ -21,18 +36,26 @@ fn parameters(given: &Given<'_>) -> Result<(Parameters, Configuration), String> 
         Some(_) => given.text("control")?,
         None => "",
     };
-    let axis = given.text("axis")?;
+    configured(control, given.text("axis")?)
+}
+
+/// The same of lines.
+fn configured(control: &str, axis: &str) -> Result<(Parameters, Configuration), String> {
+    let mut axes = stillpoint::production::axes(&load(control, axis)?)?;
+    let first = axes.pop().ok_or("no axis")?;
+    Ok((first.parameters, first.configuration))
+}
+
+/// A machine of one axis.
+fn load(control: &str, axis: &str) -> Result<Machine, String> {
     let text = format!(
         "family = \"sinumerik-840d\"\nname = \"corpus\"\n[control]\n{control}\n[axis.X]\n{axis}\n"
     );
     let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    let machine = stillpoint_spec::machine::load_bytes(
+    stillpoint_spec::machine::load_bytes(
         &root.join("tests/corpus/case.toml"),
         text.into_bytes(),
         &root.join("spec"),
     )
-    .map_err(|e| format!("{e:?}"))?;
-    let mut axes = stillpoint::production::axes(&machine)?;
-    let first = axes.pop().ok_or("no axis")?;
-    Ok((first.parameters, first.configuration))
+    .map_err(|e| format!("{e:?}"))
 }

@@ -8,7 +8,9 @@
 //!
 //! `ask` has a question for each key of the answer: `"48 NAME"` the value at 48 ms; `"first NAME=VALUE"` when it is seen
 //! first, in ms, -1 if never; `"first NAME=VALUE after 48"`; `"count NAME=VALUE"` in how many cycles. Behind a question,
-//! `nck` or `drive` names the channel, else the nck is asked. Power-on is the cycle at 0 ms. Times are rounded up to cycles:
+//! `nck` or `drive` names the channel, else the nck is asked. Beside the names of recordings there are `stopsi`, `xfaultsi_1`
+//! (bit 1 of that variable), `ramp_limit` in increments per cycle, `gear_stage` from 1, `setpoint_limited`,
+//! `setpoint_limit` and `position`. Power-on is the cycle at 0 ms. Times are rounded up to cycles:
 //! nothing happens in the middle of one.
 
 use super::parameters;
@@ -31,6 +33,28 @@ struct Event<'a> {
     /// None: true for one cycle.
     value: Option<&'a str>,
 }
+
+/// An output that recordings do not have.
+type Extra = (&'static str, fn(&axis::Outputs) -> Seen);
+
+/// Outputs that recordings do not have.
+const EXTRAS: [Extra; 7] = [
+    ("stopsi", |o| Seen::Int(i64::from(o.channel.stop.stopsi))),
+    ("xfaultsi_1", |o| Seen::Bool(o.channel.fault.bit1)),
+    ("ramp_limit", |o| {
+        Seen::Int(i64::from(o.channel.ramp.limit.0))
+    }),
+    ("gear_stage", |o| {
+        Seen::Int(i64::from(o.gear.stage.get()) + 1)
+    }),
+    ("setpoint_limited", |o| {
+        Seen::Bool(o.channel.speed.setpoint_limited)
+    }),
+    ("setpoint_limit", |o| {
+        Seen::Int(i64::from(o.channel.speed.setpoint_limit.0))
+    }),
+    ("position", |o| Seen::Int(i64::from(o.position.0))),
+];
 
 /// What both channels showed in a cycle: by side, by output.
 type Shown = [Vec<Seen>; 2];
@@ -207,7 +231,8 @@ fn play(
         let enabled = |o: &axis::Outputs| o.channel.pulses.enable && !o.channel.stop.cancel_pulses;
         pulses = enabled(&outputs.nck) && enabled(&outputs.drive);
         let all = |side, local: &Local, of: &axis::Outputs| {
-            names.iter().map(|n| n.get(side, local, of)).collect()
+            let named = names.iter().map(|n| n.get(side, local, of));
+            named.chain(EXTRAS.iter().map(|(_, get)| get(of))).collect()
         };
         shown.push([
             all(0, &now.nck, &outputs.nck),
@@ -230,9 +255,10 @@ fn reply(
     };
     words.retain(|w| *w != "nck" && *w != "drive");
     let place = |name: &str| {
-        vocabulary::outputs()
-            .iter()
-            .position(|o| o.name == name)
+        let named = vocabulary::outputs().into_iter().map(|o| o.name);
+        named
+            .chain(EXTRAS.iter().map(|(name, _)| *name))
+            .position(|known| known == name)
             .ok_or(format!("no output is called {name}"))
     };
     let matches = |what: &str, after: u64| -> Result<Vec<usize>, String> {
