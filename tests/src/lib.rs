@@ -1,6 +1,8 @@
-//! What the end-to-end tests share: where the files of the project are, how to run other tools, a reader of BTOR2.
+//! What the end-to-end tests share: where the files of the project are, how to run other tools, what fuzzers drive, a
+//! reader of BTOR2.
 
 pub mod btor2;
+pub mod fuzz;
 pub mod peer;
 pub mod random;
 

@@ -1,8 +1,8 @@
 //! The format of recordings: one JSON object a line.
 //!
 //! The first line is the header: format, version, machine, length of a cycle, signals with kind and unit. Each further line
-//! is one cycle: its number, its time, and the signals that have changed; the first one tells all. A cycle that is missing
-//! is like the one before it.
+//! is one cycle: its number, its time, and the signals that have changed; the first one tells all that is known, and
+//! `null` says that a signal is not known any more. A cycle that is missing is like the one before it.
 
 use std::collections::BTreeMap;
 use std::io;
@@ -66,8 +66,11 @@ pub fn write(recording: &Recording, out: &mut dyn io::Write) -> io::Result<()> {
         let mut signals = BTreeMap::new();
         for (k, (signal, value)) in recording.signals.iter().zip(row).enumerate() {
             let unchanged = before.is_some_and(|b| b.get(k) == Some(value));
-            if let (Some(value), false) = (value, unchanged) {
-                signals.insert(signal.name.clone(), to_json(value));
+            // What is not known has no place in the first line, and from one with `null` on.
+            let told = value.is_some() || before.is_some();
+            if told && !unchanged {
+                let value = value.as_ref().map_or(serde_json::Value::Null, to_json);
+                signals.insert(signal.name.clone(), value);
             }
         }
         let cycle = recording.cycle(n);
@@ -140,6 +143,10 @@ pub fn read(name: &str, text: &Arc<str>, target: &Target<'_>) -> Result<Recordin
                 ));
             };
             let declared = &recording.signals[*place];
+            if value.is_null() {
+                row[*place] = None;
+                continue;
+            }
             row[*place] = Some(of_json(value, declared.kind).ok_or_else(|| {
                 let message = format!("{signal} needs {}; got {value}", declared.kind.noun());
                 let help = format!("the header declares it as {}", declared.kind.keyword());

@@ -1,0 +1,6 @@
+//! `stillpoint certify`; see `stillpoint_tests::fuzz`.
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|data: &[u8]| {
+    stillpoint_tests::fuzz::run("certificate", data);
+});

@@ -1,0 +1,6 @@
+//! Requests to the page of `stillpoint explore`; see `stillpoint_tests::fuzz`.
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|data: &[u8]| {
+    stillpoint_tests::fuzz::run("request", data);
+});

@@ -1,0 +1,6 @@
+//! Scenarios of `stillpoint simulate`; see `stillpoint_tests::fuzz`.
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|data: &[u8]| {
+    stillpoint_tests::fuzz::run("scenario", data);
+});

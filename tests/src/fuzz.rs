@@ -1,0 +1,374 @@
+//! What fuzzers drive: one target for every kind of text or bytes that a user can hand over, and one for the monitors.
+//!
+//! A target takes any bytes. It panics where its property is broken; else it tells whether the bytes were accepted. The
+//! coverage-guided fuzzer of `harness/fuzz` runs a target for hours, the test `fuzz` each of them for a moment.
+
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, LazyLock};
+
+use stillpoint::diff::product::Product;
+use stillpoint::diff::{Pairing, bytes, pairings, peer};
+use stillpoint::explore::http::Head;
+use stillpoint::recording::csv::{self, Columns};
+use stillpoint::recording::{Recording, Signal, Target as Machinery, ndjson};
+use stillpoint::simulate::{self, Scenario};
+
+use stillpoint::subject::{self, Readings};
+use stillpoint_spec::Spec;
+use stillpoint_spec::diag::Diagnostics;
+use stillpoint_spec::lang::{parse_decl, parse_effect, parse_expr, parse_type};
+use stillpoint_spec::machine::{self, Machine, families};
+
+use crate::random::Random;
+use crate::{files, root};
+
+/// What a fuzzer drives.
+pub struct Target {
+    /// The name of the file in `harness/fuzz/fuzz_targets`.
+    pub name: &'static str,
+    /// What it drives.
+    pub component: &'static str,
+    /// What must be true of every input.
+    pub property: &'static str,
+    /// Inputs to begin with.
+    pub seeds: fn() -> Vec<Vec<u8>>,
+    /// Whether the bytes are accepted.
+    pub run: fn(&[u8]) -> bool,
+}
+
+/// Every target.
+pub static TARGETS: [Target; 8] = [
+    Target {
+        name: "certificate",
+        component: "`stillpoint certify`",
+        property: "altered bytes are refused: a certificate is confirmed only as it was written",
+        seeds: || read(&[stored()]),
+        run: certificate,
+    },
+    Target {
+        name: "differential",
+        component: "monitors and tables of the milling machine",
+        property: "both sides give the same outputs in every cycle",
+        seeds: || (0..=255).map(|k| vec![k; 40]).collect(),
+        run: differential,
+    },
+    Target {
+        name: "expression",
+        component: "Structured Text of tables and machine files",
+        property: "an expression, effect, type or declaration, or an error whose place lies in the text",
+        seeds: || {
+            let texts = [
+                "a + 2 * b MOD 3 >= LIMIT(0, c[i + 1], 9) AND NOT (d = e)",
+                "IF x > 0 THEN y := MIN(x, 3); ELSIF z THEN y := 0; ELSE y := -x; END_IF",
+                "ARRAY[0..3] OF INT(-5..n * 2)",
+                "speed : INT(0..v_max)",
+                "SEL(a, b, ABS(c)) <> MAX(1, 2, 3) OR FORALL i IN 0..2 : on[i]",
+            ];
+            texts.map(|t| t.as_bytes().to_vec()).to_vec()
+        },
+        run: expression,
+    },
+    Target {
+        name: "machine",
+        component: "machine files",
+        property: "a machine, or errors whose places lie in the text",
+        seeds: || {
+            let folders = [
+                "spec/machines",
+                "tests/machines",
+                "tests/plausible",
+                "tests/bad-input",
+            ];
+            read(&folders.map(|f| files(f, "toml")).concat())
+        },
+        run: machine,
+    },
+    Target {
+        name: "recording",
+        component: "recordings to be replayed, NDJSON and CSV",
+        property: "a recording, which is the same when it is written and read again, or an error whose place lies in the text",
+        seeds: recordings,
+        run: recording,
+    },
+    Target {
+        name: "request",
+        component: "requests to the page of `stillpoint explore`",
+        property: "a head, refused, or not yet whole; what follows a head does not change it",
+        seeds: || {
+            let texts = [
+                "GET / HTTP/1.1\r\nHost: 127.0.0.1:8080\r\n\r\n",
+                "POST /api HTTP/1.1\r\nHost: localhost\r\nOrigin: http://localhost\r\nContent-Length: 2\r\nContent-Type: application/json\r\n\r\n{}",
+                "POST /x?y#z HTTP/1.1\r\nHost: a\r\nHost: b\r\nExpect: 100-continue\r\nTransfer-Encoding: chunked\r\n\r\n",
+            ];
+            texts.map(|t| t.as_bytes().to_vec()).to_vec()
+        },
+        run: request,
+    },
+    Target {
+        name: "scenario",
+        component: "scenarios of `stillpoint simulate`",
+        property: "a scenario of the milling machine, or errors whose places lie in the text",
+        seeds: || read(&files("spec/scenarios", "toml")),
+        run: scenario,
+    },
+    Target {
+        name: "specification",
+        component: "specification files",
+        property: "a specification, or errors whose places lie in the text",
+        seeds: || {
+            let mut all = files("tests/must-fail", "toml");
+            all.push(root().join("tests/certified/forms.toml"));
+            read(&all)
+        },
+        run: specification,
+    },
+];
+
+/// Runs the target of this name.
+///
+/// # Panics
+/// If its property is broken, or there is none of this name.
+pub fn run(name: &str, data: &[u8]) -> bool {
+    let target = TARGETS.iter().find(|target| target.name == name);
+    (target.unwrap_or_else(|| panic!("no target {name}")).run)(data)
+}
+
+fn read(paths: &[PathBuf]) -> Vec<Vec<u8>> {
+    let text = |path: &PathBuf| std::fs::read(path).unwrap_or_else(|e| panic!("{path:?}: {e}"));
+    paths.iter().map(text).collect()
+}
+
+fn milling_file() -> PathBuf {
+    root().join("spec/machines/milling-840d.toml")
+}
+
+static MILLING: LazyLock<(Machine, Vec<Signal>)> = LazyLock::new(|| {
+    let path = milling_file();
+    let machine = machine::load(&path, &families(&path)).unwrap_or_else(|e| panic!("{e}"));
+    let signals = simulate::signals(&machine);
+    (machine, signals)
+});
+
+/// A text of valid UTF-8; else nothing is driven, since all readers refuse it alike.
+fn text(data: &[u8]) -> Option<Arc<str>> {
+    std::str::from_utf8(data).ok().map(Arc::from)
+}
+
+/// Accepted, or refused as a user can use it: every error has a message, can be shown, and marks a place of its text.
+fn judged<T>(result: Result<T, Diagnostics>) -> bool {
+    let Err(Diagnostics(found)) = result else {
+        return true;
+    };
+    assert!(!found.is_empty(), "refused without an error");
+    for error in found {
+        assert!(!error.message.is_empty(), "an error without a message");
+        if let Some(span) = &error.span {
+            assert!(
+                error.source.get(span.clone()).is_some(),
+                "a place outside the text: {span:?}"
+            );
+        }
+        assert!(!Diagnostics(vec![error]).to_string().is_empty());
+    }
+    false
+}
+
+fn stored() -> PathBuf {
+    root().join("tests/certified/forms.cert")
+}
+
+fn certificate(data: &[u8]) -> bool {
+    static STORED: LazyLock<Vec<u8>> = LazyLock::new(|| read(&[stored()]).concat());
+    let spec = root().join("tests/certified/forms.toml");
+    let confirmed = stillpoint_certify::certify_bytes(data, Some(&spec), 1).is_ok();
+    assert!(!confirmed || data == STORED.as_slice());
+    confirmed
+}
+
+fn differential(data: &[u8]) -> bool {
+    static PAIRINGS: LazyLock<Vec<Pairing>> = LazyLock::new(|| {
+        let subject =
+            subject::load(&milling_file(), &Readings::new()).unwrap_or_else(|e| panic!("{e}"));
+        pairings(&subject).unwrap_or_else(|e| panic!("{e}"))
+    });
+    let Some((machine, run)) = data.split_first() else {
+        return false;
+    };
+    let pairing = &PAIRINGS[usize::from(*machine) % PAIRINGS.len()];
+    let monitor = peer::peer(&pairing.machine, &pairing.bound, None)
+        .unwrap_or_else(|e| panic!("{e}"))
+        .unwrap_or_else(|| panic!("machine `{}` has no monitor", pairing.machine));
+    let product = Product::new(&pairing.bound, monitor.as_ref()).unwrap_or_else(|e| panic!("{e}"));
+    if let Some(found) = bytes::run(&product, pairing.bound.inputs.len(), run) {
+        let diagram = product.diagram(&found.start, &found.cycles).text();
+        panic!("{}\n{diagram}", pairing.machine);
+    }
+    true
+}
+
+fn expression(data: &[u8]) -> bool {
+    let Some(text) = text(data) else {
+        return false;
+    };
+    let results = [
+        parse_expr(&text).map(drop),
+        parse_effect(&text).map(drop),
+        parse_type(&text).map(drop),
+        parse_decl(&text).map(drop),
+    ];
+    for error in results.iter().filter_map(|r| r.as_ref().err()) {
+        assert!(text.get(error.span.clone()).is_some(), "{:?}", error.span);
+        assert!(!error.message.is_empty());
+    }
+    results.iter().any(Result::is_ok)
+}
+
+fn machine(data: &[u8]) -> bool {
+    let path = milling_file();
+    judged(machine::load_bytes(&path, data.to_vec(), &families(&path)))
+}
+
+/// A short run of the milling machine in both formats.
+fn recordings() -> Vec<Vec<u8>> {
+    let path = root().join("spec/scenarios/encoder-freeze.toml");
+    let machine = &MILLING.0;
+    let scenario = Scenario::load(&path, machine).unwrap_or_else(|e| panic!("{e}"));
+    let simulation = simulate::run(machine, &scenario).unwrap_or_else(|e| panic!("{e}"));
+    let mut short = simulation.recording.clone();
+    short.rows.truncate(20);
+    let written = |write: fn(&Recording, &mut dyn std::io::Write) -> std::io::Result<()>| {
+        let mut bytes = Vec::new();
+        write(&short, &mut bytes).expect("written to memory");
+        bytes
+    };
+    vec![written(ndjson::write), written(csv::write)]
+}
+
+fn recording(data: &[u8]) -> bool {
+    let Some(text) = text(data) else {
+        return false;
+    };
+    let (machine, signals) = &*MILLING;
+    let target = Machinery {
+        machine: &machine.name,
+        cycle_us: u64::try_from(machine.monitoring_cycle).unwrap_or(0),
+        signals,
+    };
+    let result = if text.starts_with('{') {
+        ndjson::read("fuzzed", &text, &target)
+    } else {
+        csv::read("fuzzed", &text, &Columns::by_name(&text, &target), &target)
+    };
+    if let Ok(recording) = &result {
+        let mut bytes = Vec::new();
+        ndjson::write(recording, &mut bytes).expect("written to memory");
+        let again = Arc::from(String::from_utf8(bytes).expect("UTF-8"));
+        let again = ndjson::read("again", &again, &target).unwrap_or_else(|e| panic!("{e}"));
+        let differs =
+            (again.rows.iter().zip(&recording.rows).enumerate()).find_map(|(row, (new, old))| {
+                let cell = new.iter().zip(old).position(|(new, old)| new != old)?;
+                let name = &recording.signals[cell].name;
+                Some(format!(
+                    "{name} in row {row}: {:?} from {:?}",
+                    new[cell], old[cell]
+                ))
+            });
+        assert_eq!(differs, None, "not the same when read again");
+        assert!(&again == recording, "not the same when read again");
+    }
+    judged(result)
+}
+
+fn request(data: &[u8]) -> bool {
+    match Head::parse(data) {
+        Ok(Some((head, length))) => {
+            let alone = Head::parse(&data[..length]);
+            assert_eq!(alone, Ok(Some((head, length))), "the body changes the head");
+            true
+        }
+        Ok(None) => false,
+        Err(refused) => {
+            assert!((400..600).contains(&refused.status) && !refused.reason.is_empty());
+            false
+        }
+    }
+}
+
+fn scenario(data: &[u8]) -> bool {
+    text(data).is_some_and(|text| judged(Scenario::from_text("fuzzed", &text, &MILLING.0)))
+}
+
+fn specification(data: &[u8]) -> bool {
+    // Where the seeds lie: what they use is found from there.
+    let path = root().join("tests/must-fail/fuzzed.toml");
+    let Some(text) = text(data) else {
+        return false;
+    };
+    judged(Spec::from_text(Path::new(&path), text).and_then(|spec| {
+        let names: Vec<String> = spec.systems().map(str::to_owned).collect();
+        names
+            .iter()
+            .try_for_each(|name| spec.system(name, None).map(drop))
+    }))
+}
+
+/// An altered input: parts of it taken out, doubled, exchanged with those of another one, bytes and numbers changed.
+pub fn altered(random: &mut Random, seeds: &[Vec<u8>]) -> Vec<u8> {
+    const TOKENS: [&str; 16] = [
+        "\"",
+        "]",
+        "[[",
+        "{",
+        "=",
+        "\n",
+        "\0",
+        "é",
+        ":=",
+        "..",
+        "-",
+        "0",
+        "99999999999999999999",
+        "-9223372036854775808",
+        "1e400",
+        "AND",
+    ];
+    let any = |random: &mut Random, count: usize| (random.draw() % count.max(1) as u64) as usize;
+    let part = |random: &mut Random, length: usize| {
+        let start = any(random, length + 1);
+        start..start + any(random, (length - start).min(60) + 1)
+    };
+    let mut input = seeds[any(random, seeds.len())].clone();
+    for _ in 0..1 + any(random, 4) {
+        let place = part(random, input.len());
+        match any(random, 6) {
+            0 => drop(input.drain(place)),
+            1 => {
+                let copy = input[place.clone()].to_vec();
+                input.splice(place.end..place.end, copy);
+            }
+            2 => {
+                let other = &seeds[any(random, seeds.len())];
+                let copy = other[part(random, other.len())].to_vec();
+                input.splice(place, copy);
+            }
+            3 => {
+                let token = TOKENS[any(random, TOKENS.len())];
+                input.splice(place.start..place.start, token.bytes());
+            }
+            4 => {
+                let digit = input.iter().skip(place.start).position(u8::is_ascii_digit);
+                if let Some(at) = digit {
+                    let token = TOKENS[any(random, TOKENS.len())];
+                    let at = place.start + at;
+                    input.splice(at..=at, token.bytes());
+                }
+            }
+            _ => {
+                if let Some(byte) = input.get_mut(place.start) {
+                    *byte ^= 1 << any(random, 8);
+                }
+            }
+        }
+    }
+    input
+}

@@ -1,0 +1,71 @@
+//! Every fuzz target for a moment, on altered inputs that are the same in every run; the table of the targets in the book and
+//! the files of the fuzzer.
+
+use std::collections::BTreeSet;
+
+use stillpoint_tests::fuzz::{TARGETS, altered};
+use stillpoint_tests::random::Random;
+use stillpoint_tests::{files, root};
+
+/// Inputs for each target.
+const INPUTS: usize = 4_000;
+
+#[test]
+fn no_altered_input_breaks_a_property() {
+    for (number, target) in TARGETS.iter().enumerate() {
+        let seeds = (target.seeds)();
+        let accepted = seeds.iter().filter(|seed| (target.run)(seed)).count();
+        assert!(accepted > 0, "{}: no seed is accepted", target.name);
+        let mut random = Random::new(number as u64);
+        let mut refused = 0;
+        for _ in 0..INPUTS {
+            let input = altered(&mut random, &seeds);
+            let judged = std::panic::catch_unwind(|| (target.run)(&input));
+            let accepted = judged.unwrap_or_else(|_| {
+                panic!("{}: {:?}", target.name, String::from_utf8_lossy(&input))
+            });
+            refused += usize::from(!accepted);
+        }
+        println!(
+            "{}: {refused} of {INPUTS} altered inputs refused",
+            target.name
+        );
+        // Any bytes are a run of the monitors.
+        assert!(
+            refused > 0 || target.name == "differential",
+            "{}",
+            target.name
+        );
+    }
+}
+
+#[test]
+fn each_target_has_its_file_and_its_line() {
+    let named: BTreeSet<String> = files("harness/fuzz/fuzz_targets", "rs")
+        .iter()
+        .filter_map(|path| Some(path.file_stem()?.to_str()?.to_owned()))
+        .collect();
+    let listed: BTreeSet<String> = TARGETS.iter().map(|t| t.name.to_owned()).collect();
+    assert_eq!(named, listed);
+    let manifest = std::fs::read_to_string(root().join("harness/fuzz/Cargo.toml")).expect("there");
+    let page = std::fs::read_to_string(root().join("docs/src/fuzzing.md")).expect("there");
+    let rows: Vec<&str> = page
+        .lines()
+        .filter(|line| line.starts_with("| `"))
+        .collect();
+    assert_eq!(rows.len(), TARGETS.len());
+    for (target, row) in TARGETS.iter().zip(rows) {
+        let name = target.name;
+        assert_eq!(
+            row,
+            format!("| `{name}` | {} | {} |", target.component, target.property)
+        );
+        assert!(
+            manifest.contains(&format!("path = \"fuzz_targets/{name}.rs\"")),
+            "{name}"
+        );
+        let file = root().join(format!("harness/fuzz/fuzz_targets/{name}.rs"));
+        let source = std::fs::read_to_string(file).expect("there");
+        assert!(source.contains(&format!("run(\"{name}\", data)")), "{name}");
+    }
+}
