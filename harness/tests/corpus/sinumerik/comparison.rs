@@ -139,7 +139,7 @@ pub fn result_list(given: &Given<'_>) -> Result<Table, String> {
         },
     }
     let config = results::Config::new(cams, n_x, modulo).map_err(|e| e.to_string())?;
-    let (_, outputs) = results::next(results::State::default(), &config, &inputs);
+    let (_, outputs) = results::next(results::State, &config, &inputs);
     Ok(Table::from_iter([
         ("list_1".to_owned(), bits(u32::from(outputs.list_1.bits()))),
         ("list_2".to_owned(), bits(outputs.list_2.bits())),
