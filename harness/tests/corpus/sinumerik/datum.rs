@@ -1,6 +1,6 @@
 //! Runners of machine data: what the machine file and the monitors permit, and what a combination of them gives.
 
-use super::{load, parameters};
+use super::{load, parameters, read};
 use crate::case::Given;
 use stillpoint_monitors::sinumerik::parameters::{DATA, Datum, Parameters, Unit};
 use stillpoint_monitors::units::Axis;
@@ -157,6 +157,23 @@ fn in_file(
             range.then_some((false, false)).ok_or(text)
         }
     }
+}
+
+/// A machine file that the manual permits or refuses, as `validate` and the monitors read it; cheaper than the command line.
+///
+/// Given: `file`, its text; `find`, texts looked for in the findings. Answer: `plausible`; `found`, those that were found.
+pub fn machine(given: &Given<'_>) -> Result<Table, String> {
+    let findings = match read(given.text("file")?) {
+        // What a file may say the monitors must take.
+        Ok(machine) => stillpoint::production::axes(&machine).map(|_| None)?,
+        Err(text) => Some(text),
+    };
+    let found = |what: &&str| findings.as_ref().is_some_and(|text| text.contains(what));
+    let found: Vec<&str> = given.texts("find")?.into_iter().filter(found).collect();
+    Ok(Table::from_iter([
+        ("plausible".to_owned(), findings.is_none().into()),
+        ("found".to_owned(), found.into()),
+    ]))
 }
 
 /// The enable word of an axis. Given: `axis`. Answer: `bits`, those that are set.

@@ -20,6 +20,7 @@ pub const RUNNERS: &[(&str, Runner)] = &[
     ("encoder", single::encoder),
     ("encoder_speed", single::encoder_speed),
     ("machine_datum", datum::machine_datum),
+    ("machine", datum::machine),
     ("enable_word", datum::enable_word),
     ("monitoring_cycle", datum::monitoring_cycle),
     ("entry", datum::entry),
@@ -51,10 +52,15 @@ fn load(control: &str, axis: &str) -> Result<Machine, String> {
     let text = format!(
         "family = \"sinumerik-840d\"\nname = \"corpus\"\n[control]\n{control}\n[axis.X]\n{axis}\n"
     );
+    read(&text)
+}
+
+/// The machine of a file.
+fn read(text: &str) -> Result<Machine, String> {
     let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     stillpoint_spec::machine::load_bytes(
         &root.join("tests/corpus/case.toml"),
-        text.into_bytes(),
+        text.as_bytes().to_vec(),
         &root.join("spec"),
     )
     .map_err(|e| format!("{e:?}"))

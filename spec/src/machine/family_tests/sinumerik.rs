@@ -174,7 +174,7 @@ fn alarms_exist() {
 }
 
 /// For each rule a machine that violates it and one beside it that does not: what stands in the file after the family.
-pub(super) const EXAMPLES: [(&str, &str, &str); 24] = [
+pub(super) const EXAMPLES: [(&str, &str, &str); 28] = [
     (
         "the monitoring cycle is longer than 25 ms",
         "control.SYSCLOCK_CYCLE_TIME = \"5 ms\"\ncontrol.SAFETY_SYSCLOCK_TIME_RATIO = 6\naxis.X = { kind = \"linear\" }",
@@ -254,6 +254,26 @@ pub(super) const EXAMPLES: [(&str, &str, &str); 24] = [
         "this control module monitors encoders up to 300 kHz only",
         "axis.X = { kind = \"linear\", ENC_FREQ_LIMIT = \"301 kHz\", CONTROL_MODULE = \"Standard 2\" }",
         "axis.X = { kind = \"linear\", ENC_FREQ_LIMIT = \"420 kHz\", CONTROL_MODULE = \"Performance 2\" }",
+    ),
+    (
+        "a speed limit lies above what the limit frequency of the encoder permits",
+        "axis.C = { kind = \"rotary\", functions = [\"SBH/SG\"], VELO_LIMIT = [\"8789.063 rev/min\", \"0 rev/min\", \"0 rev/min\", \"0 rev/min\"] }",
+        "axis.C = { kind = \"rotary\", functions = [\"SBH/SG\"], VELO_LIMIT = [\"8789.062 rev/min\", \"0 rev/min\", \"0 rev/min\", \"0 rev/min\"] }",
+    ),
+    (
+        "a speed limit lies above what the limit frequency of the encoder permits",
+        "axis.X = { kind = \"linear\", functions = [\"SBH/SG\"], VELO_LIMIT = [\"0 mm/min\", \"87890.626 mm/min\", \"0 mm/min\", \"0 mm/min\"] }",
+        "axis.X = { kind = \"linear\", functions = [\"SBH/SG\"], VELO_LIMIT = [\"0 mm/min\", \"87890.625 mm/min\", \"0 mm/min\", \"0 mm/min\"] }",
+    ),
+    (
+        "the drive cannot convert between the encoder and the load",
+        "axis.C = { kind = \"rotary\", functions = [\"SBH/SG\"], ENC_RESOL = 43 }",
+        "axis.C = { kind = \"rotary\", functions = [\"SBH/SG\"], ENC_RESOL = 44 }",
+    ),
+    (
+        "the drive cannot convert between the encoder and the load",
+        "axis.X = { kind = \"linear\", functions = [\"SBH/SG\"], VELO_LIMIT = [\"1 mm/min\", \"1 mm/min\", \"1 mm/min\", \"1 mm/min\"], ENC_RESOL = 80000, ENC_GEAR_PITCH = \"9.999 mm/rev\" }",
+        "axis.X = { kind = \"linear\", functions = [\"SBH/SG\"], VELO_LIMIT = [\"1 mm/min\", \"1 mm/min\", \"1 mm/min\", \"1 mm/min\"], ENC_RESOL = 79998, ENC_GEAR_PITCH = \"10 mm/rev\" }",
     ),
     (
         "the upper safe limit position does not lie above the lower one",
