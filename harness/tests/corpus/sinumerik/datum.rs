@@ -2,6 +2,9 @@
 
 use super::{load, parameters, read};
 use crate::case::Given;
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::sync::{Arc, Mutex};
 use stillpoint_monitors::sinumerik::parameters::{DATA, Datum, Parameters, Unit};
 use stillpoint_monitors::units::Axis;
 use stillpoint_spec::machine::Machine;
@@ -204,13 +207,26 @@ pub fn monitoring_cycle(given: &Given<'_>) -> Result<Table, String> {
     ]))
 }
 
+/// A file of the family; read once, since many cases look into the same.
+fn family_file(name: &str) -> Result<Arc<Table>, String> {
+    static READ: Mutex<BTreeMap<String, Arc<Table>>> = Mutex::new(BTreeMap::new());
+    let mut read = READ.lock().map_err(|e| e.to_string())?;
+    if let Some(table) = read.get(name) {
+        return Ok(Arc::clone(table));
+    }
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../spec/sinumerik-840d");
+    let path = folder.join(name).with_extension("toml");
+    let text = std::fs::read_to_string(path).map_err(|e| e.to_string())?;
+    let table: Table = text.parse().map_err(|e| format!("{e}"))?;
+    let table = Arc::new(table);
+    read.insert(name.to_owned(), Arc::clone(&table));
+    Ok(table)
+}
+
 /// An entry of the lists that the family has from the manual. Given: `file` and `list`, where it stands; `key` and `is`, which
 /// one. Answer: what it says.
 pub fn entry(given: &Given<'_>) -> Result<Table, String> {
-    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../spec/sinumerik-840d");
-    let path = folder.join(given.text("file")?).with_extension("toml");
-    let text = std::fs::read_to_string(path).map_err(|e| e.to_string())?;
-    let table: Table = text.parse().map_err(|e| format!("{e}"))?;
+    let table = family_file(given.text("file")?)?;
     let list = given.text("list")?;
     let entries = table.get(list).and_then(Value::as_array);
     let (key, is) = (given.text("key")?, given.get("is"));
