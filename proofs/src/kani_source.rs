@@ -9,9 +9,15 @@ use crate::source::{Source, Verdict};
 #[derive(Default)]
 pub(crate) struct Symbolic {
     covers: u32,
+    part: u32,
 }
 
 impl Symbolic {
+    /// A source that takes one part of the domain of a run, from 1.
+    pub(crate) fn part(part: u32) -> Self {
+        Self { covers: 0, part }
+    }
+
     /// Whether the lowest cover not yet taken was met; takes it.
     pub(crate) fn take_cover(&mut self) -> bool {
         let met = self.covers & 1 == 1;
@@ -58,6 +64,14 @@ impl Source for Symbolic {
         self.any_in(0, highest)
     }
 
+    fn any_part(&mut self, _: u32) -> u32 {
+        self.part
+    }
+
+    fn leaves_out(&self) -> bool {
+        true
+    }
+
     fn any_cut(&mut self, _: u32, highest: u32, bits: u32) -> u32 {
         self.any_in(0, highest.min((1 << bits) - 1))
     }
@@ -90,15 +104,15 @@ pub(crate) fn conclude(verdict: Verdict) {
     assert!(verdict == Verdict::Held);
 }
 
-/// [`Speed::reduced`] where the reduced limit is at most 255; a limit that is not reduced is free. The monitors compare
-/// limits and treat none by its value, so that 8 bits show every order; that a wide one is reduced exactly is the property
+/// [`Speed::reduced`] where the reduced limit is at most 15; a limit that is not reduced is free. The monitors compare
+/// limits and treat none by its value, so that 4 bits show every order; that a wide one is reduced exactly is the property
 /// `units_factor`.
 #[allow(dead_code, reason = "named by an attribute of Kani only")]
-pub(crate) fn reduced_byte(speed: Speed, factor: Percent) -> Speed {
+pub(crate) fn reduced_small(speed: Speed, factor: Percent) -> Speed {
     if factor == Percent::WHOLE {
         return speed;
     }
-    kani::assume(speed.0 <= u32::from(u8::MAX));
+    kani::assume(speed.0 <= 15);
     Speed(u32::from(
         u16::from(speed.0 as u8) * u16::from(factor.get()) / 100,
     ))

@@ -5,6 +5,7 @@ use std::fmt::Write;
 use crate::enumeration::Count;
 use crate::inventory::{self, Entry};
 use crate::properties::Subject;
+use crate::results::{Results, Verdict};
 
 /// The command that writes the page.
 pub const COMMAND: &str = "cargo run -p stillpoint-proofs --bin inventory";
@@ -16,8 +17,9 @@ pub fn results() -> Vec<(&'static Entry, Count)> {
         .collect()
 }
 
-/// The page as Markdown. The same results always give the same text.
-pub fn render(results: &[(&Entry, Count)]) -> String {
+/// The page as Markdown, from the results of the enumerations and the answers of Kani. The same results always give the same
+/// text.
+pub fn render(results: &[(&Entry, Count)], kani: &Results) -> String {
     let mut page = String::new();
     let cases: u64 = results.iter().map(|(_, count)| count.cases).sum();
     page.push_str(HEAD);
@@ -27,6 +29,7 @@ pub fn render(results: &[(&Entry, Count)]) -> String {
         results.len(),
         grouped(cases)
     );
+    page.push_str(&summary(results, kani));
     page.push_str(
         "| harness | property | stands for | enumeration | sampling | Kani | bound | caveat |\n",
     );
@@ -34,11 +37,12 @@ pub fn render(results: &[(&Entry, Count)]) -> String {
     for (entry, count) in results {
         let _ = writeln!(
             page,
-            "| `{}` | {} | {} | {} | test | not run here | {} | {} |",
+            "| `{}` | {} | {} | {} | test | {} | {} | {} |",
             entry.id,
             entry.property,
             stands_for(entry),
             verdict(count),
+            answer(entry, kani),
             entry.bound,
             entry.caveat,
         );
@@ -55,10 +59,12 @@ Every harness is one property, written once over a source of nondeterministic va
 * **Enumeration** tries every choice in a finite domain and counts the cases: a proof for that domain, and only for it. The
   domain stands below each harness.
 * **Sampling** (proptest) tries random choices over the full width, with shrinking: a test, never called a proof.
-* **Kani** checks the same harness symbolically over the full width: `cargo kani -p stillpoint-proofs -Z function-contracts`.
-  It was not run to make this page; the column says so.
+* **Kani** checks the same harness symbolically over the full width, unless the caveat says what it leaves out: `cargo kani`.
+  The column shows the last run, kept in `proofs/kani.toml`: verdict, checks made (assertions, overflows, indices,
+  dereferences), covers met, seconds, solver. A harness in parts is divided by clauses or by cases, each part with its own
+  time; all must hold. *older* means that a source of the harness was edited after the run. [How Kani is run](kani.md).
 * **Creusot**: the contracts carry Creusot attributes under the feature `creusot` of the monitors. Not run; the attributes
-  have been checked for syntax only.
+  have been checked for syntax only. [What it would take](kani.md#creusot).
 
 A harness counts only if each of its covers was met: a property whose premise never occurs proves nothing. The tests of
 the crate `stillpoint-proofs` show that every mutant of the monitors is found by a harness listed here.
@@ -67,6 +73,77 @@ A contract is checked for one step from *any* state that satisfies the invariant
 re-establishes the invariant, and the initial state satisfies it (each harness of a contract checks that too), its clauses
 hold along every run.
 ";
+
+/// What Kani answered, in two lines.
+fn summary(results: &[(&Entry, Count)], kani: &Results) -> String {
+    if kani.rows.is_empty() {
+        return "Kani: not run.\n\n".to_owned();
+    }
+    let rows = || results.iter().filter_map(|(entry, _)| kani.row(entry));
+    let holds = |(row, _): &(&crate::results::Row, bool)| row.answer.verdict == Verdict::Holds;
+    let held = rows().filter(holds);
+    let count = |wanted: &Verdict| {
+        rows()
+            .filter(|(row, _)| row.answer.verdict == *wanted)
+            .count()
+    };
+    let fails = rows()
+        .filter(|(row, _)| matches!(row.answer.verdict, Verdict::Fails(_)))
+        .count();
+    let sum = |number: fn(&crate::results::Row) -> u64| {
+        grouped(rows().filter(holds).map(|(row, _)| number(row)).sum())
+    };
+    let seconds: f64 = rows()
+        .filter(holds)
+        .map(|(row, _)| row.answer.seconds)
+        .sum();
+    format!(
+        "Kani {} with CBMC {}: of {} harnesses {} hold, in {seconds:.0} s of verification with {} checks and {} of {} covers; {} have \
+         no answer in {} s a part, {fails} fail, {} are vacuous, {} were not run; {} answers are older than their sources.\n\n",
+        kani.kani,
+        kani.cbmc,
+        results.len(),
+        held.count(),
+        sum(|row| row.answer.checks),
+        sum(|row| row.answer.met),
+        sum(|row| row.answer.covers),
+        count(&Verdict::NoAnswer),
+        crate::results::LIMIT_SECONDS,
+        count(&Verdict::Vacuous),
+        results.len() - rows().count(),
+        rows().filter(|(_, fresh)| !fresh).count(),
+    )
+}
+
+/// What Kani answered for one harness.
+fn answer(entry: &Entry, kani: &Results) -> String {
+    let Some((row, fresh)) = kani.row(entry) else {
+        return "not run".to_owned();
+    };
+    let answer = &row.answer;
+    let mut text = match &answer.verdict {
+        Verdict::NoAnswer => format!(
+            "no answer in {} s, {}",
+            crate::results::LIMIT_SECONDS,
+            row.solver
+        ),
+        verdict => format!(
+            "{verdict}, {} checks, {} of {} covers, {:.1} s, {}",
+            grouped(answer.checks),
+            answer.met,
+            answer.covers,
+            answer.seconds,
+            row.solver
+        ),
+    };
+    if answer.parts > 1 {
+        let _ = write!(text, ", {} parts", answer.parts);
+    }
+    if !fresh {
+        text.push_str(", older");
+    }
+    text
+}
 
 fn stands_for(entry: &Entry) -> String {
     if (entry.clauses)().is_empty() {

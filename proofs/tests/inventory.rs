@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use stillpoint_proofs::inventory;
 use stillpoint_proofs::page;
+use stillpoint_proofs::results::{Results, Verdict, solver};
 
 #[test]
 fn every_enumeration_proves_and_the_page_is_up_to_date() {
@@ -17,11 +18,44 @@ fn every_enumeration_proves_and_the_page_is_up_to_date() {
     }
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/src/proofs.md");
     let written = std::fs::read_to_string(path).expect("docs/src/proofs.md exists");
+    // Also when an answer of Kani is older than what it was given for and the page does not say so.
+    let kani = Results::read().expect("the answers of Kani");
     assert!(
-        written == page::render(&results),
+        written == page::render(&results, &kani),
         "docs/src/proofs.md is not up to date: run `{}`",
         page::COMMAND
     );
+}
+
+#[test]
+fn every_answer_of_kani_is_one_of_its_harness() {
+    // A harness that does not exist is refused while reading.
+    let kani = Results::read().expect("the answers of Kani");
+    for entry in inventory::all() {
+        let Some((row, fresh)) = kani.row(entry) else {
+            continue;
+        };
+        let answer = &row.answer;
+        assert!(
+            !matches!(answer.verdict, Verdict::Fails(_) | Verdict::Vacuous),
+            "{}: {}",
+            entry.id,
+            answer.verdict
+        );
+        assert!(answer.slowest <= answer.seconds + 0.1, "{}", entry.id);
+        if fresh {
+            assert_eq!(row.solver, solver(entry), "{}", entry.id);
+        }
+        if fresh && answer.verdict == Verdict::Holds {
+            let covers = (entry.covers)().len() as u64;
+            assert_eq!(
+                (answer.met, answer.covers),
+                (covers, covers),
+                "{}",
+                entry.id
+            );
+        }
+    }
 }
 
 #[test]

@@ -1,9 +1,10 @@
-//! Runs the enumerations and writes the proof inventory, `docs/src/proofs.md` or the file named as the only argument.
+//! Runs the enumerations and writes the proof inventory, with the answers of Kani from `proofs/kani.toml`, `docs/src/proofs.md` or the file named as the only argument.
 
 use std::path::PathBuf;
 use std::process::ExitCode;
 
 use stillpoint_proofs::page;
+use stillpoint_proofs::results::Results;
 
 fn main() -> ExitCode {
     let mut arguments = std::env::args_os().skip(1);
@@ -18,6 +19,13 @@ fn main() -> ExitCode {
         eprintln!("usage: inventory [FILE]");
         return ExitCode::from(2);
     }
+    let kani = match Results::read() {
+        Ok(kani) => kani,
+        Err(error) => {
+            eprintln!("{error}");
+            return ExitCode::from(2);
+        }
+    };
     let results = page::results();
     for (entry, count) in &results {
         let state = if count.proves() {
@@ -27,7 +35,7 @@ fn main() -> ExitCode {
         };
         println!("{:24} {state:10} {:>12} cases", entry.id, count.cases);
     }
-    if let Err(error) = std::fs::write(&path, page::render(&results)) {
+    if let Err(error) = std::fs::write(&path, page::render(&results, &kani)) {
         eprintln!("cannot write {}: {error}", path.display());
         return ExitCode::from(2);
     }

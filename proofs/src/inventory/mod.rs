@@ -60,7 +60,7 @@ fn requirements_of(clauses: Vec<ClauseText>) -> Vec<&'static str> {
 }
 
 macro_rules! entry {
-    (contract $(#[$($kani:tt)+])* $id:ident on $family:ident::$monitor:ident {
+    (contract $([$($how:tt)*])? $id:ident on $family:ident::$monitor:ident {
         property: $property:literal, domain: $domain:expr, domain_text: $domain_text:literal, caveat: $caveat:literal $(,)?
     }) => {
         $crate::inventory::Entry {
@@ -74,7 +74,7 @@ macro_rules! entry {
             bound: "one step from any consistent state; inductive",
             caveat: $caveat,
             file: None,
-            kani: concat!($(stringify!($($kani)+), "; "),*),
+            kani: concat!($(stringify!($($how)*))?),
             clauses: $crate::properties::$family::clauses::$monitor,
             enumerate: |subject| {
                 let covers = stillpoint_monitors::$family::$monitor::CLAUSES.len();
@@ -85,7 +85,7 @@ macro_rules! entry {
             sample: |tape, subject| $crate::properties::$family::contracts::$monitor(tape, &subject.$family),
         }
     };
-    (run($unwind:literal) $(#[$($kani:tt)+])* $id:ident on $family:ident::$monitor:literal by $module:ident::$function:ident {
+    (run($unwind:literal) $([$($how:tt)*])? $id:ident on $family:ident::$monitor:literal by $module:ident::$function:ident {
         property: $property:literal, requirements: [$($requirement:literal),+], covers: [$($cover:literal),+],
         domain: $domain:expr, domain_text: $domain_text:literal, bound: $bound:literal, caveat: $caveat:literal $(,)?
     }) => {
@@ -100,7 +100,7 @@ macro_rules! entry {
             bound: $bound,
             caveat: $caveat,
             file: Some(concat!("properties/", stringify!($family), "/", stringify!($module), ".rs")),
-            kani: concat!($(stringify!($($kani)+), "; "),*),
+            kani: concat!($(stringify!($($how)*))?),
             clauses: Vec::new,
             enumerate: |subject| {
                 $crate::enumeration::enumerate($domain, [$($cover),+].len(), |source| {
@@ -112,33 +112,80 @@ macro_rules! entry {
     };
 }
 
+/// One Kani harness, with its attributes.
+#[cfg(kani)]
+macro_rules! kani_proof {
+    (($($name:ident $arguments:tt),*) [$($more:ident $values:tt),*] $id:ident $body:block) => {
+        #[kani::proof]
+        $(#[kani::$name $arguments])*
+        $(#[kani::$more $values])*
+        fn $id() $body
+    };
+}
+
+/// The Kani harness of an entry; with `[parts(COUNT: NAME = NUMBER, ...)]` several in a module of its name. The parts of a
+/// contract share its clauses; those of a run are the parts that its property knows, and part 0 is the whole with the covers
+/// and without the assertion.
 #[cfg(kani)]
 macro_rules! kani_harness {
-    (contract $(#[$($kani:tt)+])* $id:ident on $family:ident::$monitor:ident { $($rest:tt)* }) => {
-        #[kani::proof]
-        $(#[kani::$($kani)+])*
-        fn $id() {
-            use stillpoint_monitors::$family::$monitor::{State, Step, assert_clauses, next};
-            let mut source = Symbolic::default();
-            if let Some((before, config, inputs)) = crate::arbitrary::$family::$monitor(&mut source) {
-                kani::assume(before.invariant(&config));
-                assert!(State::INITIAL.invariant(&config), "initial_state_satisfies_the_invariant");
-                let (after, outputs) = next(before, &config, &inputs);
-                assert_clauses(Step { before, config, inputs, after, outputs });
-            }
+    (contract [kani $kani:tt parts($count:literal: $($part:ident = $number:literal),+)]
+        $id:ident on $family:ident::$monitor:ident $rest:tt) => {
+        mod $id {
+            use super::*;
+            $(kani_proof! { $kani [] $part {
+                use stillpoint_monitors::$family::$monitor::{State, Step, assert_clauses, next};
+                let mut source = Symbolic::default();
+                if let Some((before, config, inputs)) = crate::arbitrary::$family::$monitor(&mut source) {
+                    kani::assume(before.invariant(&config));
+                    assert!(State::INITIAL.invariant(&config), "initial_state_satisfies_the_invariant");
+                    let (after, outputs) = next(before, &config, &inputs);
+                    assert_clauses(Step { before, config, inputs, after, outputs }, $number, $count);
+                }
+            }})+
         }
     };
-    (run($unwind:literal) $(#[$($kani:tt)+])* $id:ident on $family:ident::$monitor:literal by $module:ident::$function:ident {
+    (contract [kani $kani:tt] $id:ident on $family:ident::$monitor:ident $rest:tt) => {
+        kani_harness! { contract [kani $kani parts(1: whole = 1)] $id on $family::$monitor $rest }
+    };
+    (contract [parts $parts:tt] $id:ident on $family:ident::$monitor:ident $rest:tt) => {
+        kani_harness! { contract [kani() parts $parts] $id on $family::$monitor $rest }
+    };
+    (contract $id:ident on $family:ident::$monitor:ident $rest:tt) => {
+        kani_harness! { contract [kani() parts(1: whole = 1)] $id on $family::$monitor $rest }
+    };
+    (run($unwind:literal) [kani $kani:tt parts($count:literal: $($part:ident = $number:literal),+)]
+        $id:ident on $family:ident::$monitor:literal by $module:ident::$function:ident $rest:tt) => {
+        mod $id {
+            use super::*;
+            kani_harness! { covers $kani [unwind($unwind)] false covers $family $module $function $rest }
+            $(kani_proof! { $kani [unwind($unwind)] $part {
+                let mut source = Symbolic::part($number);
+                conclude(crate::properties::$family::$module::$function(&mut source, &Subject::PRODUCTION.$family));
+            }})+
+        }
+    };
+    (run($unwind:literal) [kani $kani:tt] $id:ident on $family:ident::$monitor:literal by $module:ident::$function:ident $rest:tt) => {
+        mod $id {
+            use super::*;
+            kani_harness! { covers $kani [unwind($unwind)] true whole $family $module $function $rest }
+        }
+    };
+    (run($unwind:literal) $id:ident on $family:ident::$monitor:literal by $module:ident::$function:ident $rest:tt) => {
+        kani_harness! { run($unwind) [kani()] $id on $family::$monitor by $module::$function $rest }
+    };
+    (covers $kani:tt $more:tt $asserts:literal $id:ident $family:ident $module:ident $function:ident {
         property: $property:literal, requirements: $requirements:tt, covers: [$($cover:literal),+], $($rest:tt)*
     }) => {
-        #[kani::proof]
-        #[kani::unwind($unwind)]
-        $(#[kani::$($kani)+])*
-        fn $id() {
+        kani_proof! { $kani $more $id {
             let mut source = Symbolic::default();
-            conclude(crate::properties::$family::$module::$function(&mut source, &Subject::PRODUCTION.$family));
+            let verdict = crate::properties::$family::$module::$function(&mut source, &Subject::PRODUCTION.$family);
+            if $asserts {
+                conclude(verdict);
+            } else {
+                kani::assume(verdict != Verdict::Discarded);
+            }
             $(kani::cover!(source.take_cover(), $cover);)+
-        }
+        }}
     };
 }
 
@@ -153,6 +200,8 @@ macro_rules! inventory {
             // A file of contracts only needs no more than the symbolic source.
             #[allow(unused_imports)]
             use crate::kani_source::{Symbolic, conclude};
+            #[allow(unused_imports)]
+            use crate::source::Verdict;
             #[allow(unused_imports)]
             use crate::properties::Subject;
 

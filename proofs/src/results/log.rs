@@ -6,7 +6,7 @@ use super::{Answer, LIMIT_SECONDS, Verdict};
 
 /// The answers in the log of a run, by harness. A harness that was begun and has no answer is left out.
 pub fn answers(log: &str) -> BTreeMap<String, Answer> {
-    let mut answers = BTreeMap::new();
+    let mut parts: BTreeMap<String, Vec<Answer>> = BTreeMap::new();
     let mut harness = None;
     let mut block = String::new();
     for line in log.lines().chain(["Checking harness end..."]) {
@@ -17,12 +17,42 @@ pub fn answers(log: &str) -> BTreeMap<String, Answer> {
             continue;
         };
         if let Some((name, answer)) = harness.take().zip(answer(&block)) {
-            answers.insert(name, answer);
+            parts.entry(name).or_default().push(answer);
         }
-        harness = path.rsplit("::").next().map(str::to_owned);
+        // The last but one part of the path is the entry, the last one its part.
+        let mut names = path.rsplit("::").skip(1);
+        harness = names.next().map(str::to_owned);
         block.clear();
     }
-    answers
+    let joined = parts
+        .into_iter()
+        .map(|(name, parts)| (name, joined(&parts)));
+    joined.collect()
+}
+
+/// The answer of an entry from those of its parts: it holds if all of them do and every cover was met.
+fn joined(parts: &[Answer]) -> Answer {
+    let sum = |number: fn(&Answer) -> u64| parts.iter().map(number).sum();
+    // Every part of a contract lists all covers, and meets its own.
+    let met = sum(|part| part.met);
+    let covers = parts.iter().map(|part| part.covers).max().unwrap_or(0);
+    let fails = parts
+        .iter()
+        .find(|part| matches!(part.verdict, Verdict::Fails(_)));
+    let late = parts.iter().find(|part| part.verdict == Verdict::NoAnswer);
+    Answer {
+        verdict: match fails.or(late) {
+            Some(part) => part.verdict.clone(),
+            None if met < covers || covers == 0 => Verdict::Vacuous,
+            None => Verdict::Holds,
+        },
+        seconds: parts.iter().map(|part| part.seconds).sum(),
+        slowest: parts.iter().map(|part| part.seconds).fold(0.0, f64::max),
+        parts: parts.len() as u64,
+        checks: sum(|part| part.checks),
+        met,
+        covers,
+    }
 }
 
 fn answer(block: &str) -> Option<Answer> {
@@ -31,6 +61,8 @@ fn answer(block: &str) -> Option<Answer> {
         return Some(Answer {
             verdict: Verdict::NoAnswer,
             seconds: f64::from(LIMIT_SECONDS),
+            slowest: f64::from(LIMIT_SECONDS),
+            parts: 1,
             checks: 0,
             met: 0,
             covers: 0,
@@ -38,18 +70,19 @@ fn answer(block: &str) -> Option<Answer> {
     }
     let verdict = line("VERIFICATION:- ")?;
     let seconds = line("Verification Time: ")?.strip_suffix('s')?;
+    let seconds = seconds.parse().ok()?;
     let (_, checks) = counts(block, " failed")?;
     let (met, covers) = counts(block, " cover properties satisfied").unwrap_or((0, 0));
     Some(Answer {
         verdict: if verdict != "SUCCESSFUL" {
             let check = line("Failed Checks: ").unwrap_or("no check named");
             Verdict::Fails(check.to_owned())
-        } else if met < covers || covers == 0 {
-            Verdict::Vacuous
         } else {
             Verdict::Holds
         },
-        seconds: seconds.parse().ok()?,
+        seconds,
+        slowest: seconds,
+        parts: 1,
         checks,
         met,
         covers,
@@ -74,24 +107,35 @@ mod tests {
     fn every_kind_of_answer_is_read() {
         let log = "\
 Kani Rust Verifier 0.57.0 (cargo plugin)
-Checking harness inventory::a::kani_harnesses::good...
+Checking harness inventory::a::kani_harnesses::good::first...
+
+VERIFICATION RESULT:
+ ** 0 of 100 failed
+
+ ** 1 of 3 cover properties satisfied
+
+
+VERIFICATION:- SUCCESSFUL
+Verification Time: 1.25s
+
+Checking harness inventory::a::kani_harnesses::good::second...
 
 VERIFICATION RESULT:
  ** 0 of 222 failed (3 unreachable)
 
- ** 2 of 2 cover properties satisfied
+ ** 2 of 3 cover properties satisfied
 
 
 VERIFICATION:- SUCCESSFUL
 Verification Time: 2.25s
 
-Checking harness inventory::a::kani_harnesses::late...
+Checking harness inventory::a::kani_harnesses::late::whole...
 
 CBMC failed
 VERIFICATION:- FAILED
 CBMC timed out. You may want to rerun your proof with a larger timeout or use stubbing to reduce the size of the code the verifier reasons about.
 
-Checking harness inventory::a::kani_harnesses::bad...
+Checking harness inventory::a::kani_harnesses::bad::whole...
 
 VERIFICATION RESULT:
  ** 1 of 40 failed
@@ -104,7 +148,7 @@ Failed Checks: stop_b_ends_in_time
 VERIFICATION:- FAILED
 Verification Time: 0.5s
 
-Checking harness inventory::a::kani_harnesses::empty...
+Checking harness inventory::a::kani_harnesses::empty::whole...
 
 VERIFICATION RESULT:
  ** 0 of 7 failed
@@ -123,7 +167,7 @@ Checking harness inventory::a::kani_harnesses::broken_off...
                 .map(|a| (&a.verdict, a.checks, a.met, a.covers))
         };
         assert_eq!(answers.len(), 4);
-        assert_eq!(seen("good"), Some((&Verdict::Holds, 222, 2, 2)));
+        assert_eq!(seen("good"), Some((&Verdict::Holds, 322, 3, 3)));
         assert_eq!(seen("late"), Some((&Verdict::NoAnswer, 0, 0, 0)));
         let law = Verdict::Fails("stop_b_ends_in_time".to_owned());
         assert_eq!(seen("bad"), Some((&law, 40, 0, 3)));

@@ -22,8 +22,12 @@ pub const LIMIT_SECONDS: u32 = 60;
 pub struct Answer {
     /// The verdict.
     pub verdict: Verdict,
-    /// The time of the verification, without that of the compiler.
+    /// The time of the verification, without that of the compiler: all parts of the harness.
     pub seconds: f64,
+    /// The time of the slowest part.
+    pub slowest: f64,
+    /// The parts: 1 for a harness that is not divided.
+    pub parts: u64,
     /// The checks made: assertions, overflows, indices, dereferences.
     pub checks: u64,
     /// The covers that were met.
@@ -126,6 +130,10 @@ impl Results {
                 .map(str::to_owned)
                 .ok_or_else(|| format!("no text `{key}`"))
         };
+        let decimal = |table: &toml::Table, key: &str| {
+            let value = table.get(key).and_then(toml::Value::as_float);
+            value.ok_or_else(|| format!("no decimal `{key}`"))
+        };
         let number = |table: &toml::Table, key: &str| {
             let value = table.get(key).and_then(toml::Value::as_integer);
             value
@@ -146,8 +154,9 @@ impl Results {
                     answer: Answer {
                         verdict: Verdict::parse(&verdict)
                             .ok_or(format!("no verdict `{verdict}`"))?,
-                        seconds: (row.get("seconds").and_then(toml::Value::as_float))
-                            .ok_or("no decimal `seconds`")?,
+                        seconds: decimal(row, "seconds")?,
+                        slowest: decimal(row, "slowest")?,
+                        parts: number(row, "parts")?,
                         checks: number(row, "checks")?,
                         met: number(row, "met")?,
                         covers: number(row, "covers")?,
@@ -185,9 +194,15 @@ impl Results {
             let verdict = answer.verdict.to_string().replace(['"', '\\'], "'");
             let _ = writeln!(
                 text,
-                "{} = {{ verdict = \"{verdict}\", seconds = {:.1}, checks = {}, met = {}, covers = {}, \
+                "{} = {{ verdict = \"{verdict}\", seconds = {:.1}, slowest = {:.1}, parts = {}, checks = {}, met = {}, covers = {}, \
                  solver = \"{solver}\", sources = \"{sources}\" }}",
-                entry.id, answer.seconds, answer.checks, answer.met, answer.covers
+                entry.id,
+                answer.seconds,
+                answer.slowest,
+                answer.parts,
+                answer.checks,
+                answer.met,
+                answer.covers
             );
         }
         text
@@ -210,6 +225,8 @@ mod tests {
             answer: Answer {
                 verdict,
                 seconds: 1.5,
+                slowest: 1.0,
+                parts: 2,
                 checks: 200,
                 met: 2,
                 covers: 3,
@@ -238,6 +255,8 @@ mod tests {
         let answer = Answer {
             verdict: Verdict::Holds,
             seconds: 0.0,
+            slowest: 0.0,
+            parts: 1,
             checks: 0,
             met: 0,
             covers: 0,

@@ -31,22 +31,28 @@ fn state<S: Source>(source: &mut S) -> GroupState {
 }
 
 /// The highest limit whose 5 % more fits 32 bits.
-const HIGHEST_LIMIT: u32 = u32::MAX / 105 * 100;
+pub const HIGHEST_LIMIT: u32 = u32::MAX / 105 * 100;
 
 /// Any step of the limited speed. The enumeration takes low speeds, and those around each limit.
 pub fn speed<S: Source>(source: &mut S) -> Option<(speed::State, speed::Config, speed::Inputs)> {
     let limits = speed::Limits {
-        som_2: Speed(source.any_u32(1, HIGHEST_LIMIT)),
-        som_3: Speed(source.any_u32(1, HIGHEST_LIMIT)),
-        som_4: Speed(source.any_u32(0, HIGHEST_LIMIT)),
+        som_2: Speed(source.any_cut(1, HIGHEST_LIMIT, 10)),
+        som_3: Speed(source.any_cut(1, HIGHEST_LIMIT, 10)),
+        som_4: Speed(source.any_cut(0, HIGHEST_LIMIT, 10)),
         restricted: velocity(source, 1),
     };
     let config = speed::Config::new(limits, source.any_bool()).ok()?;
     let state = state(source);
     let left = left(source);
     let limit = config.limit(state, left).unwrap_or_default().0;
-    let speed = match source.any_in(0, 2) {
-        0 => velocity(source, 3),
+    // Those around each limit for the enumeration, which takes low ones only.
+    let kind = if source.leaves_out() {
+        0
+    } else {
+        source.any_in(0, 2)
+    };
+    let speed = match kind {
+        0 => Speed(source.any_cut(3, u32::MAX, 11)),
         1 => Speed(
             (limit.saturating_add(limit / 20))
                 .saturating_sub(1)
@@ -160,8 +166,8 @@ pub fn comparison<S: Source>(
     let inputs = comparison::Inputs {
         state: state(source),
         deviation: distance(source, 2),
-        nominal: source.any_i32(1),
-        actual: source.any_i32(2),
+        nominal: source.any_cut_i32(1, 12),
+        actual: source.any_cut_i32(2, 12),
     };
     Some((before, config, inputs))
 }

@@ -29,11 +29,11 @@ pub fn channel<S: Source>(source: &mut S) -> Option<Step> {
 }
 
 fn velocity<S: Source>(source: &mut S) -> Speed {
-    Speed(source.any_u32(3, u32::MAX))
+    Speed(source.any_cut(3, u32::MAX, 12))
 }
 
 fn position<S: Source>(source: &mut S) -> Position {
-    Position(source.any_i32(3))
+    Position(source.any_cut_i32(3, 12))
 }
 
 /// Two ends in order; none when they are equal.
@@ -49,7 +49,7 @@ fn config<S: Source>(source: &mut S, t_f: Cycles) -> Option<channel::Config> {
     let (enable_ext, enable_e) = (source.any_bool(), source.any_bool());
     let spl_stop_e = source.any_bool() && enable_ext && enable_e;
     let velo_x = velocity(source);
-    let ramp_tol = Speed(source.any_u32(3, u32::MAX - velo_x.0));
+    let ramp_tol = Speed(source.any_cut(3, u32::MAX - velo_x.0, 12));
     let internal = source.any_bool();
     let external_path = internal || source.any_bool();
     let mode = source.any_of(&[5, 0, 1, 2, 3, 4, 10, 11, 12, 13, 14]);
@@ -65,10 +65,12 @@ fn config<S: Source>(source: &mut S, t_f: Cycles) -> Option<channel::Config> {
     Some(channel::Config {
         external: external::Config::new(enable_ext, enable_e, spl_stop_e).ok()?,
         test: test_stop::Config::new(t_chk).ok()?,
-        selection: super::selection_config(source)?.0,
-        standstill: standstill::Config::new(Distance(
-            source.any_u32(3, standstill::Config::LARGEST.0),
-        ))
+        selection: super::selection_config_with(source, !source.leaves_out())?.0,
+        standstill: standstill::Config::new(Distance(source.any_cut(
+            3,
+            standstill::Config::LARGEST.0,
+            12,
+        )))
         .ok()?,
         speed: speed::Config::new(mode, reactions, encoder_max, setpoint).ok()?,
         limit_switch: limit_switch::Config::new(

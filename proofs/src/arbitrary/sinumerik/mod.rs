@@ -148,6 +148,14 @@ pub fn fault<S: Source>(source: &mut S) -> Option<(fault::State, fault::Config, 
 
 /// Any limits and delay.
 pub fn selection_config<S: Source>(source: &mut S) -> Option<(selection::Config, Cycles)> {
+    selection_config_with(source, true)
+}
+
+/// Any limits and delay; factors only if they are `overridable`.
+pub(super) fn selection_config_with<S: Source>(
+    source: &mut S,
+    overridable: bool,
+) -> Option<(selection::Config, Cycles)> {
     let t_vel = source.any_delay(Cycles::SIXTY_SECONDS);
     let limits = [
         source.any_speed(),
@@ -156,7 +164,7 @@ pub fn selection_config<S: Source>(source: &mut S) -> Option<(selection::Config,
         source.any_speed(),
     ];
     let mut config = selection::Config::new(source.any_bool(), t_vel, limits).ok()?;
-    if source.any_bool() {
+    if overridable && source.any_bool() {
         let first = any_factor(source);
         let mut factors = [first; 16];
         let (_, others) = factors.split_at_mut(1);
@@ -242,8 +250,17 @@ pub fn selection_state<S: Source>(
     state.invariant(config).then_some(state)
 }
 
-/// Any step of the selection.
+/// Any step of the selection; Kani takes those without override.
 pub fn selection<S: Source>(
+    source: &mut S,
+) -> Option<(selection::State, selection::Config, selection::Inputs)> {
+    let (config, _) = selection_config_with(source, !source.leaves_out())?;
+    let state = selection_state(source, &config)?;
+    Some((state, config, selection_inputs(source)))
+}
+
+/// Any step of the selection, with and without override.
+pub fn selection_overridden<S: Source>(
     source: &mut S,
 ) -> Option<(selection::State, selection::Config, selection::Inputs)> {
     let (config, _) = selection_config(source)?;

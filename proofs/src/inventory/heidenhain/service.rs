@@ -76,7 +76,7 @@ inventory! {
         domain_text: "motor speeds -1 to 1, 99 to 101, rated speeds -1 to 1, and the ends of 32 bits; every state and signal",
         caveat: "none",
     }]
-    [run(13) #[solver(kissat)] hfs_units on heidenhain::"parameters" by units::values_round_to_the_earlier_reaction {
+    [run(13) [kani(solver(kissat)) parts(11: axis_limit = 1, spindle_axis_limit = 2, spindle_limit = 3, standstill_path = 4, stop_path = 5, deviation = 6, stop_time = 7, brake_time = 8, test_interval = 9, permissive_time = 10, window = 11)] hfs_units on heidenhain::"parameters" by units::values_round_to_the_earlier_reaction {
         property: "a safe machine parameter in its printed range becomes the exact value rounded to the earlier reaction; any other is refused",
         requirements: ["HFS-PARAM-010", "HFS-TIMING-001"],
         covers: ["accepted", "refused", "rounded down", "rounded up"],

@@ -4,11 +4,20 @@ use crate::enumeration::Domain;
 use crate::inventory::NARROW;
 
 inventory! {
-    [contract #[solver(kissat)] hfs_speed_contract on heidenhain::speed {
+    [contract [kani(solver(kissat))] hfs_speed_contract on heidenhain::speed {
         property: "every clause of the limited speed's contract: 5 % margin, restricted operation, limits that are not set",
         domain: NARROW,
         domain_text: "limits 0, 1 and the highest; speeds 0 to 3, the highest, and those around each limit and its margin; every state",
-        caveat: "which state is in force is the group's business",
+        caveat: "which state is in force is the group's business; Kani takes limits of 10 and speeds of 11 bits, hfs_speed_margin all",
+    }]
+    [run(4) [kani(solver(kissat))] hfs_speed_margin on heidenhain::"speed" by watching::margin_is_exact {
+        property: "the limited speed's margin of 5 % is exact, whatever the limit",
+        requirements: ["HFS-SLS-003"],
+        covers: ["above the limit and within the margin", "beyond the margin"],
+        domain: NARROW,
+        domain_text: "limits 0 to 45 and the highest, speeds 0 to 50 and the highest",
+        bound: "none",
+        caveat: "none",
     }]
     [contract hfs_operating_stop_contract on heidenhain::operating_stop {
         property: "every clause of the operating stop's contract: SS1 for motion, SS0 for creeping, path alone in the self-test",
@@ -34,11 +43,11 @@ inventory! {
         domain_text: "permitted angles 1 to 3 and the largest, angles -2 to 2 and the largest, steps -5 to 5 and the ends of 32 bits",
         caveat: "reading AMB-32 AT_START",
     }]
-    [contract #[solver(kissat)] hfs_comparison_contract on heidenhain::comparison {
+    [contract [kani(solver(kissat))] hfs_comparison_contract on heidenhain::comparison {
         property: "every clause of the comparison's contract: what is compared when, tolerance, window",
         domain: Domain { delays: &[1, 3], highest_speed: 0 },
         domain_text: "windows of 1 and 3 cycles, 0, 99 and 100 percent, deviations and speeds near 0 and the ends of 32 bits; every state",
-        caveat: "reading AMB-17/18 TABLE; the intended following error is taken off outside",
+        caveat: "reading AMB-17/18 TABLE; the intended following error is taken off outside; Kani takes speeds of 12 bits",
     }]
     [contract hfs_deceleration_contract on heidenhain::deceleration {
         property: "every clause of the dv/dt monitoring's contract: waiting time, axes, spindles, coasting",

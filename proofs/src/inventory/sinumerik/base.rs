@@ -22,11 +22,11 @@ inventory! {
         domain_text: "t_F 0, 1, 2, 3 or 5 cycles; every consistent state; every input",
         caveat: "what counts as an active function and as a discrepancy comes from outside",
     }]
-    [contract #[solver(kissat)] #[stub(stillpoint_monitors::kernel::Speed::reduced, crate::kani_source::reduced_byte)] selection_contract on sinumerik::selection {
+    [contract [kani(stub(stillpoint_monitors::kernel::Speed::reduced, crate::kani_source::reduced_small))] selection_contract on sinumerik::selection {
         property: "every clause of the selection's contract: delays, override, forced operating stop, reference position, feedback",
         domain: Domain { delays: &[0, 1, 3], highest_speed: 2 },
         domain_text: "t_vel 0, 1 or 3 cycles; limits 0 to 2 in every order; no override, or factors of 1 or 100 % at 0 and elsewhere; two positions; every consistent state and input",
-        caveat: "the comparison of speed and position with the limits is not part of this monitor",
+        caveat: "the comparison of speed and position with the limits is not part of this monitor; Kani takes no override: selection_override and units_factor do",
     }]
     [contract reference_contract on sinumerik::reference {
         property: "every clause of the referencing's contract: both agreements, history between, loss",
@@ -115,14 +115,14 @@ inventory! {
         bound: "t_vel at most 4; longer delays follow from the contract (lower_limit_comes_in_time, standstill_comes_in_time)",
         caveat: "none",
     }]
-    [run(18) #[solver(kissat)] #[stub(stillpoint_monitors::kernel::Speed::reduced, crate::kani_source::reduced_byte)] selection_forced on sinumerik::"selection" by selection::forced_standstill_does_not_depend_on_signals {
+    [run(18) [kani(stub(stillpoint_monitors::kernel::Speed::reduced, crate::kani_source::reduced_small))] selection_forced on sinumerik::"selection" by selection::forced_standstill_does_not_depend_on_signals {
         property: "two runs of a forced operating stop that differ in the signals only are the same",
         requirements: ["S840D-P-07", "S840D-STOP-080", "S840D-EXT-018"],
         covers: ["the signals differ and one of them de-selects"],
         domain: Domain { delays: &[0, 2], highest_speed: 1 },
         domain_text: "t_vel 0 or 2 cycles; limits 0 or 1; with and without override; every consistent state; every pair of signals",
         bound: "one step from any consistent state; inductive",
-        caveat: "none",
+        caveat: "Kani takes limits below a factor of at most 15, see units_factor",
     }]
     [run(5) selection_reference on sinumerik::"selection" by selection::reference_does_not_creep {
         property: "an acknowledged operating stop keeps the reference it was forced with",

@@ -28,7 +28,7 @@ inventory! {
         domain_text: "t_chg 0, 1 or 2 cycles; lists of 1, 6 and 84 items; every consistent state; every input",
         caveat: "what differs comes from outside, see compare_tolerance",
     }]
-    [contract #[solver(kissat)] slip_contract on sinumerik::slip {
+    [contract [kani(solver(kissat))] slip_contract on sinumerik::slip {
         property: "every clause of the synchronisation's contract: half of the difference, dead band, tolerance, never past",
         domain: NARROW,
         domain_text: "dead band and tolerance 0 to 3 and the greatest; positions -3 to 3 and both ends; offsets around 0 and the ends",
@@ -109,7 +109,7 @@ inventory! {
         bound: "none",
         caveat: "the comparison of each parameter is a test against the manual's table of codes",
     }]
-    [run(5) #[solver(kissat)] slip_meets on sinumerik::"slip, two channels" by checking::synchronised_channels_meet {
+    [run(5) [kani(solver(kissat))] slip_meets on sinumerik::"slip, two channels" by checking::synchronised_channels_meet {
         property: "both channels meet in one comparison up to one increment; one alone comes closer each time; never past each other",
         requirements: ["S840D-SLIP-502", "S840D-SLIP-503"],
         covers: ["the channels meet", "within the dead band from the beginning", "one channel is alone"],

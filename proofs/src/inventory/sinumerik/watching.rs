@@ -16,11 +16,11 @@ inventory! {
         domain_text: "tolerances 0 to 3 and the largest; positions and references -5 to 5 and the ends of 32 bits",
         caveat: "none",
     }]
-    [contract #[solver(kissat)] #[stub(stillpoint_monitors::kernel::Speed::reduced, crate::kani_source::reduced_byte)] speed_contract on sinumerik::speed {
+    [contract [kani(solver(kissat), stub(stillpoint_monitors::kernel::Speed::reduced, crate::kani_source::reduced_small))] speed_contract on sinumerik::speed {
         property: "every clause of the speed limit's contract: configured stop, encoder limit, setpoint limit",
         domain: NARROW,
         domain_text: "every common stop, one per stage from A, B, C and a delayed E; speeds 0 to 2, limits 0 and 1, and 32 bits",
-        caveat: "which limit is in force is the selection's business",
+        caveat: "Kani takes limits below a setpoint factor of at most 15; units_factor shows that a wide one is reduced exactly",
     }]
     [contract limit_switch_contract on sinumerik::limit_switch {
         property: "every clause of the limit switches' contract: selected pair, agreement, configured stop",
@@ -40,13 +40,13 @@ inventory! {
         domain_text: "speeds and thresholds 0 to 5 and 32 bits",
         caveat: "none",
     }]
-    [contract #[stub(stillpoint_monitors::units::ModuloRange::folded, crate::kani_source::folded_in_range)] cam_contract on sinumerik::cam {
+    [contract [kani(stub(stillpoint_monitors::units::ModuloRange::folded, crate::kani_source::folded_in_range))] cam_contract on sinumerik::cam {
         property: "every clause of a cam's contract: side, hysteresis, modulo range, synchronisation",
         domain: NARROW,
         domain_text: "cams -1 to 1, ranges -2 to 2, tolerances 0 to 2, positions -5 to 5, and the ends of 32 bits",
-        caveat: "the signal is safe only together with \"axis safely referenced\"",
+        caveat: "the signal is safe only together with \"axis safely referenced\"; Kani takes positions in the modulo range, units_folding folds the others into it",
     }]
-    [contract #[unwind(12)] results_contract on sinumerik::results {
+    [contract [kani(solver(kissat), unwind(10))] results_contract on sinumerik::results {
         property: "every clause of the result lists' contract: a field for each function, none hidden",
         domain: NARROW,
         domain_text: "every result; every pattern of the first two cams with the others off, and all on",
@@ -89,14 +89,14 @@ inventory! {
         bound: "four cycles, tolerance at most 3; the rest follows from the contract (hysteresis_keeps)",
         caveat: "reading A-40 HYST_UP",
     }]
-    [run(18) #[solver(kissat)] #[stub(stillpoint_monitors::kernel::Speed::reduced, crate::kani_source::reduced_byte)] selection_override on sinumerik::"selection" by watching::override_means_nothing_in_sg1_and_sg3 {
+    [run(18) [kani(solver(kissat), stub(stillpoint_monitors::kernel::Speed::reduced, crate::kani_source::reduced_small))] selection_override on sinumerik::"selection" by watching::override_means_nothing_in_sg1_and_sg3 {
         property: "with SG1 or SG3 selected two runs that differ in the override signals only are the same",
         requirements: ["S840D-P-31", "S840D-OVR-001"],
         covers: ["the signals differ where an override exists"],
         domain: Domain { delays: &[0, 2], highest_speed: 1 },
         domain_text: "t_vel 0 or 2 cycles; limits 0 or 1; factors 1 or 100 %; override 0 or 15; every consistent state and input",
         bound: "one step from any consistent state; inductive",
-        caveat: "none",
+        caveat: "Kani takes limits below a factor of at most 15; the code compares limits, and units_factor shows that a wide one is reduced exactly",
     }]
     [run(6) monitors_stop on sinumerik::"motion, selection, standstill, speed, limit_switch, stop" by watching::violation_stops_in_the_same_cycle {
         property: "window left, stage exceeded or limit switch passed: the configured stop is effective in the same cycle, else none is",
@@ -116,16 +116,16 @@ inventory! {
         bound: "none",
         caveat: "none",
     }]
-    [run(4) #[solver(kissat)] units_speed on sinumerik::"units" by units::speed_rounds_down {
+    [run(4) [kani(solver(kissat)) parts(2: linear = 1, rotary = 2)] units_speed on sinumerik::"units" by units::speed_rounds_down {
         property: "a speed limit in increments per cycle is the exact one rounded down",
         requirements: ["S840D-TIMING-512", "S840D-KDV-711", "S840D-SG-001"],
         covers: ["rounded", "exact"],
         domain: NARROW,
         domain_text: "both kinds of axis; 0 to 40 mm/min or rev/min in steps of 0.2, and 4 million; cycles 24.988 to 25 ms and 1 us",
         bound: "none",
-        caveat: "products of 128 bits: Kani may take long",
+        caveat: "none",
     }]
-    [run(4) #[solver(kissat)] speed_movement on sinumerik::"units, motion, speed" by units::movement_is_compared_exactly {
+    [run(4) [kani(solver(kissat)) parts(2: linear = 1, rotary = 2)] speed_movement on sinumerik::"units, motion, speed" by units::movement_is_compared_exactly {
         property: "a movement in one cycle violates the stage exactly if it is more than the exact limit times the cycle",
         requirements: ["S840D-TIMING-512", "S840D-SG-001", "S840D-KDV-711"],
         covers: ["a violation", "the largest movement permitted"],
@@ -134,7 +134,7 @@ inventory! {
         bound: "none",
         caveat: "whole increments: the encoder rounds to less than one",
     }]
-    [run(4) #[solver(kissat)] units_factor on sinumerik::"units, selection" by units::factor_rounds_down {
+    [run(4) [kani(solver(kissat))] units_factor on sinumerik::"units, selection" by units::factor_rounds_down {
         property: "an override or setpoint factor rounds a limit down",
         requirements: ["S840D-OVR-001", "S840D-PARAM-011", "S840D-PARAM-012"],
         covers: ["rounded"],
@@ -143,40 +143,40 @@ inventory! {
         bound: "none",
         caveat: "none",
     }]
-    [run(4) #[solver(kissat)] units_limits on sinumerik::"units" by units::limits_round_inwards {
+    [run(4) [kani(solver(kissat))] units_limits on sinumerik::"units" by units::limits_round_inwards {
         property: "tolerances and upper limits are rounded down, lower limits up",
         requirements: ["S840D-SBH-001", "S840D-SE-001", "S840D-SN-002"],
         covers: ["a broken increment below zero"],
         domain: NARROW,
         domain_text: "-3 to 3 increments in thousandths, and the ends of 32 bits",
         bound: "32 bits of thousandths",
-        caveat: "none",
+        caveat: "Kani takes 16 bits of thousandths",
     }]
-    [run(4) #[solver(kissat)] units_folding on sinumerik::"units, cam" by units::folding_keeps_the_position {
+    [run(4) [kani(solver(kissat))] units_folding on sinumerik::"units, cam" by units::folding_keeps_the_position {
         property: "a folded position is in the modulo range, a whole number of ranges away",
         requirements: ["S840D-SN-011", "S840D-PARAM-014"],
         covers: ["folded down", "folded up", "no range"],
         domain: NARROW,
         domain_text: "ranges -3 to 3, positions -9 to 9, and the ends of 32 bits",
         bound: "none",
-        caveat: "none",
+        caveat: "Kani takes range and position of 8 bits",
     }]
-    [run(9) #[solver(kissat)] encoder_position on sinumerik::"encoder" by units::encoder_position_rounds_down {
+    [run(9) [kani(solver(kissat))] encoder_position on sinumerik::"encoder" by units::encoder_position_rounds_down {
         property: "the position of a rotary encoder is the exact one rounded down, in both directions",
         requirements: ["S840D-ENC-006", "S840D-ARCH-503/b"],
         covers: ["reversed, below zero, rounded"],
         domain: NARROW,
         domain_text: "small pulses, gear ratios and pitches, and the largest; counts -6 to 6 and the ends of 32 bits",
         bound: "ratios of 32 bits in lowest terms; others are refused",
-        caveat: "Kani would have to unwind Euclid's algorithm: bounded there",
+        caveat: "Kani would have to divide by products of three variables and to unwind Euclid's algorithm: no answer",
     }]
-    [run(9) #[solver(kissat)] encoder_speed on sinumerik::"encoder" by units::encoder_speed_rounds_down {
+    [run(9) [kani(solver(kissat))] encoder_speed on sinumerik::"encoder" by units::encoder_speed_rounds_down {
         property: "the highest speed under the encoder limit frequency is the exact one rounded down, at load and encoder",
         requirements: ["S840D-FREQ-001", "S840D-FREQ-002", "S840D-FREQ-003"],
         covers: ["an extended limit frequency"],
         domain: NARROW,
         domain_text: "300 kHz to 300.003 kHz and 420 kHz; cycles 24.998 to 25 ms and 1 us; small encoders and gears, and the largest",
         bound: "results of 32 bits; others are refused",
-        caveat: "Kani would have to unwind Euclid's algorithm: bounded there",
+        caveat: "Kani would have to divide by products of three variables and to unwind Euclid's algorithm: no answer",
     }]
 }

@@ -2,6 +2,7 @@
 //! file per topic.
 
 pub mod units;
+pub mod watching;
 
 monitors! { heidenhain:
     /// Take-over from the safe PLC.

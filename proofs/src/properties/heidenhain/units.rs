@@ -103,7 +103,10 @@ pub fn values_round_to_the_earlier_reaction<S: Source>(
     source: &mut S,
     _subject: &Subject,
 ) -> Verdict {
-    let which = source.any_in(0, CONVERSIONS.len() as u32 - 1) as usize;
+    let which = match source.any_part(CONVERSIONS.len() as u32) {
+        0 => source.any_in(0, CONVERSIONS.len() as u32 - 1) as usize,
+        part => part as usize - 1,
+    };
     // One after the other, so that Kani divides by constants.
     for (place, conversion) in CONVERSIONS.iter().enumerate() {
         if place == which {

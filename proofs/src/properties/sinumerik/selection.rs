@@ -70,7 +70,7 @@ pub fn forced_standstill_does_not_depend_on_signals<S: Source>(
     source: &mut S,
     subject: &Subject,
 ) -> Verdict {
-    let Some((state, config, first)) = arbitrary::selection(source) else {
+    let Some((state, config, first)) = arbitrary::selection_overridden(source) else {
         return Verdict::Discarded;
     };
     let second = Inputs {

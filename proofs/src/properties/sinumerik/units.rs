@@ -13,9 +13,18 @@ use stillpoint_monitors::units::{
 use super::Subject;
 use crate::source::{Source, Verdict};
 
-/// Any number that is not 0; Kani takes 1 to 4, since Euclid's algorithm is unwound.
+/// Any number that is not 0.
 fn positive<S: Source>(source: &mut S, reach: u32, highest: u32) -> Option<NonZeroU32> {
-    NonZeroU32::new(source.any_cut(reach, highest - 1, 2) + 1)
+    NonZeroU32::new(source.any_u32(reach, highest - 1) + 1)
+}
+
+/// Either kind of axis, a part of the domain each.
+fn any_axis<S: Source>(source: &mut S) -> Axis {
+    match source.any_part(2) {
+        0 => source.any_of(&[Axis::Linear, Axis::Rotary]),
+        1 => Axis::Linear,
+        _ => Axis::Rotary,
+    }
 }
 
 /// Any monitoring cycle; the enumeration takes the longest ones and the shortest.
@@ -47,7 +56,14 @@ fn rounded_down_wide(converted: u32, numerator: u128, denominator: u128) -> bool
 ///
 /// Cover 0: something is rounded off, cover 1: nothing is.
 pub fn speed_rounds_down<S: Source>(source: &mut S, _subject: &Subject) -> Verdict {
-    let axis = source.any_of(&[Axis::Linear, Axis::Rotary]);
+    // One after the other, so that Kani divides by constants.
+    match any_axis(source) {
+        Axis::Linear => speed_of_axis_rounds_down(source, Axis::Linear),
+        Axis::Rotary => speed_of_axis_rounds_down(source, Axis::Rotary),
+    }
+}
+
+fn speed_of_axis_rounds_down<S: Source>(source: &mut S, axis: Axis) -> Verdict {
     let Some(cycle_us) = cycle(source, 12) else {
         return Verdict::Discarded;
     };
@@ -76,7 +92,17 @@ pub fn speed_rounds_down<S: Source>(source: &mut S, _subject: &Subject) -> Verdi
 ///
 /// Cover 0: a violation, cover 1: the largest movement that is none.
 pub fn movement_is_compared_exactly<S: Source>(source: &mut S, subject: &Subject) -> Verdict {
-    let axis = source.any_of(&[Axis::Linear, Axis::Rotary]);
+    match any_axis(source) {
+        Axis::Linear => movement_of_axis_is_compared_exactly(source, subject, Axis::Linear),
+        Axis::Rotary => movement_of_axis_is_compared_exactly(source, subject, Axis::Rotary),
+    }
+}
+
+fn movement_of_axis_is_compared_exactly<S: Source>(
+    source: &mut S,
+    subject: &Subject,
+    axis: Axis,
+) -> Verdict {
     let per_minute = source.any_u32(24, 60_000);
     let Some(cycle_us) = cycle(source, 8) else {
         return Verdict::Discarded;
@@ -155,7 +181,7 @@ pub fn factor_rounds_down<S: Source>(source: &mut S, _subject: &Subject) -> Verd
 ///
 /// Cover 0: below zero and not a whole increment.
 pub fn limits_round_inwards<S: Source>(source: &mut S, _subject: &Subject) -> Verdict {
-    let thousandths = i64::from(source.any_i32(3_000));
+    let thousandths = i64::from(source.any_cut_i32(3_000, 16));
     let (Ok(upper), Ok(lower)) = (position_down(thousandths), position_up(thousandths)) else {
         return Verdict::Broken("small_position_is_accepted");
     };
@@ -223,7 +249,7 @@ pub fn encoder_position_rounds_down<S: Source>(source: &mut S, _subject: &Subjec
         load,
     };
     let reversed = source.any_bool();
-    let count = source.any_cut_i32(6, 8);
+    let count = source.any_i32(6);
     let Ok(encoder) = Encoder::new(mounting, subdivision, reversed) else {
         return Verdict::Discarded;
     };

@@ -209,7 +209,7 @@ pub fn override_means_nothing_in_sg1_and_sg3<S: Source>(
     source: &mut S,
     subject: &Subject,
 ) -> Verdict {
-    let Some((state, config, first)) = arbitrary::selection(source) else {
+    let Some((state, config, first)) = arbitrary::selection_overridden(source) else {
         return Verdict::Discarded;
     };
     if !matches!(first.sg_select, Stage::Sg1 | Stage::Sg3) {
