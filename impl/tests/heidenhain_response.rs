@@ -107,7 +107,7 @@ fn worst(braking: Option<u32>) -> Moments {
         })
 }
 
-/// HFS-TIMING-005, HFS-TIMING-006: the SS1 begins in the cycle in which the signal arrives: at most 3.2 ms (MC) and 9.6 ms (CC)
+/// HFS-TIMING-005/a, HFS-TIMING-006/a, HFS-TIMING-006/b: the SS1 begins in the cycle in which the signal arrives: at most 3.2 ms (MC) and 9.6 ms (CC)
 /// after the button, and no more than a step of the grid earlier in the worst case.
 #[test]
 fn emergency_stop_starts_the_ss1_in_time() {
@@ -116,7 +116,7 @@ fn emergency_stop_starts_the_ss1_in_time() {
     assert_eq!(worst.ss1_cc, ms(96) - 1);
 }
 
-/// HFS-TIMING-010, HFS-TIMING-011: 100 ms later the drive stands; the CC closes the brake in its next cycle, takes the torque
+/// HFS-TIMING-005/b, HFS-TIMING-006/c, HFS-TIMING-006/d, HFS-TIMING-010, HFS-TIMING-011: 100 ms later the drive stands; the CC closes the brake in its next cycle, takes the torque
 /// MP2308 later, and the MC one cycle after that. No SS0 comes before.
 #[test]
 fn brake_and_torque_follow_the_standstill() {
@@ -135,7 +135,7 @@ fn brake_and_torque_follow_the_standstill() {
     assert!(worst(Some(ms(1_000))).off_cc <= ms(3_136));
 }
 
-/// HFS-TIMING-005, HFS-TIMING-006: a drive that never stands loses its torque with SMP525 after the SS1 of each channel.
+/// HFS-TIMING-005/c, HFS-TIMING-006/e: a drive that never stands loses its torque with SMP525 after the SS1 of each channel.
 #[test]
 fn the_timer_takes_the_torque_at_the_latest() {
     for phase in 1..=CYCLE {

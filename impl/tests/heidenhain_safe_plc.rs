@@ -163,6 +163,7 @@ fn set_up_limits_speed_and_number_of_axes() {
             state: axes_logic::limited(Som::Som2),
             unit: Unit::Panel,
             moving,
+            ungrouped: 0,
         };
         let mut monitor = axis_count::Monitor::new(axis_count::Config);
         monitor.step(&inputs).demand
@@ -170,7 +171,7 @@ fn set_up_limits_speed_and_number_of_axes() {
     assert_eq!((moving(1), moving(2)), (Stop::None, Stop::Ss2));
 }
 
-/// HFS-MODE-004/d, HFS-MODE-004/e: and each motion by its key: axis keys alone, NC start with the permissive of the panel, the handwheel with its own,
+/// HFS-MODE-004/d, HFS-MODE-004/e, HFS-MODE-004/f, HFS-MODE-004/g, HFS-MODE-004/h: and each motion by its key: axis keys alone, NC start with the permissive of the panel, the handwheel with its own,
 /// the spindle by jog or start with the permissive, which keeps it turning.
 #[test]
 fn set_up_moves_by_key_and_permissive() {

@@ -90,6 +90,24 @@ fn a_difference_of_22_cycles_is_a_fault() {
     assert!(!monitor.step(&differ).fault);
 }
 
+/// HFS-NS-001/a, HFS-MODE-004/c: an axis without a group may move beside the one safe axis of SOM_2, two safe axes not.
+#[test]
+fn an_axis_without_a_group_is_not_counted() {
+    let mut monitor = axis_count::Monitor::new(axis_count::Config);
+    let mut demand = |moving, ungrouped| {
+        let inputs = axis_count::Inputs {
+            state: GroupState::Sls2,
+            unit: Unit::Program,
+            moving,
+            ungrouped,
+        };
+        monitor.step(&inputs).demand
+    };
+    assert_eq!(demand(2, 1), Stop::None);
+    assert_eq!(demand(3, 2), Stop::None);
+    assert_eq!(demand(3, 1), Stop::Ss2);
+}
+
 #[test]
 fn two_axes_move_together_by_program_not_by_handwheel() {
     let mut monitor = axis_count::Monitor::new(axis_count::Config);
@@ -98,6 +116,7 @@ fn two_axes_move_together_by_program_not_by_handwheel() {
             state,
             unit,
             moving: 2,
+            ungrouped: 0,
         };
         monitor.step(&inputs).demand
     };

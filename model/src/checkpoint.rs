@@ -5,9 +5,9 @@
 
 use crate::pack::Key;
 use crate::report::{Checkpoint, Error};
-use crate::search::{Found, Signs, Tally};
 use crate::set::Set;
 use crate::store::Store;
+use crate::tally::{Found, Signs, Tally};
 use sha2::{Digest, Sha256};
 use std::fs::File;
 use std::io::{self, BufReader, BufWriter, Read, Write};

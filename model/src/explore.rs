@@ -4,6 +4,7 @@ use crate::crew::Crew;
 use crate::cursor::Leaf;
 use crate::hashed::{Halves, Hashed, Plain};
 use crate::liveness::{fair, recoverable, recovery};
+use crate::model::Model;
 use crate::pack::{Key, Packer, space};
 use crate::process::{Any, Origin, Process};
 use crate::property::{Eval, Form, Property, Sign, validate};
@@ -11,9 +12,10 @@ use crate::report::{
     Error, FaultReport, Judgement, Options, Progress, Report, Step, Storage, Trace, Verdict,
 };
 use crate::response::{Response, bounded, until};
-use crate::search::{Found, Model, search};
+use crate::search::search;
 use crate::store::{Dense, Store};
 use crate::system::System;
+use crate::tally::Found;
 use crate::ticks::Ticked;
 use crate::trace::{Request, Run, Test, runs};
 use crate::watch::Watch;

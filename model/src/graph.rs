@@ -3,9 +3,9 @@
 use crate::choices::Odometer;
 use crate::cursor::Leaf;
 use crate::distinct::Distinct;
+use crate::model::Model;
 use crate::pack::Key;
 use crate::process::{Any, Process};
-use crate::search::Model;
 use crate::store::PIECE;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};

@@ -2,9 +2,11 @@
 
 use crate::cursor::Leaf;
 use crate::explore::{Job, crew, on_store};
+use crate::level::UNWATCHED;
+use crate::model::Model;
 use crate::process::{Any, Origin};
 use crate::report::{Error, Options, Storage};
-use crate::search::{Model, UNWATCHED, initial};
+use crate::search::initial;
 use crate::store::Store;
 use crate::system::System;
 use crate::watch::Watch;

@@ -3,10 +3,12 @@
 
 use crate::choices::Odometer;
 use crate::cursor::{Cursor, Leaf};
+use crate::level::lower;
+use crate::model::Model;
 use crate::pack::Key;
 use crate::process::{Origin, Process, beyond};
 use crate::report::{Error, Trace};
-use crate::search::{Model, initial, lower};
+use crate::search::initial;
 use crate::store::{PIECE, Store};
 use std::ops::ControlFlow;
 use std::sync::Arc;

@@ -82,6 +82,8 @@ pub struct Manual {
     pub title: String,
     /// Its printed edition.
     pub edition: String,
+    /// The last line of its plain text.
+    pub lines: usize,
     /// What it is valid for.
     pub note: String,
 }

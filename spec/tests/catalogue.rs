@@ -88,7 +88,7 @@ fn tree(name: &str, requirements: &str) -> PathBuf {
     let root = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     let family = root.join("family");
     fs::create_dir_all(&family).expect("a folder");
-    let manual = "[manual.M]\ntitle = \"t\"\nedition = \"e\"\nnote = \"n\"\n";
+    let manual = "[manual.M]\ntitle = \"t\"\nedition = \"e\"\nlines = 9\nnote = \"n\"\n";
     fs::write(family.join("manual.toml"), manual).expect("written");
     fs::write(family.join("requirements.toml"), requirements).expect("written");
     root

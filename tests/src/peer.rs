@@ -111,6 +111,42 @@ impl Folder {
         text
     }
 
+    /// What rumur's verifier of a Murphi model says, in its form for machines; it goes on after an error until it has found this
+    /// many.
+    ///
+    /// # Panics
+    /// If rumur or gcc refuses the model, or the verifier does not run.
+    pub fn rumur(&self, model: &str, errors: u32) -> String {
+        self.write("model.m", model);
+        let most = errors.to_string();
+        let options = [
+            "--deadlock-detection",
+            "off",
+            "--value-type",
+            "int32_t",
+            "--max-errors",
+            &most,
+            "--counterexample-trace",
+            "off",
+            "--output-format",
+            "machine-readable",
+            "--pack-state",
+            "off",
+            "--threads",
+            "1",
+            "--output",
+            "model.c",
+            "model.m",
+        ];
+        self.run("rumur", &options);
+        // To optimise such small verifiers would take longer than they run.
+        let gcc = [
+            "-O0", "-w", "-mcx16", "-pthread", "-o", "verifier", "model.c",
+        ];
+        self.run("gcc", &gcc);
+        self.findings("./verifier", &[])
+    }
+
     fn output(&self, program: &str, arguments: &[&str]) -> (String, String, bool) {
         let output = Command::new(program)
             .args(arguments)

@@ -81,7 +81,7 @@ impl Case {
     }
 
     /// What is wrong with the case as it is written.
-    fn faults(&self, last_line: usize) -> Option<String> {
+    pub fn faults(&self, last_line: usize) -> Option<String> {
         let line = |text: &str| text.trim().parse::<usize>().ok();
         let range = |part: &str| match part.split_once('-') {
             Some((from, to)) => {
@@ -111,6 +111,17 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
+/// The last line of the text of a family's manual, by which a mistyped line is seen.
+pub fn last_line(family: &str) -> usize {
+    let path = root().join("spec").join(family).join("manual.toml");
+    let text = std::fs::read_to_string(path).expect("the manual of the family");
+    let table: Table = toml::from_str(&text).expect("TOML");
+    let manuals = table["manual"].as_table().expect("manuals by their keys");
+    let lines = manuals.values().map(|manual| manual["lines"].as_integer());
+    let most = lines.map(|n| usize::try_from(n.expect("a number")).expect("a line"));
+    most.max().expect("a manual")
+}
+
 /// All cases of a family.
 pub fn load(family: &str) -> Vec<Case> {
     let folder = root().join("tests/corpus").join(family);
@@ -121,12 +132,7 @@ pub fn load(family: &str) -> Vec<Case> {
         .collect();
     files.sort();
     assert!(!files.is_empty(), "no case of {family}");
-    // The last line of the manual's text, so that a mistyped line is seen.
-    let last_line = if family == "sinumerik-840d" {
-        21_757
-    } else {
-        4_581
-    };
+    let last_line = last_line(family);
     let known: BTreeSet<String> = stillpoint_spec::catalogue::load(&root().join("spec"))
         .expect("the catalogues")
         .requirements

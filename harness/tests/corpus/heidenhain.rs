@@ -11,6 +11,10 @@
 //! `ask` has a question for each key of the answer: `"48 NAME"`, the value at 48 ms; `"first NAME=VALUE"`, when it is seen first,
 //! in ms, -1 if never; `"count NAME=VALUE"`, in how many cycles. Without it the answer is every output of the last cycle.
 //!
+//! `keys`: the filter of the keys, which has no table under its name. Given: `unit`, the machine operating mode; `t_open`, the
+//! magazine door, while the door of the working space is open; `on`, `panel` or `wheel`; `key`, `stop`, `start` or `permissive`.
+//! Answer: `active`; a start has to be so for every key that starts a motion.
+//!
 //! `conversion`: a value of a safe machine parameter. Given: `parameter`, `value` in the finest step of the parameter. Answer:
 //! `accepted`, and `cycles` of 3 ms or `increments` of 0.1 um, in a cycle where it is a speed.
 
@@ -19,7 +23,9 @@ use std::path::Path;
 
 use stillpoint::diff::peer::{Peer, peer};
 use stillpoint::diff::product::Product;
+use stillpoint_monitors::heidenhain::key_filter::{self, Keys};
 use stillpoint_monitors::heidenhain::parameters;
+use stillpoint_monitors::heidenhain::types::Unit;
 use stillpoint_monitors::kernel::{ConfigError, Cycles};
 use stillpoint_spec::Spec;
 use stillpoint_spec::bind::Bound;
@@ -29,7 +35,11 @@ use toml::{Table, Value};
 use crate::case::{Given, Runner};
 
 /// The runners by name; every one is used by a case.
-pub const RUNNERS: &[(&str, Runner)] = &[("monitor", monitor), ("conversion", conversion)];
+pub const RUNNERS: &[(&str, Runner)] = &[
+    ("monitor", monitor),
+    ("keys", keys),
+    ("conversion", conversion),
+];
 
 /// A machine of the tables with its monitor.
 struct Pair {
@@ -251,6 +261,85 @@ fn param(name: &str, value: &Value) -> Result<i64, String> {
     cycles
         .map(|c| i64::from(c.count()))
         .map_err(|e| format!("{name}: {e:?}"))
+}
+
+fn keys(given: &Given<'_>) -> Result<Table, String> {
+    let unit = match given.text("unit")? {
+        "PANEL" => Unit::Panel,
+        "PROGRAM" => Unit::Program,
+        "HANDWHEEL" => Unit::Handwheel,
+        "REFERENCE" => Unit::Reference,
+        other => return Err(format!("no machine operating mode is called {other}")),
+    };
+    let open = key_filter::Inputs {
+        door_open: true,
+        t_open: given.flag("t_open")?,
+        unit,
+        ..Default::default()
+    };
+    let pass = |inputs: &key_filter::Inputs| {
+        let out = key_filter::Monitor::new(key_filter::Config).step(inputs);
+        (out.panel, out.wheel, out.stop)
+    };
+    let starts = [
+        Keys {
+            axes: 1,
+            ..Keys::NONE
+        },
+        Keys {
+            nc_start: true,
+            ..Keys::NONE
+        },
+        Keys {
+            jog: true,
+            ..Keys::NONE
+        },
+        Keys {
+            spindle_start: true,
+            ..Keys::NONE
+        },
+    ];
+    let permissive = [Keys {
+        permissive: true,
+        ..Keys::NONE
+    }];
+    let wheel = match given.text("on")? {
+        "panel" => false,
+        "wheel" => true,
+        other => return Err(format!("no unit is called {other}")),
+    };
+    let seen = |pressed: &Keys| {
+        if wheel {
+            pass(&key_filter::Inputs {
+                wheel: *pressed,
+                ..open
+            })
+            .1 == *pressed
+        } else {
+            pass(&key_filter::Inputs {
+                panel: *pressed,
+                ..open
+            })
+            .0 == *pressed
+        }
+    };
+    let all = |pressed: &[Keys]| {
+        let active = pressed.iter().filter(|p| seen(p)).count();
+        if active == 0 || active == pressed.len() {
+            Ok(active > 0)
+        } else {
+            Err(format!("{active} of {} keys act", pressed.len()))
+        }
+    };
+    let active = match given.text("key")? {
+        "start" => all(&starts)?,
+        "permissive" => all(&permissive)?,
+        "stop" => pass(&key_filter::Inputs { stop: true, ..open }).2,
+        other => return Err(format!("no key is called {other}")),
+    };
+    let mut answer = Table::new();
+    answer.insert("active".into(), active.into());
+    Ok(answer)
 }
 
 fn conversion(given: &Given<'_>) -> Result<Table, String> {

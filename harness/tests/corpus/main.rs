@@ -137,4 +137,12 @@ fn frame_finds_what_is_wrong() {
     assert_eq!(judged("{ value = 2, more = 1 }", "{ twice = 4 }"), 1);
     assert_eq!(judged("{ value = 2 }", "{ thrice = 6 }"), 1);
     assert_eq!(judged("{ }", "{ twice = 4 }"), 1);
+    for family in ["heidenhain-fs", "sinumerik-840d"] {
+        let last = case::last_line(family);
+        let mut one = case("{ value = 2 }", "{ twice = 4 }");
+        one.lines = last.to_string();
+        assert_eq!(one.faults(last), None);
+        one.lines = (last + 1).to_string();
+        assert!(one.faults(last).is_some(), "beyond the manual of {family}");
+    }
 }

@@ -90,7 +90,7 @@ fn everything_that_names_a_property_is_proven() {
 }
 
 /// The totals that 4.8.20 prints, from the summands that the manual gives: with 100 ms for braking, MP2308 of 200 ms and so
-/// SMP525 of 420 ms (HFS-TIMING-005, HFS-TIMING-006, HFS-TIMING-007, HFS-TIMING-008, HFS-TIMING-010, HFS-SPLC-003,
+/// SMP525 of 420 ms (HFS-TIMING-005/a/c, HFS-TIMING-006/b/e, HFS-TIMING-007, HFS-TIMING-008, HFS-TIMING-010, HFS-SPLC-003,
 /// and the transfers on the HSCI line, HFS-ARCH-008).
 #[test]
 fn the_summands_give_the_totals_of_the_manual() {

@@ -20,11 +20,18 @@ pub struct Inputs {
     pub state: GroupState,
     /// The machine operating mode.
     pub unit: Unit,
-    /// How many safe NC and auxiliary axes of the working space move.
+    /// How many NC and auxiliary axes of the working space move.
     pub moving: u8,
+    /// How many of these belong to no group (SMP600 = -1).
+    pub ungrouped: u8,
 }
 
 impl Inputs {
+    /// How many axes count.
+    pub const fn counted(&self) -> u8 {
+        self.moving.saturating_sub(self.ungrouped)
+    }
+
     /// Whether one axis only may move.
     pub const fn one_only(&self) -> bool {
         match self.state {
@@ -54,19 +61,19 @@ pub struct Outputs {
 contract! {
     /// SOM_2: a second moving axis stops all of them.
     one_axis_in_som_2 ["HFS-MODE-004/c", "HFS-P-32", "HFS-MON-007", "HFS-MON-008"]:
-        when |s| s.inputs.state == GroupState::Sls2 && s.inputs.moving > 1
+        when |s| s.inputs.state == GroupState::Sls2 && s.inputs.moving > 1 && s.inputs.ungrouped == 0
             => s.outputs.demand == Stop::Ss2;
 
     /// SOM_3 and SOM_4 by handwheel: the same.
     one_axis_by_handwheel ["HFS-MON-007", "HFS-MON-009", "HFS-HW-001"]:
         when |s| matches!(s.inputs.state, GroupState::Sls3 | GroupState::Sls4) && s.inputs.unit == Unit::Handwheel
-            && s.inputs.moving > 1
+            && s.inputs.moving > 1 && s.inputs.ungrouped == 0
             => s.outputs.demand == Stop::Ss2;
 
     /// Homing with the door open: the same. With the door closed several axes may be homed together; in a standstill state
     /// it is the operating stop that answers motion.
     one_axis_when_homing ["HFS-REF-003", "HFS-REF-014"]:
-        when |s| s.inputs.unit == Unit::Reference && s.inputs.moving > 1
+        when |s| s.inputs.unit == Unit::Reference && s.inputs.moving > 1 && s.inputs.ungrouped == 0
             => (s.outputs.demand == Stop::Ss2)
                 == (s.inputs.state.is_limited() && s.inputs.state != GroupState::SlsS);
 
@@ -84,11 +91,16 @@ contract! {
     one_axis_may_always_move ["HFS-MON-007"]:
         when |s| s.inputs.moving <= 1
             => s.outputs.demand == Stop::None;
+
+    /// Axes without a group are ignored: beside any number of them one safe axis may move, and no further one.
+    axes_without_group_are_ignored ["HFS-NS-001/a", "HFS-MODE-004/c"]:
+        when |s| s.inputs.state == GroupState::Sls2 && s.inputs.ungrouped > 0 && s.inputs.ungrouped <= s.inputs.moving
+            => (s.outputs.demand == Stop::Ss2) == (s.inputs.moving - s.inputs.ungrouped > 1);
 }
 
 pub(crate) fn transition(_: State, _: &Config, inputs: &Inputs) -> (State, Outputs) {
     let one_only = inputs.one_only();
-    let demand = if one_only && inputs.moving > 1 {
+    let demand = if one_only && inputs.counted() > 1 {
         Stop::Ss2
     } else {
         Stop::None

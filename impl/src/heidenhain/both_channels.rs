@@ -90,7 +90,7 @@ contract! {
                 && s.outputs.held == s.inputs.held_mc && s.inputs.held_mc == s.inputs.held_cc;
 
     /// Any field that differs is a difference.
-    every_field_is_compared ["HFS-KDV-001", "HFS-KDV-002/a"]:
+    every_field_is_compared ["HFS-ARCH-004/h", "HFS-KDV-001", "HFS-KDV-002/a"]:
         when |s| s.inputs.request_mc != s.inputs.request_cc || s.inputs.stop_mc != s.inputs.stop_cc
             || s.inputs.starts_mc != s.inputs.starts_cc || s.inputs.held_mc != s.inputs.held_cc
             => s.outputs.differ;

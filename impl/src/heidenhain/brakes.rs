@@ -53,7 +53,7 @@ contract! {
             => s.outputs.own == s.inputs.own.release;
 
     /// In operation a shared output releases only when all its axes ask for it.
-    all_must_ask ["HFS-P-28", "HFS-SBC-005", "HFS-SBC-009"]:
+    all_must_ask ["HFS-ARCH-004/i", "HFS-P-28", "HFS-SBC-005", "HFS-SBC-009"]:
         when |s| !s.inputs.test && s.inputs.shared[0].drive && s.inputs.shared[1].drive
             => s.outputs.collected == (s.inputs.shared[0].release && s.inputs.shared[1].release);
 

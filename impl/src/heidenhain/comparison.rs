@@ -16,6 +16,7 @@ use crate::kernel::{ConfigError, Cycles, Distance, Percent};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Config {
     spindle: bool,
+    grouped: bool,
     tolerance: Distance,
     percent: Percent,
     window: Cycles,
@@ -39,10 +40,30 @@ impl Config {
         }
         Ok(Self {
             spindle,
+            grouped: true,
             tolerance,
             percent,
             window,
         })
+    }
+}
+
+impl Config {
+    /// The same for a drive without a group (SMP600, SMP601 = -1): the positions of such an axis are not compared.
+    #[must_use]
+    pub const fn without_group(self) -> Self {
+        Self {
+            grouped: false,
+            ..self
+        }
+    }
+
+    #[cfg(feature = "mutants")]
+    pub(crate) const fn with_group(self) -> Self {
+        Self {
+            grouped: true,
+            ..self
+        }
     }
 }
 
@@ -105,8 +126,10 @@ impl Inputs {
             | GroupState::Sos => {
                 if config.spindle {
                     Compared::Speed
-                } else {
+                } else if config.grouped {
                     Compared::Position
+                } else {
+                    Compared::Nothing
                 }
             }
         }
@@ -133,7 +156,7 @@ pub struct Outputs {
 
 contract! {
     /// Door open, also in the operating stop: an axis off its nominal position is stopped in the same cycle.
-    position_off_is_stopped ["HFS-NAV-001", "HFS-NAV-002", "HFS-SOS-005"]:
+    position_off_is_stopped ["HFS-ARCH-004/f", "HFS-NAV-001", "HFS-NAV-002", "HFS-SOS-005"]:
         when |s| s.inputs.compared(&s.config) == Compared::Position && s.inputs.deviation > s.config.tolerance
             => s.outputs.position && s.outputs.demand == Stop::Ss1;
 
@@ -159,6 +182,11 @@ contract! {
     spindle_is_compared_by_speed ["HFS-NAV-001", "HFS-NAV-006"]:
         when |s| s.config.spindle && !matches!(s.inputs.state, GroupState::Sto | GroupState::StoO)
             => s.inputs.compared(&s.config) == Compared::Speed && !s.outputs.position;
+
+    /// The positions of an axis without a group are not compared, in no state.
+    axis_without_group_is_not_compared ["HFS-NS-001/f"]:
+        when |s| !s.config.grouped && !s.config.spindle
+            => !s.outputs.position && (s.outputs.demand == Stop::None || s.outputs.speed);
 
     /// Without torque nothing is compared.
     nothing_is_compared_without_torque ["HFS-NAV-001"]:

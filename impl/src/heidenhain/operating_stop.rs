@@ -89,7 +89,7 @@ contract! {
             => s.outputs.too_fast && !s.outputs.too_far && s.outputs.demand == Stop::Ss1;
 
     /// One that creeps further than it may from where it stood gets SS0.
-    creeping_axis_loses_its_torque ["HFS-P-14", "HFS-SOS-003"]:
+    creeping_axis_loses_its_torque ["HFS-ARCH-004/b", "HFS-P-14", "HFS-SOS-003"]:
         when |s| s.inputs.watched && s.before.on && (s.inputs.self_test || s.inputs.speed < s.config.still)
             && s.inputs.position.distance(s.before.begin) > s.config.path
             => s.outputs.too_far && s.outputs.demand == Stop::Ss0;

@@ -115,7 +115,7 @@ pub struct Outputs {
 
 contract! {
     /// A checked axis found beyond a limit for the first time is stopped in the same cycle and may then be driven back.
-    axis_beyond_a_limit_stops ["HFS-SLP-001", "HFS-SLP-002", "HFS-SLP-003", "HFS-SLP-004"]:
+    axis_beyond_a_limit_stops ["HFS-ARCH-004/e", "HFS-SLP-001", "HFS-SLP-002", "HFS-SLP-003", "HFS-SLP-004"]:
         when |s| s.inputs.checked && !s.inputs.changed && s.before.lock == Lock::None && !s.config.inside(s.inputs.position)
             => s.outputs.demand == Stop::Ss1 && s.after.lock == Lock::ReturnAllowed;
 

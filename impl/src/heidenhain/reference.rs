@@ -202,7 +202,7 @@ contract! {
             => s.after.axis == AxisRef::Checked && s.outputs.checked;
 
     /// `NN_AxSafe` means a safe axis, checked in both channels.
-    ax_safe_means_both_channels ["HFS-P-18", "HFS-REF-001", "HFS-CHK-007"]:
+    ax_safe_means_both_channels ["HFS-ARCH-004/k", "HFS-P-18", "HFS-REF-001", "HFS-CHK-007"]:
         when |s| s.outputs.ax_safe
             => s.config.safe_axis && s.after.axis == AxisRef::Checked && s.inputs.peer_checked;
 
@@ -218,7 +218,7 @@ contract! {
             => s.outputs.may_move == (s.inputs.unit == Unit::Reference);
 
     /// An axis without a group moves always and stops nothing.
-    axis_without_group_is_free ["HFS-NS-001", "HFS-NS-002", "HFS-NS-003", "HFS-CHK-007"]:
+    axis_without_group_is_free ["HFS-NS-001/c", "HFS-NS-001/d", "HFS-NS-002", "HFS-NS-003", "HFS-CHK-007"]:
         when |s| !s.config.safe_axis
             => s.outputs.may_move && !s.outputs.untested && !s.outputs.ax_safe && !s.outputs.checked
                 && s.outputs.demand == Stop::None;

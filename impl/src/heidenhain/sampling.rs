@@ -108,7 +108,7 @@ pub struct Outputs {
 contract! {
     /// An open contact that no short circuit hides is seen in the same cycle unless its own pulse runs: during a pulse the
     /// other channel sees it.
-    open_contact_is_seen ["HFS-P-07", "HFS-DYN-001", "HFS-ES-004"]:
+    open_contact_is_seen ["HFS-ARCH-004/g", "HFS-P-07", "HFS-DYN-001", "HFS-ES-004"]:
         when |s| (!s.inputs.contact_a && !s.inputs.stuck_a && s.before.pulse != Pulse::ALow)
             || (!s.inputs.contact_b && !s.inputs.stuck_b && s.before.pulse != Pulse::BLow)
             => s.outputs.opened && (s.outputs.demand == Stop::Ss1 || !s.config.emergency);

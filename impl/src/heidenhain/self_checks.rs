@@ -80,7 +80,7 @@ contract! {
             => s.outputs.asks_ss1 && s.outputs.demand >= Stop::Ss1;
 
     /// Those of a drive without a group are not watched.
-    encoder_of_another_drive_is_not_watched ["HFS-NS-001", "HFS-NS-003"]:
+    encoder_of_another_drive_is_not_watched ["HFS-NS-001/e", "HFS-NS-003"]:
         when |s| !s.config.safe
             && Inputs { amplitude: false, frequency: false, ..s.inputs } == Inputs::default()
             => s.outputs == Outputs::default();

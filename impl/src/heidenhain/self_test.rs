@@ -288,7 +288,7 @@ contract! {
             => s.after.phase == Phase::Failed && !s.outputs.gen_safe && s.outputs.demand == Stop::None;
 
     /// A repeated test begins with the holding brakes, and with the doors shut: until then the request waits.
-    repeated_test_begins_with_the_brakes ["HFS-TEST-014", "HFS-TEST-024", "HFS-TEST-025", "HFS-BRT-005"]:
+    repeated_test_begins_with_the_brakes ["HFS-ARCH-004/l", "HFS-TEST-014", "HFS-TEST-024", "HFS-TEST-025", "HFS-BRT-005"]:
         when |s| !s.inputs.power_on && s.before.phase == Phase::Passed
             => if s.inputs.start && s.inputs.doors(&s.config) {
                 s.after.phase == Phase::HoldingBrakes && s.after.repeated

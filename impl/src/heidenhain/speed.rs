@@ -108,7 +108,7 @@ pub struct Outputs {
 
 contract! {
     /// Faster than the limit of the mode plus 5 %: SS1 in the same cycle.
-    faster_than_the_limit_stops ["HFS-MODE-004/a", "HFS-MODE-004/b", "HFS-MODE-005/a", "HFS-MODE-005/b", "HFS-TIMING-007", "HFS-TIMING-008", "HFS-P-11", "HFS-SLS-001", "HFS-SLS-003", "HFS-SLS-004", "HFS-SLS-006", "HFS-SLS-010"]:
+    faster_than_the_limit_stops ["HFS-ARCH-004/c", "HFS-MODE-004/a", "HFS-MODE-004/b", "HFS-MODE-005/a", "HFS-MODE-005/b", "HFS-TIMING-007", "HFS-TIMING-008", "HFS-P-11", "HFS-SLS-001", "HFS-SLS-003", "HFS-SLS-004", "HFS-SLS-006", "HFS-SLS-010"]:
         when |s| s.inputs.state != GroupState::SlsS && s.config.limit(s.inputs.state, s.inputs.left)
             .is_some_and(|limit| s.inputs.speed.0 as u64 * 100 > limit.0 as u64 * 105)
             => s.outputs.violated && s.outputs.demand == Stop::Ss1;

@@ -97,7 +97,7 @@ pub struct Outputs {
 
 contract! {
     /// Any emergency stop contact, in either channel, stops in both.
-    emergency_stop_stops_both ["HFS-STAT-002/a", "HFS-TIMING-005", "HFS-TIMING-006", "HFS-P-07", "HFS-STAT-005", "HFS-STAT-007", "HFS-FAULT-011", "HFS-FAULT-013", "HFS-ES-001"]:
+    emergency_stop_stops_both ["HFS-STAT-002/a", "HFS-TIMING-005/a", "HFS-TIMING-006/a", "HFS-TIMING-006/b", "HFS-P-07", "HFS-STAT-005", "HFS-STAT-007", "HFS-FAULT-011", "HFS-FAULT-013", "HFS-ES-001"]:
         when |s| s.inputs.es_a || s.inputs.es_b || s.inputs.es_a_hw || s.inputs.es_b_hw
             => s.outputs.mc >= Stop::Ss1 && s.outputs.cc >= Stop::Ss1;
 

@@ -132,7 +132,7 @@ pub struct Outputs {
 
 contract! {
     /// The agreement is given only with the key and on a referenced axis, and only when the user gives it.
-    given_only_with_key_and_reference ["S840D-P-48", "S840D-UA-004", "S840D-UA-005", "S840D-UA-003"]:
+    given_only_with_key_and_reference ["S840D-P-48", "S840D-UA-004", "S840D-UA-005", "S840D-UA-003/a", "S840D-UA-003/b"]:
         when |s| !s.before.agreed && s.after.agreed
             => s.inputs.set && s.inputs.key && s.inputs.axis_ref;
 
@@ -147,7 +147,7 @@ contract! {
             => !s.after.agreed;
 
     /// A due comparison without stored position or beyond the tolerance withdraws the agreement.
-    failed_history_withdraws ["S840D-REF-012/b", "S840D-P-13", "S840D-REF-004", "S840D-REF-008", "S840D-REF-010", "S840D-UA-003",
+    failed_history_withdraws ["S840D-REF-012/b", "S840D-P-13", "S840D-REF-004", "S840D-REF-008", "S840D-REF-010", "S840D-UA-003/c",
         "S840D-REF-014"]:
         when |s| s.before.agreed && s.inputs.compare_due && !(s.inputs.stored && s.inputs.history_ok)
             => !s.after.agreed && s.outputs.withdrawn;
@@ -159,7 +159,7 @@ contract! {
             => s.outputs.code == Code::Position;
 
     /// The user withdraws with the key.
-    user_withdraws_with_key ["S840D-UA-006", "S840D-UA-011"]:
+    user_withdraws_with_key ["S840D-UA-003/b", "S840D-UA-006", "S840D-UA-011"]:
         when |s| s.inputs.cancel && s.inputs.key
             => !s.after.agreed;
 
@@ -170,9 +170,10 @@ contract! {
             => s.after.agreed == s.before.agreed && s.outputs.code == Code::None;
 
     /// Nothing but the listed causes withdraws a given agreement; power-on keeps it.
-    withdrawn_only_for_a_reason ["S840D-UA-006", "S840D-UA-007"]:
+    withdrawn_only_for_a_reason ["S840D-UA-003/d", "S840D-UA-006", "S840D-UA-007"]:
         when |s| s.before.agreed && !s.after.agreed
-            => s.inputs.gear_changed || s.inputs.altered || s.inputs.compare_due || (s.inputs.cancel && s.inputs.key)
+            => s.inputs.gear_changed || s.inputs.altered
+                || (s.inputs.compare_due && !(s.inputs.stored && s.inputs.history_ok)) || (s.inputs.cancel && s.inputs.key)
                 || (!s.inputs.other_agreed && s.outputs.code == Code::Differs);
 
     /// Agreements that differ are withdrawn in time: each cycle the timer is lower, and at its end there is none.

@@ -102,7 +102,7 @@ contract! {
             => s.outputs.request == ExternalStop::A && s.outputs.selected == ExternalStop::A;
 
     /// Of several requests the highest acts, in the order A, C, D, E.
-    highest_request_acts ["S840D-P-18", "S840D-EXT-005", "S840D-EXT-014", "S840D-EXT-001"]:
+    highest_request_acts ["S840D-P-18", "S840D-EXT-005", "S840D-EXT-013/b", "S840D-EXT-014", "S840D-EXT-001"]:
         when |s| s.config.enable_ext && s.after.started && s.inputs.sge_a
             && (!s.inputs.sge_c || !s.inputs.sge_d)
             => s.outputs.request == if s.inputs.sge_c { ExternalStop::D } else { ExternalStop::C };
@@ -113,7 +113,7 @@ contract! {
             => s.outputs.selected == if s.config.enable_e { ExternalStop::E } else { ExternalStop::None };
 
     /// All signals at 1 and no error of the safe logic: no request; external stops are not latched.
-    withdrawal_ends_the_request ["S840D-EXT-008", "S840D-EXT-013", "S840D-EXT-019"]:
+    withdrawal_ends_the_request ["S840D-EXT-008", "S840D-EXT-013/a", "S840D-EXT-019"]:
         when |s| s.after.started && s.inputs.sge_a && s.inputs.sge_c && s.inputs.sge_d && s.inputs.sge_e
             && !s.after.spl_latched
             => s.outputs.request == ExternalStop::None;

@@ -135,7 +135,7 @@ contract! {
             => s.after.axis == AxisState::Ref && s.inputs.referenced && s.after.fresh;
 
     /// The comparison becomes due exactly when the axis has just been referenced.
-    comparison_is_due_once ["S840D-REF-004", "S840D-REF-007", "S840D-REF-014", "S840D-UA-003"]:
+    comparison_is_due_once ["S840D-REF-004", "S840D-REF-007", "S840D-REF-014", "S840D-UA-003/c", "S840D-UA-003/d"]:
         when |s| s.outputs.compare_due
             => s.before.axis == AxisState::NotRef && s.after.axis == AxisState::Ref && !s.inputs.power_on;
 

@@ -243,6 +243,15 @@ contract! {
             && (s.inputs.power_on || s.before.mode != Mode::SbhForced)
             => s.after.reference == s.inputs.ended_at;
 
+    /// When the forced operating stop ends the signals decide at once: nothing, the operating stop, or the chosen stage.
+    signals_decide_after_the_forced_standstill ["S840D-EXT-013/d", "S840D-STOP-080", "S840D-SBH-006"]:
+        when |s| s.before.mode == Mode::SbhForced && !s.inputs.sbh_internal && !s.inputs.power_on && s.config.enable
+            => s.after.mode == match s.inputs.selected(&s.config) {
+                Selected::Nothing => Mode::Nsb,
+                Selected::Standstill => Mode::Sbh,
+                Selected::Speed(_) => Mode::Sg,
+            };
+
     /// With a position set anew the operating stop goes on around the new one: nothing has moved.
     setting_anew_moves_the_window ["S840D-REF-002", "S840D-REF-003", "S840D-GEAR-506", "S840D-SBH-001"]:
         when |s| s.inputs.set_anew && (s.after.mode == Mode::Sbh || s.after.mode == Mode::SbhForced)

@@ -211,7 +211,7 @@ contract! {
             => s.after.internal == InternalStop::A && s.after.level == Level::A && s.outputs.cancel_pulses;
 
     /// No signal ends an internal stop: without RESET and power-on the latch never falls.
-    only_acknowledgement_lowers_the_latch ["S840D-P-42", "S840D-STOP-004", "S840D-STOP-005", "S840D-STOP-083"]:
+    only_acknowledgement_lowers_the_latch ["S840D-EXT-013/e", "S840D-P-42", "S840D-STOP-004", "S840D-STOP-005", "S840D-STOP-083"]:
         when |s| s.before.internal != InternalStop::None && !s.inputs.power_on && !s.inputs.reset
             => s.after.internal >= s.before.internal;
 
@@ -264,7 +264,7 @@ contract! {
                 || s.inputs.rx_internal == InternalStop::A;
 
     /// The effective level is the highest of the latch, both channels' requests by signal and the test.
-    level_is_the_highest_request ["S840D-P-38", "S840D-STOP-003", "S840D-EXT-005"]:
+    level_is_the_highest_request ["S840D-P-38", "S840D-STOP-003", "S840D-EXT-005", "S840D-EXT-013/a", "S840D-EXT-013/b", "S840D-EXT-013/c"]:
         when |s| !s.inputs.power_on
             => s.after.level == s.after.internal.level().max(s.inputs.external.level())
                 .max(s.inputs.rx_external.level()).max(if s.inputs.test { Level::Test } else { Level::None });

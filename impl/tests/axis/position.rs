@@ -31,7 +31,7 @@ fn stored_agreement_is_verified() {
     assert!(outputs.nck.alarms.is_empty());
 }
 
-/// S840D-REF-008, S840D-STOP-061, S840D-STOP-063: the axis was moved while switched off. Code 1003, the agreement is
+/// S840D-UA-003/c, S840D-REF-008, S840D-STOP-061, S840D-STOP-063: the axis was moved while switched off. Code 1003, the agreement is
 /// lost, STOP F, and after t_F STOP B in both channels, because limit switches are enabled.
 #[test]
 fn moved_while_switched_off() {
@@ -101,6 +101,40 @@ fn parking_takes_the_reference() {
     assert_eq!(machine.at(201).nck.reference.axis, AxisState::Ref);
     let outputs = machine.at(203);
     assert!(outputs.nck.sga.safely_referenced && outputs.nck.code.is_none());
+}
+
+/// S840D-UA-003/b, S840D-UA-003/c, S840D-UA-003/d: parked and moved further than MD36944 the axis loses its agreement when it is
+/// referenced again, and the user gives it anew; a smaller change leaves it.
+#[test]
+fn parking_takes_the_agreement_beyond_the_tolerance_only() {
+    for (position, kept) in [(5_009, true), (6_000, false)] {
+        let quiet = Parameters {
+            park_alarm_suppress: true,
+            ..parameters()
+        };
+        let mut machine = referenced(&quiet, 5_000);
+        let _ = machine.at(9);
+        machine.both(|local| {
+            local.parking = true;
+            local.referenced = false;
+        });
+        assert!(machine.at(20).nck.agreement.agreed, "parking alone");
+        machine.both(|local| {
+            local.parking = false;
+            reference(local, position);
+        });
+        let outputs = machine.at(25);
+        for axis in [outputs.nck, outputs.drive] {
+            assert_eq!(axis.agreement.agreed, kept, "{position}");
+            assert_eq!(axis.sga.safely_referenced, kept, "{position}");
+        }
+        let _ = machine.once(|local| {
+            local.key = true;
+            local.set_agreement = true;
+        });
+        let outputs = machine.at(30);
+        assert!(outputs.nck.agreement.agreed && outputs.nck.sga.safely_referenced);
+    }
 }
 
 /// S840D-SN-007, S840D-SN-008, S840D-P-32: with synchronisation the cam signal needs both channels, so it is one cycle

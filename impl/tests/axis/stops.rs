@@ -105,7 +105,7 @@ fn stop_is_told_and_acknowledged_jointly() {
     }
 }
 
-/// S840D-EXT-009, S840D-EXT-013, S840D-STOP-007: external STOP A of one channel acts in both, one cycle later in the
+/// S840D-EXT-009, S840D-EXT-013/a, S840D-STOP-007: external STOP A of one channel acts in both, one cycle later in the
 /// other, and ends with its signal.
 #[test]
 fn external_stop_of_one_channel() {
@@ -120,6 +120,55 @@ fn external_stop_of_one_channel() {
     machine.inputs.nck.sge.stop_a_off = true;
     assert_eq!(levels(&machine.at(12)), (Level::None, Level::A));
     assert_eq!(levels(&machine.at(13)), both(Level::None));
+}
+
+/// S840D-EXT-013/b, S840D-EXT-013/d: an external STOP D gives way to a STOP C that is asked for in addition. After both signals
+/// are 1 again the axis is in its stage of SG, although the operating stop had become active through the timer.
+#[test]
+fn external_stop_gives_way_to_a_higher_one_and_ends_with_its_signal() {
+    let mut machine = Machine::powered(&parameters(), false, None);
+    machine.both(|local| local.sge.sbh_sg_off = false);
+    let _ = machine.at(9);
+    machine.both(|local| local.sge.stop_d_off = false);
+    assert_eq!(levels(&machine.at(10)), both(Level::D));
+    machine.both(|local| local.sge.stop_c_off = false);
+    assert_eq!(levels(&machine.at(11)), both(Level::C));
+    let outputs = machine.at(400);
+    assert_eq!(outputs.nck.channel.selection.mode, Mode::SbhForced);
+    machine.both(|local| {
+        local.sge.stop_c_off = true;
+        local.sge.stop_d_off = true;
+    });
+    let _ = machine.at(401);
+    assert_eq!(levels(&machine.at(402)), both(Level::None));
+    let outputs = machine.at(404);
+    for axis in [outputs.nck, outputs.drive] {
+        assert_eq!(axis.channel.selection.mode, Mode::Sg);
+        assert!(axis.sga.sbh_sg_active && !axis.sga.sbh_active);
+    }
+}
+
+/// S840D-EXT-013/c, S840D-EXT-013/e: the axis leaves the operating stop that an external STOP C has ended in. The internal STOP B
+/// is higher, and stays when the external request has gone.
+#[test]
+fn an_internal_stop_outlasts_the_external_one() {
+    let mut machine = Machine::powered(&parameters(), false, None);
+    machine.both(|local| {
+        local.sge.sbh_sg_off = false;
+        local.sge.stop_c_off = false;
+    });
+    assert_eq!(machine.at(400).nck.channel.selection.mode, Mode::SbhForced);
+    // It creeps below the tolerance of the braking ramp, until it has left the window of 1 mm.
+    for _ in 0..51 {
+        machine.both(|local| local.position.0 += 20);
+        let _ = machine.step();
+    }
+    assert!(levels(&machine.step()) >= both(Level::B));
+    machine.both(|local| local.sge.stop_c_off = true);
+    for cycle in 460..480 {
+        let (nck, drive) = levels(&machine.at(cycle));
+        assert!(nck >= Level::B && drive >= Level::B, "cycle {cycle}");
+    }
 }
 
 /// S840D-SBR-003, S840D-P-11: the axis accelerates while STOP C brakes: STOP A in the cycle in which it is seen.

@@ -24,14 +24,15 @@ pub use cluster::{Cluster, ClusterError};
 
 use crate::explore::{Finish, bitmap_fits, crew};
 use crate::hashed::{Code, Halves, Hashed, Plain};
+use crate::model::Model;
 use crate::pack::{Packer, Wide, space};
 use crate::parts::Tables;
 use crate::process::{Any, Origin};
 use crate::property::{Property, validate};
 use crate::report::{Error, Judgement, Limits, Options, Progress, Report, Storage, Verdict};
-use crate::search::{Found, Model};
 use crate::store::Dense;
 use crate::system::System;
+use crate::tally::Found;
 use crate::watch::Watch;
 use flow::{Post, Wire};
 use std::sync::Arc;

@@ -3,15 +3,15 @@
 use super::flow::{Lost, Post, Wire};
 use super::share::{Share, ShareLocal};
 use crate::hashed::Code;
+use crate::level::{Level, UNWATCHED, Worker, bytes, gather, least, lower};
+use crate::model::Model;
 use crate::parts::Tables;
 use crate::process::{Any, AnyProcess, Origin};
 use crate::property::Property;
 use crate::report::{Error, Options, Progress};
-use crate::search::{
-    Found, Level, Model, Signs, Tally, UNWATCHED, Worker, bytes, gather, least, lower,
-};
 use crate::set::{Batch, Set};
 use crate::store::Store;
+use crate::tally::{Found, Signs, Tally};
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicU64, Ordering};

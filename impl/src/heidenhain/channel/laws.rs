@@ -32,7 +32,7 @@ const fn hard(step: &Step) -> bool {
 
 contract! {
     /// Every cause acts in its cycle, wherever it comes from; an SS2 may end at once where the group stands.
-    every_cause_acts ["HFS-ARCH-004", "HFS-STOP-001", "HFS-STOP-009", "HFS-STOP-012", "HFS-P-03", "HFS-P-04"]:
+    every_cause_acts ["HFS-ARCH-004/m", "HFS-STOP-001", "HFS-STOP-009", "HFS-STOP-012", "HFS-P-03", "HFS-P-04"]:
         when |s| !s.inputs.main_switch && (causes(&s.inputs) != Stop::None || own(&s).stop != Stop::None || s.inputs.peer.stop != Stop::None)
             => {
                 let asked = causes(&s.inputs).max(own(&s).stop).max(s.inputs.peer.stop);
@@ -47,7 +47,7 @@ contract! {
             => s.outputs.stop.level >= Stop::Ss1F && s.outputs.stop.needs_switch;
 
     /// The group is at least as strict as either channel was asked for, or stands in a stop, or one of rank SS1 brakes it.
-    state_is_as_strict_as_requested ["HFS-ARCH-005", "HFS-P-08", "HFS-P-09", "HFS-P-10", "HFS-API-001"]:
+    state_is_as_strict_as_requested ["HFS-ARCH-004/m", "HFS-ARCH-005", "HFS-P-08", "HFS-P-09", "HFS-P-10", "HFS-API-001"]:
         when |s| s.outputs.group.state.is_released()
             => hard(&s) || (s.outputs.stop.level != Stop::None && !s.inputs.moving)
                 || (s.outputs.group.state.strictness() >= own(&s).request.strictness()

@@ -205,6 +205,8 @@ mutants! { heidenhain:
     fn comparison {
         /// Nothing is compared in the operating stop.
         ComparisonNotInStandstill "comparison-not-in-standstill" => watching::comparison_not_in_standstill;
+        /// The positions of an axis without a group are compared.
+        ComparisonOfEveryAxis "comparison-of-every-axis" => watching::comparison_of_every_axis;
         /// The window does not start again within the tolerance.
         ComparisonWindowAddsUp "comparison-window-adds-up" => watching::comparison_window_adds_up;
     }
@@ -219,6 +221,8 @@ mutants! { heidenhain:
     fn axis_count {
         /// By handwheel several axes may move.
         AxisCountFreeHandwheel "axis-count-free-handwheel" => watching::axis_count_free_handwheel;
+        /// Axes without a group count.
+        AxisCountEveryAxis "axis-count-every-axis" => watching::axis_count_every_axis;
         /// Homing several axes is stopped with the door closed too.
         AxisCountClosedDoor "axis-count-closed-door" => watching::axis_count_closed_door;
     }

@@ -109,6 +109,10 @@ variants! {
         (after, outputs)
     }
 
+    comparison_of_every_axis: comparison |state, config, inputs| {
+        comparison::transition(state, &config.with_group(), inputs)
+    }
+
     comparison_window_adds_up: comparison |state, config, inputs| {
         let (mut after, outputs) = comparison::transition(state, config, inputs);
         if after.outside.is_zero() {
@@ -139,6 +143,10 @@ variants! {
             inputs.unit = Unit::Panel;
         }
         axis_count::transition(state, config, &inputs)
+    }
+
+    axis_count_every_axis: axis_count |state, config, inputs| {
+        axis_count::transition(state, config, &axis_count::Inputs { ungrouped: 0, ..*inputs })
     }
 
     axis_count_closed_door: axis_count |state, config, inputs| {

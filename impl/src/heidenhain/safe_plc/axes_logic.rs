@@ -244,13 +244,13 @@ contract! {
             => s.outputs.activate;
 
     /// NC start activates from its edge with the permissive until one of them is released.
-    nc_start_activates_from_its_edge ["HFS-MODE-004/d", "HFS-MODE-005/d", "HFS-API-007", "HFS-PB-002", "HFS-SEQ-006", "HFS-REF-004"]:
+    nc_start_activates_from_its_edge ["HFS-MODE-004/f", "HFS-MODE-005/d", "HFS-API-007", "HFS-PB-002", "HFS-SEQ-006", "HFS-REF-004"]:
         when |s| s.inputs.may_start() && s.inputs.unit != Unit::Handwheel && s.inputs.manual() == 0
             => s.outputs.activate
                 == (s.inputs.panel && s.inputs.start() && (!s.before.starts || s.before.started));
 
     /// With the handwheel its permissive activates, and nothing else.
-    handwheel_activates_by_its_permissive ["HFS-MODE-004/d", "HFS-API-008", "HFS-PB-002"]:
+    handwheel_activates_by_its_permissive ["HFS-MODE-004/g", "HFS-API-008", "HFS-PB-002"]:
         when |s| s.inputs.may_start() && s.inputs.unit == Unit::Handwheel
             => s.outputs.activate == s.inputs.wheel;
 

@@ -22,7 +22,7 @@ pub struct Outputs {
 
 contract! {
     /// One axis is enough.
-    one_axis_is_enough ["HFS-API-033"]:
+    one_axis_is_enough ["HFS-ARCH-004/j", "HFS-API-033"]:
         when |s| s.inputs.axes != 0
             => s.outputs.moving;
 

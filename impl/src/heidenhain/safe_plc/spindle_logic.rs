@@ -154,7 +154,7 @@ contract! {
             => s.outputs.activate == (s.before.latch || (!s.before.open && s.inputs.key_held && !s.before.keyed));
 
     /// With the door open: never in SOM_1, without permissive, or while the magazine door is open too.
-    no_start_without_permissive ["HFS-API-011", "HFS-API-009", "HFS-MODE-003", "HFS-MODE-004/d", "HFS-PB-002", "HFS-P-25"]:
+    no_start_without_permissive ["HFS-API-011", "HFS-API-009", "HFS-MODE-003", "HFS-MODE-004/h", "HFS-PB-002", "HFS-P-25"]:
         when |s| s.inputs.door_open && s.outputs.activate
             => s.inputs.som != Som::Som1 && !s.inputs.t_open
                 && (if s.inputs.unit == Unit::Handwheel { s.inputs.wheel } else { s.inputs.panel });
@@ -175,7 +175,7 @@ contract! {
             => s.outputs.activate;
 
     /// Spindle start activates from its edge with the permissive until one of them is released.
-    start_activates_from_its_edge ["HFS-MODE-004/d", "HFS-API-011", "HFS-SEQ-002"]:
+    start_activates_from_its_edge ["HFS-MODE-004/h", "HFS-API-011", "HFS-SEQ-002"]:
         when |s| s.inputs.may_start() && !s.inputs.jog
             => s.outputs.activate == (s.inputs.start() && (!s.before.starts || s.before.started));
 

@@ -18,7 +18,7 @@ contract! {
 
     /// Every demand is met: the stop in force is at least what was asked for. An SS2 of a group that stands ends at once; one
     /// that is asked for in the cycle of a restart is met by the standstill state that the group takes then.
-    every_demand_is_met ["HFS-TIMING-005", "HFS-TIMING-006", "HFS-STOP-001", "HFS-STOP-003", "HFS-P-02"]:
+    every_demand_is_met ["HFS-ARCH-004/a", "HFS-TIMING-005/a", "HFS-TIMING-006/a", "HFS-TIMING-006/b", "HFS-STOP-001", "HFS-STOP-003", "HFS-P-02"]:
         when |s| s.inputs.demand != Stop::None && !s.inputs.main_switch
             => s.after.level >= s.inputs.demand
                 || (s.inputs.demand == Stop::Ss2 && s.outputs.ss2_ended && s.inputs.still)
@@ -56,7 +56,7 @@ contract! {
                 && (s.before.phase != Phase::BrakeCloses || s.after.phase == Phase::BrakeCloses);
 
     /// A ramp that begins has its whole time.
-    ramp_starts_its_timer ["HFS-SS1-004", "HFS-STOP-010"]:
+    ramp_starts_its_timer ["HFS-TIMING-005/c", "HFS-TIMING-006/e", "HFS-SS1-004", "HFS-STOP-010"]:
         when |s| (!ramp(s.before.phase) || s.inputs.main_switch) && ramp(s.after.phase)
             => s.after.phase == Phase::EmergencyBrake && s.after.timer == started(s.config.t_ss1());
 
@@ -75,7 +75,7 @@ contract! {
             };
 
     /// Channel B takes the torque of an SS1 only after the brakes have been closing for their overlap.
-    brake_closes_before_torque_off ["HFS-STOP-008/b", "HFS-TIMING-010", "HFS-TIMING-011", "HFS-P-17", "HFS-SS1-006", "HFS-SBC-001"]:
+    brake_closes_before_torque_off ["HFS-ARCH-004/d", "HFS-TIMING-006/c", "HFS-STOP-008/b", "HFS-TIMING-010", "HFS-TIMING-011", "HFS-P-17", "HFS-SS1-006", "HFS-SBC-001"]:
         when |s| s.config.is_cc() && s.before.phase == Phase::EmergencyBrake && !s.inputs.main_switch
             && s.inputs.demand != Stop::Ss0 && s.before.timer.count() > 1
             => if !s.inputs.still {
@@ -86,12 +86,12 @@ contract! {
             };
 
     /// The overlap of the brake runs down by one in each cycle.
-    overlap_runs ["HFS-P-17", "HFS-SS1-006"]:
+    overlap_runs ["HFS-TIMING-006/d", "HFS-P-17", "HFS-SS1-006"]:
         when |s| s.before.phase == Phase::BrakeCloses && !s.inputs.main_switch && s.after.phase == Phase::BrakeCloses
             => s.after.brake == s.before.brake.tick();
 
     /// Channel A keeps the torque until channel B has taken it, or until its own time is up.
-    channel_a_waits_for_b ["HFS-TIMING-011", "HFS-SS1-007", "HFS-STOP-008/c"]:
+    channel_a_waits_for_b ["HFS-TIMING-005/b", "HFS-TIMING-011", "HFS-SS1-007", "HFS-STOP-008/c"]:
         when |s| !s.config.is_cc() && s.before.phase == Phase::EmergencyBrake && !s.inputs.main_switch
             && s.inputs.demand != Stop::Ss0 && s.before.timer.count() > 1
             => s.outputs.torque_off == s.inputs.peer_off;

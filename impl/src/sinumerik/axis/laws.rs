@@ -79,7 +79,7 @@ contract! {
             => s.after.told.external == ExternalStop::None && s.outputs.exchange.snapshot.external == ExternalStop::None;
 
     /// The test of the external shutdown takes nothing from the stop itself: it is told and acts.
-    stop_acts_under_the_shutdown_test ["S840D-TEST-016", "S840D-EXT-013"]:
+    stop_acts_under_the_shutdown_test ["S840D-TEST-016"]:
         when |s| s.outputs.shutdown_test.active && s.outputs.channel.external.request != ExternalStop::None
             => s.outputs.exchange.external == s.outputs.channel.external.request
                 && s.outputs.channel.stop.level >= s.outputs.channel.external.request.level();

@@ -289,6 +289,7 @@ pub fn availability<S: Source>(
         som: source.any_of(&Som::ALL),
         has_brake: source.any_bool(),
         spindle_sos: source.any_bool(),
+        ungrouped: source.any_bool(),
     };
     Some((availability::State::INITIAL, availability::Config, inputs))
 }

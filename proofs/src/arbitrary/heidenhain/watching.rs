@@ -160,6 +160,11 @@ pub fn comparison<S: Source>(
     let window = source.any_delay(Cycles::new(u32::MAX));
     let config =
         comparison::Config::new(source.any_bool(), distance(source, 1), percent, window).ok()?;
+    let config = if source.any_bool() {
+        config.without_group()
+    } else {
+        config
+    };
     let before = comparison::State {
         outside: source.any_cycles(window),
     };
@@ -206,6 +211,7 @@ pub fn axis_count<S: Source>(
         state: state(source),
         unit: source.any_of(&Unit::ALL),
         moving: source.any_u32(3, u32::from(u8::MAX)) as u8,
+        ungrouped: source.any_u32(3, u32::from(u8::MAX)) as u8,
     };
     Some((axis_count::State::INITIAL, axis_count::Config, inputs))
 }

@@ -173,6 +173,11 @@ pub(super) fn examples() -> Vec<(&'static str, String, String)> {
             "SMP2172 = \"2 s\"",
         ),
         of_axis(
+            "the test torque is below",
+            ", SMP2230 = \"9 %\"",
+            ", SMP2230 = \"135 %\"",
+        ),
+        of_axis(
             "the speed may rise",
             ", SMP530 = \"1 s\"",
             ", SMP530 = \"999 ms\"",

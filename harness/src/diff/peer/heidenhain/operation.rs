@@ -137,7 +137,14 @@ fn available(mutant: Option<Mutant>) -> Adapter {
         Mutant::availability,
     );
     Adapter::stateless(
-        &["kind", "function", "som", "has_brake", "spindle_sos"],
+        &[
+            "kind",
+            "function",
+            "som",
+            "has_brake",
+            "spindle_sos",
+            "ungrouped",
+        ],
         &["has"],
         move |i, o| {
             let inputs = availability::Inputs {
@@ -146,6 +153,7 @@ fn available(mutant: Option<Mutant>) -> Adapter {
                 som: som(i[2]),
                 has_brake: i[3] != 0,
                 spindle_sos: i[4] != 0,
+                ungrouped: i[5] != 0,
             };
             let (_, out) = next(availability::State::INITIAL, &availability::Config, &inputs);
             o.push(bit(out.available));

@@ -216,6 +216,11 @@ fn comparison(p: &Params, mutant: Option<Mutant>) -> Refusable {
         percent,
         p.time("window"),
     )?;
+    let config = if p.is("grouped") {
+        config
+    } else {
+        config.without_group()
+    };
     let next = mutant.map_or(comparison::next as comparison::Next, Mutant::comparison);
     Ok(Adapter::new(
         &["state", "deviation", "nominal", "actual"],
@@ -262,13 +267,14 @@ fn deceleration(p: &Params, mutant: Option<Mutant>) -> Refusable {
 fn axis_count(mutant: Option<Mutant>) -> Adapter {
     let next = mutant.map_or(axis_count::next as axis_count::Next, Mutant::axis_count);
     Adapter::stateless(
-        &["state", "unit", "moving"],
+        &["state", "unit", "moving", "free"],
         &["allowed", "demand"],
         move |i, o| {
             let inputs = axis_count::Inputs {
                 state: state(i[0]),
                 unit: unit(i[1]),
                 moving: small(i[2]),
+                ungrouped: small(i[3]),
             };
             let (_, out) = next(axis_count::State::INITIAL, &axis_count::Config, &inputs);
             // The table counts at most three axes: as many as may move without a limit.
