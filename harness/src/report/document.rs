@@ -198,6 +198,18 @@ pub(super) fn words(text: impl Into<String>) -> Vec<Inline> {
     vec![Inline::text(text)]
 }
 
+/// Ids in a row, each of them whole.
+pub(super) fn ids(ids: &[String]) -> Vec<Inline> {
+    let mut cell = Vec::new();
+    for (k, id) in ids.iter().enumerate() {
+        if k > 0 {
+            cell.push(Inline::text(" "));
+        }
+        cell.push(Inline::Name(id.clone()));
+    }
+    cell
+}
+
 pub(super) fn code(text: impl Into<String>) -> Vec<Inline> {
     vec![Inline::code(text)]
 }
@@ -334,7 +346,7 @@ fn topic(subject: &Subject, checked: &[Checked], topic: Topic) -> Vec<Block> {
             words(allowed),
             words(text),
             words(row.axes.join(", ")),
-            words(row.req.join(" ")),
+            ids(&row.req),
         ]
     });
     let what = match topic {

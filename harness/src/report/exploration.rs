@@ -3,7 +3,7 @@
 use stillpoint_show::document::{Block, Inline, Tone};
 use stillpoint_show::graph::Graph;
 
-use super::document::{Control, code, paragraph, table, words};
+use super::document::{Control, code, ids, paragraph, table, words};
 use super::{counted, grouped, params, reduced, storage_name};
 use crate::check::{Checked, Unfired};
 use crate::engine::Evaluator;
@@ -211,7 +211,7 @@ pub(super) fn coverage(subject: &Subject, checked: &[Checked]) -> Vec<Block> {
                 code(&rule.name),
                 words(grouped(u128::from(*count))),
                 told,
-                words(rule.ids.join(" ")),
+                ids(&rule.ids),
             ]);
         }
         let of = rows.len();

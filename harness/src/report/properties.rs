@@ -4,7 +4,7 @@ use stillpoint_model::{Trace, Verdict};
 use stillpoint_show::document::Block;
 use stillpoint_spec::ir::Property;
 
-use super::document::{badge, code, paragraph, table, words};
+use super::document::{badge, code, ids, paragraph, table, words};
 use super::{counted, diagram};
 use crate::check::Checked;
 use crate::excluded::Exclusion;
@@ -131,7 +131,7 @@ pub(super) fn blocks(subject: &Subject, checked: &[Checked]) -> Vec<Block> {
                     .join("\n"),
             ),
             words(row.told(several, ", ").join("\n")),
-            words(row.property.req.join(" ")),
+            ids(&row.property.req),
         ]
     });
     let mut out = vec![table(

@@ -276,6 +276,7 @@ fn inline(words: &[Inline]) -> String {
         let _ = match word {
             Inline::Text(text) => write!(out, "{}", html(text)),
             Inline::Code(text) => write!(out, "<code>{}</code>", html(text)),
+            Inline::Name(text) => write!(out, "<span class=\"name\">{}</span>", html(text)),
             Inline::Strong(text) => write!(out, "<strong>{}</strong>", html(text)),
             Inline::Badge(tone, text) => write!(
                 out,

@@ -220,7 +220,7 @@ fn inline(words: &[Inline]) -> String {
     let mut out = String::new();
     for word in words {
         match word {
-            Inline::Text(text) => out.push_str(&escaped(text)),
+            Inline::Text(text) | Inline::Name(text) => out.push_str(&escaped(text)),
             Inline::Code(text) => out.push_str(&code(text)),
             Inline::Strong(text) if text.trim().is_empty() => out.push_str(text),
             Inline::Strong(text) => {

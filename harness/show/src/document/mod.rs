@@ -69,6 +69,8 @@ pub enum Inline {
     Text(String),
     /// A name or an expression as it stands in a file.
     Code(String),
+    /// A name that is never broken at the end of a line.
+    Name(String),
     /// Words that matter.
     Strong(String),
     /// A word on a coloured ground.
