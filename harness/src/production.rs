@@ -126,24 +126,30 @@ impl Values<'_> {
         T::try_from(self.cell(name)?).map_err(|_| name)
     }
 
-    /// From microseconds to milliseconds, rounded up: the monitors round delays up, too.
-    fn millis(&self, name: &'static str) -> Fit<u32> {
-        let us = self.cell(name)?;
-        u32::try_from(us.div_euclid(1_000) + i64::from(us.rem_euclid(1_000) != 0)).map_err(|_| name)
+    /// From the base unit of speeds, um/min or mdeg/min, to um/min or 0.001 rev/min, rounded down: a limit never permits
+    /// more. Exact for a value in rev/min with three decimals; one that is written in deg/s may lose what is less than an
+    /// increment in a cycle.
+    fn speed_scale(&self) -> impl Fn(i64) -> i64 + use<> {
+        let per_unit = self.speed_unit();
+        move |value| value.div_euclid(per_unit)
     }
 
-    /// From the base unit of speeds, um/min or mdeg/min, to um/min or 0.001 rev/min, rounded down: a limit never permits
-    /// more.
-    fn speed_scale(&self) -> impl Fn(i64) -> i64 + use<> {
-        let per_unit = match self.axis.kind {
+    const fn speed_unit(&self) -> i64 {
+        match self.axis.kind {
             AxisKind::Linear => 1,
             AxisKind::Rotary => 360,
-        };
-        move |value| value.div_euclid(per_unit)
+        }
     }
 
     fn speed(&self, name: &'static str) -> Fit<u32> {
         u32::try_from(self.speed_scale()(self.cell(name)?)).map_err(|_| name)
+    }
+
+    /// A tolerated speed, rounded up: what the machine datum names is tolerated.
+    fn speed_up(&self, name: &'static str) -> Fit<u32> {
+        let (value, per_unit) = (self.cell(name)?, self.speed_unit());
+        let up = value.div_euclid(per_unit) + i64::from(value.rem_euclid(per_unit) != 0);
+        u32::try_from(up).map_err(|_| name)
     }
 
     fn is(&self, name: &'static str) -> bool {
@@ -158,15 +164,13 @@ impl Values<'_> {
             .sum()
     }
 
-    /// The shortest interval of the doors in front of the axis, in ms, rounded down.
-    fn test_interval(&self) -> u32 {
+    /// The shortest interval of the doors in front of the axis, in us.
+    fn test_interval(&self) -> u64 {
         let doors = self.machine.doors.iter();
         let behind = doors.filter(|d| d.axes.iter().any(|a| *a.get_ref() == self.axis.name));
         let intervals =
             behind.filter_map(|d| d.values.get("test_interval")?.cells.first().copied());
-        let least = intervals
-            .min()
-            .and_then(|us| u32::try_from(us / 1_000).ok());
+        let least = intervals.min().and_then(|us| u64::try_from(us).ok());
         least.unwrap_or(Installation::EIGHT_HOURS)
     }
 
@@ -227,15 +231,15 @@ impl Values<'_> {
             refp_pos_tol: self.plain("REFP_POS_TOL")?,
             velo_x: self.speed("VELO_X")?,
             stop_velo_tol: self.speed("STOP_VELO_TOL")?,
-            slip_velo_tol: self.speed("SLIP_VELO_TOL")?,
-            mode_switch_time: self.millis("MODE_SWITCH_TIME")?,
-            velo_switch_delay: self.millis("VELO_SWITCH_DELAY")?,
-            stop_switch_time_c: self.millis("STOP_SWITCH_TIME_C")?,
-            stop_switch_time_d: self.millis("STOP_SWITCH_TIME_D")?,
-            stop_switch_time_e: self.millis("STOP_SWITCH_TIME_E")?,
-            stop_switch_time_f: self.millis("STOP_SWITCH_TIME_F")?,
-            pulse_disable_delay: self.millis("PULSE_DISABLE_DELAY")?,
-            pulse_dis_check_time: self.millis("PULSE_DIS_CHECK_TIME")?,
+            slip_velo_tol: self.speed_up("SLIP_VELO_TOL")?,
+            mode_switch_time: self.plain("MODE_SWITCH_TIME")?,
+            velo_switch_delay: self.plain("VELO_SWITCH_DELAY")?,
+            stop_switch_time_c: self.plain("STOP_SWITCH_TIME_C")?,
+            stop_switch_time_d: self.plain("STOP_SWITCH_TIME_D")?,
+            stop_switch_time_e: self.plain("STOP_SWITCH_TIME_E")?,
+            stop_switch_time_f: self.plain("STOP_SWITCH_TIME_F")?,
+            pulse_disable_delay: self.plain("PULSE_DISABLE_DELAY")?,
+            pulse_dis_check_time: self.plain("PULSE_DIS_CHECK_TIME")?,
             standstill_velo_tol: self.speed("STANDSTILL_VELO_TOL")?,
             velo_stop_mode: self.plain("VELO_STOP_MODE")?,
             pos_stop_mode: self.plain("POS_STOP_MODE")?,

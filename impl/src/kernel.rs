@@ -50,7 +50,17 @@ impl Cycles {
         millis: u32,
         cycle_us: NonZeroU32,
     ) -> Result<Self, DurationTooLong> {
-        let micros = millis as u64 * 1000;
+        Self::from_micros_up(millis as u64 * 1000, cycle_us)
+    }
+
+    /// The shortest number of cycles that lasts at least `micros` microseconds; like [`Cycles::from_millis_up`].
+    ///
+    /// # Errors
+    /// [`DurationTooLong`] when the result needs more than 32 bits.
+    pub const fn from_micros_up(
+        micros: u64,
+        cycle_us: NonZeroU32,
+    ) -> Result<Self, DurationTooLong> {
         Self::checked(micros.div_ceil(cycle_us.get() as u64))
     }
 
@@ -64,7 +74,17 @@ impl Cycles {
         millis: u32,
         cycle_us: NonZeroU32,
     ) -> Result<Self, DurationTooLong> {
-        let micros = millis as u64 * 1000;
+        Self::from_micros_down(millis as u64 * 1000, cycle_us)
+    }
+
+    /// The longest number of cycles that lasts at most `micros` microseconds; like [`Cycles::from_millis_down`].
+    ///
+    /// # Errors
+    /// [`DurationTooLong`] when the result needs more than 32 bits.
+    pub const fn from_micros_down(
+        micros: u64,
+        cycle_us: NonZeroU32,
+    ) -> Result<Self, DurationTooLong> {
         Self::checked(micros / cycle_us.get() as u64)
     }
 

@@ -2,8 +2,10 @@
 //!
 //! One increment is one micrometre of a linear axis or one thousandth of a degree of a rotary axis. Every conversion says
 //! to which side it rounds. Limits, tolerances and thresholds of speed and distance round **down**: no converted value
-//! permits more than the exact one. The one exception says so ([`Scale::way_up`]). For a comparison `value > limit` of whole increments rounding down loses nothing
-//! either: a whole number is above the exact limit exactly when it is above the limit rounded down.
+//! permits more than the exact one. The one exception says so ([`Scale::way_up`]). For one comparison `value > limit` of whole
+//! increments that is the same as the exact limit: a whole number is above it exactly when it is above the limit rounded
+//! down. Over many cycles it is stricter: an axis that is no faster than the exact limit may in one cycle go a whole increment
+//! more than the limit rounded down, and what is made of a rounded value (an override, a ramp) is rounded again.
 
 use core::num::NonZeroU32;
 

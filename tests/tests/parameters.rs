@@ -51,7 +51,7 @@ fn same_quantity(unit: Unit, printed: &str) -> bool {
         Unit::Bits => printed == "bitmask",
         Unit::Percent => printed == "%",
         Unit::Hertz => printed == "Hz",
-        Unit::Microseconds | Unit::Milliseconds => printed == "s",
+        Unit::Microseconds => printed == "s",
         Unit::Length => printed == "mm|deg",
         Unit::Angle => printed == "deg",
         Unit::Grid => printed == "mm",
@@ -139,8 +139,8 @@ fn the_drive_holds_every_permitted_value() {
         // The unit of the drive: its own for lengths and times, that of the NCK for the others.
         let unit = drive["unit"].as_str().expect("a unit");
         let factor = match (datum.unit, unit) {
-            (Unit::Milliseconds, "ms") | (Unit::Length, "um|mdeg") | (Unit::Angle, "mdeg") => 1.0,
-            (Unit::Grid, "um") => 1000.0,
+            (Unit::Length, "um|mdeg") | (Unit::Angle, "mdeg") => 1.0,
+            (Unit::Microseconds, "ms") | (Unit::Grid, "um") => 1000.0,
             (Unit::Microseconds, _) | (Unit::Number, "31.25us") | (Unit::Choice, _) => continue,
             (own, _) => own.per_manual_unit() as f64,
         };

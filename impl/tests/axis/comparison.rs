@@ -2,6 +2,7 @@
 
 use stillpoint_monitors::kernel::Position;
 use stillpoint_monitors::sinumerik::alarm::Alarm;
+use stillpoint_monitors::sinumerik::axis::Local;
 use stillpoint_monitors::sinumerik::code::Code;
 use stillpoint_monitors::sinumerik::fault::FaultState;
 use stillpoint_monitors::sinumerik::level::Level;
@@ -9,7 +10,7 @@ use stillpoint_monitors::sinumerik::pair::{Config, Inputs};
 use stillpoint_monitors::sinumerik::parameters::Parameters;
 use stillpoint_monitors::sinumerik::selection::Mode;
 
-use crate::machine::{Machine, both, idle, levels, parameters, referenced};
+use crate::machine::{Machine, both, levels, parameters, referenced};
 
 /// S840D-KDV-506, S840D-STOP-061, S840D-STOP-063, S840D-P-40: one channel loses a signal. It selects the operating stop
 /// after t_vel; the comparison waits for t_chg and then finds it in both channels with code 1; STOP B after t_F, STOP A
@@ -78,7 +79,7 @@ fn fault_of_one_channel_is_told() {
     let outputs = machine.at(10);
     assert_eq!(outputs.nck.alarms.code(), Code::AGREEMENT_PLAUSIBILITY);
     assert!(!outputs.drive.channel.fault.interlock);
-    machine.inputs = Inputs::both(idle());
+    machine.inputs = Inputs::both(Local::idle());
     let outputs = machine.at(11);
     assert!(outputs.drive.alarms.contains(Alarm::CrossComparison));
     assert!(outputs.drive.alarms.code().is_none());
@@ -113,7 +114,7 @@ fn power_on_forgets_what_was_told() {
         local.sge.sbh_sg_off = true;
     });
     assert!(outputs.nck.code.is_none() && outputs.drive.code.is_none());
-    machine.inputs = Inputs::both(idle());
+    machine.inputs = Inputs::both(Local::idle());
     assert_eq!(machine.first(400, |o| !o.nck.code.is_none()), None);
 }
 

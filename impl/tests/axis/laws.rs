@@ -8,7 +8,7 @@ use stillpoint_monitors::sinumerik::pair::{Config, Inputs, Pair, State};
 use stillpoint_monitors::sinumerik::parameters::{Encoders, Installation, Parameters};
 use stillpoint_monitors::{contract::Evaluation, sinumerik::channel};
 
-use crate::machine::{idle, parameters};
+use crate::machine::parameters;
 
 /// A fixed sequence of numbers (xorshift), so that a failure is found again.
 struct Numbers(u64);
@@ -77,7 +77,7 @@ fn run_pair(parameters: &Parameters, seed: u64, cycles: u32) -> u64 {
     let config = Config::new(parameters.validate().expect("plausible"));
     let mut pair = Pair::resume(config, State::initial()).expect("consistent");
     let mut numbers = Numbers(seed);
-    let mut inputs = Inputs::both(idle());
+    let mut inputs = Inputs::both(Local::idle());
     let mut seen = 0;
     for cycle in 0..cycles {
         vary(&mut inputs.nck, &mut numbers);
@@ -129,7 +129,7 @@ fn run_pair(parameters: &Parameters, seed: u64, cycles: u32) -> u64 {
 fn run_channel(parameters: &Parameters, seed: u64, cycles: u32) -> u64 {
     let config = *parameters.validate().expect("plausible").channel();
     let mut numbers = Numbers(seed);
-    let mut local = idle();
+    let mut local = Local::idle();
     let mut state = channel::State::INITIAL;
     let mut seen = 0;
     for cycle in 0..cycles {

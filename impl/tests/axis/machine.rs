@@ -2,7 +2,6 @@
 
 use stillpoint_monitors::kernel::Position;
 use stillpoint_monitors::sinumerik::axis::{self, Local};
-use stillpoint_monitors::sinumerik::interface::Sge;
 use stillpoint_monitors::sinumerik::level::Level;
 use stillpoint_monitors::sinumerik::pair::{Config, Inputs, Outputs, Pair, State};
 use stillpoint_monitors::sinumerik::parameters::Parameters;
@@ -16,22 +15,8 @@ pub const ENABLED: u32 = 0b1_1111_0011;
 pub fn parameters() -> Parameters {
     Parameters {
         function_enable: ENABLED,
-        stop_switch_time_f: 100,
+        stop_switch_time_f: 100_000,
         ..Parameters::default()
-    }
-}
-
-/// Nothing selected: a moving axis in non-safe operation.
-pub fn idle() -> Local {
-    Local {
-        run_up: true,
-        spl_started: true,
-        sge: Sge {
-            sbh_sg_off: true,
-            sbh_off: true,
-            ..Sge::UNUSED
-        },
-        ..Local::default()
     }
 }
 
@@ -61,7 +46,7 @@ impl Machine {
         let mut machine = Self {
             pair,
             cycle: 0,
-            inputs: Inputs::both(idle()),
+            inputs: Inputs::both(Local::idle()),
         };
         let _ = machine.once(|local| local.power_on = true);
         machine

@@ -198,7 +198,7 @@ fn the_operating_stop_does_not_see_the_correction() {
     assert!(axis.machine.state().nck.slip.offset > 1_000);
 }
 
-/// S840D-SLIP-505/a, lines 1834 to 1836: the correction of a pass, far above the limit as a way of one cycle, is no speed. A
+/// S840D-SLIP-505/a, S840D-SLIP-505/e, lines 1834 to 1836: the correction of a pass, far above the limit as a way of one cycle, is no speed. A
 /// violation in one channel raises the alarm there alone, and the stop in both.
 #[test]
 fn the_speed_monitor_does_not_see_the_correction() {
@@ -223,6 +223,39 @@ fn the_speed_monitor_does_not_see_the_correction() {
     let outputs = axis.step([750_000, 1_010_000]);
     assert!(!outputs.nck.alarms.contains(Alarm::SpeedLimit));
     assert_eq!(levels(&outputs), both(Level::C));
+}
+
+/// S840D-SLIP-505/c, S840D-SLIP-505/d, line 1834: while STOP C brakes, and n<n_x is shown, the corrections of the passes, 0.5 mm each, are no
+/// speed. The tolerance of the ramp is none, and n_x 0.1 mm a cycle.
+#[test]
+fn the_ramp_and_n_x_do_not_see_the_correction() {
+    let parameters = Parameters {
+        function_enable: 0b100_1001,
+        stop_switch_time_c: 10_000_000,
+        stop_velo_tol: 0,
+        velo_x: 500_000,
+        ..slipping(60_000)
+    };
+    let mut axis = Axis::new(&parameters);
+    axis.machine.both(|local| local.sge.stop_c_off = false);
+    let _ = axis.step([0, 0]);
+    let mut before = *axis.machine.state();
+    let mut corrected = 0;
+    // Below n_x, and no faster than the ramp permits, in each channel by its own encoder.
+    for _ in 0..6 * PASS {
+        let outputs = axis.step([0, 60_000]);
+        let state = *axis.machine.state();
+        let far = state.nck.slip.offset.abs_diff(before.nck.slip.offset) > 400;
+        corrected += u32::from(far);
+        for channel in [outputs.nck, outputs.drive] {
+            assert_eq!(channel.channel.stop.level, Level::C);
+            assert!(channel.channel.stop.sbr_on, "STOP C brakes");
+            assert!(!channel.channel.ramp.violated);
+            assert!(channel.sga.below_n_x);
+        }
+        before = state;
+    }
+    assert!(corrected >= 5, "{corrected} passes were corrected");
 }
 
 /// S840D-SLIP-505/f, S840D-NX-002, line 1838: with slip n < n_x may lastingly differ between the channels; no code 2, no

@@ -350,7 +350,7 @@ fn stages_are_shown() {
 fn stop_b_ends_at_standstill() {
     let patient = Parameters {
         standstill_velo_tol: 20_000,
-        pulse_disable_delay: 10_000,
+        pulse_disable_delay: 10_000_000,
         ..parameters()
     };
     let mut machine = Machine::powered(&patient, false, None);

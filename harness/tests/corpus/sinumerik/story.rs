@@ -18,7 +18,6 @@ use crate::case::Given;
 use stillpoint::recording::{Value as Seen, vocabulary};
 use stillpoint_monitors::kernel::Position;
 use stillpoint_monitors::sinumerik::axis::{self, Local};
-use stillpoint_monitors::sinumerik::interface::Sge;
 use stillpoint_monitors::sinumerik::pair::{Config, Inputs, Pair, State};
 use toml::{Table, Value};
 
@@ -163,18 +162,8 @@ fn play(
     until: u64,
     cycle_us: u64,
 ) -> Result<Vec<Shown>, String> {
-    let idle = Local {
-        run_up: true,
-        spl_started: true,
-        sge: Sge {
-            sbh_sg_off: true,
-            sbh_off: true,
-            ..Sge::UNUSED
-        },
-        ..Local::default()
-    };
     let names = vocabulary::outputs();
-    let mut inputs = Inputs::both(idle);
+    let mut inputs = Inputs::both(Local::idle());
     let (mut speed, mut feedback_is_told) = ([0_i64; 2], false);
     // Positions in millionths of an increment, so that slow axes lose nothing.
     let mut position = [0_i64; 2];

@@ -1,5 +1,10 @@
 //! The contract of an axis in one channel: what holds between the channel, the user's side of the axis, and the other
 //! channel.
+//!
+//! An arbitrary state of a whole axis is too wide to be drawn or enumerated, so no harness of the proof inventory has these
+//! clauses. Two things check them, with every contract inside: the test `tests/axis/laws.rs` on random runs of both channels,
+//! in which each premise must be met; and, as debug assertions, every reachable pair of states of the parts in which both channels
+//! are compared with their tables (exhaustive, small parameters).
 
 use super::{Config, Inputs, Outputs, State, TestResult, transition};
 use crate::sinumerik::alarm::{Alarm, Reaction};

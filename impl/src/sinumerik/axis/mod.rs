@@ -210,6 +210,23 @@ pub struct Local {
     pub altered: bool,
 }
 
+impl Local {
+    /// An axis in operation of which nothing is asked: run up, the safe logic started, neither SBH nor SG selected, no stop
+    /// requested, at position 0.
+    pub fn idle() -> Self {
+        Self {
+            run_up: true,
+            spl_started: true,
+            sge: Sge {
+                sbh_sg_off: true,
+                sbh_off: true,
+                ..Sge::UNUSED
+            },
+            ..Self::default()
+        }
+    }
+}
+
 /// The inputs of one cycle.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Inputs {

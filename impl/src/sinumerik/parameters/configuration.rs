@@ -14,7 +14,7 @@ use crate::sinumerik::{
 use crate::units::{ModuloRange, Scale};
 
 /// The user agreements may differ this long (S840D-UA-009).
-const AGREEMENTS_DIFFER_MS: u32 = 2_000;
+const AGREEMENTS_DIFFER: u32 = 2_000_000;
 
 /// The cycles from one comparison of the positions to the next: one item of the list is compared in each (MD36992).
 #[allow(clippy::cast_possible_truncation)]
@@ -101,14 +101,14 @@ impl Clock {
         })
     }
 
-    /// A delay of milliseconds, rounded up.
-    fn delay(self, millis: u32) -> Result<Cycles, ConfigError> {
-        Cycles::from_millis_up(millis, self.cycle_us).map_err(|_| ConfigError::DelayTooLong)
+    /// A delay of microseconds, rounded up once.
+    fn delay(self, micros: u32) -> Result<Cycles, ConfigError> {
+        Cycles::from_micros_up(micros.into(), self.cycle_us).map_err(|_| ConfigError::DelayTooLong)
     }
 
-    /// The time in which something must be repeated, in milliseconds, rounded down.
-    fn interval(self, millis: u32) -> Result<Cycles, ConfigError> {
-        Cycles::from_millis_down(millis, self.cycle_us).map_err(|_| ConfigError::DelayTooLong)
+    /// The time in which something must be repeated, in microseconds, rounded down.
+    fn interval(self, micros: u64) -> Result<Cycles, ConfigError> {
+        Cycles::from_micros_down(micros, self.cycle_us).map_err(|_| ConfigError::DelayTooLong)
     }
 
     /// A speed in thousandths of mm/min or rev/min, rounded down.
@@ -186,7 +186,7 @@ impl Configuration {
             channel: channel(p, clock)?,
             cams: cams(p)?,
             gear: gear::Config::new(p.installation.gear_max, se_sn_enabled)?,
-            agreement: agreement::Config::new(clock.delay(AGREEMENTS_DIFFER_MS)?, se_sn_enabled)?,
+            agreement: agreement::Config::new(clock.delay(AGREEMENTS_DIFFER)?, se_sn_enabled)?,
             reference: reference::Config::new(se_sn_enabled)?,
             history: history::Config::new(Distance(p.refp_pos_tol))?,
             slip,

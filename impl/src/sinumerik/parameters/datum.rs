@@ -17,10 +17,8 @@ pub enum Unit {
     Percent,
     /// Hertz; the manual's own.
     Hertz,
-    /// Microseconds; the manual's unit is the second.
+    /// Microseconds; the manual's unit is the second, for delays in the drive the millisecond.
     Microseconds,
-    /// Milliseconds; the manual's unit is the second (NCK) or the millisecond (drive).
-    Milliseconds,
     /// Micrometres, on a rotary axis 0.001 degrees; the manual's unit is mm or degree (NCK), or the same (drive).
     Length,
     /// 0.001 degrees; the manual's unit is the degree (NCK), or the same (drive).
@@ -38,7 +36,7 @@ impl Unit {
     pub const fn per_manual_unit(self) -> i64 {
         match self {
             Self::Number | Self::Choice | Self::Bits | Self::Percent | Self::Hertz => 1,
-            Self::Milliseconds | Self::Length | Self::Angle | Self::Pitch | Self::Speed => 1_000,
+            Self::Length | Self::Angle | Self::Pitch | Self::Speed => 1_000,
 
             Self::Microseconds | Self::Grid => 1_000_000,
         }
@@ -51,7 +49,6 @@ impl Unit {
             (Self::Percent, _) => " %",
             (Self::Hertz, _) => " Hz",
             (Self::Microseconds, _) => " us",
-            (Self::Milliseconds, _) => " ms",
             (Self::Length, Axis::Linear) => " um",
             (Self::Length, Axis::Rotary) | (Self::Angle, _) => " mdeg",
             (Self::Grid, _) => " nm",

@@ -51,13 +51,13 @@ pub struct Installation {
     pub external_path: bool,
     /// The highest gear index with a real ratio, 0 to 7; 0 for an axis without selector gearbox (S840D-GEAR-501).
     pub gear_max: u8,
-    /// How long a test of the shutdown paths counts, in ms: 1 to 28 800 000, eight hours (S840D-TEST-001/a).
-    pub test_interval: u32,
+    /// How long a test of the shutdown paths counts, in us: a monitoring cycle to eight hours (S840D-TEST-001/a).
+    pub test_interval: u64,
 }
 
 impl Installation {
-    /// Eight hours in ms.
-    pub const EIGHT_HOURS: u32 = 28_800_000;
+    /// Eight hours in us.
+    pub const EIGHT_HOURS: u64 = 28_800_000_000;
 }
 
 impl Default for Installation {
@@ -82,7 +82,7 @@ macro_rules! machine_data {
             $permitted:expr, $unit:ident $(, linear up to $linear:expr)?;
     )+) => {
         /// The machine data of one axis, and those of the control that its monitoring reads. Lengths in um (rotary axes:
-        /// 0.001 degrees), speeds in um/min (0.001 rev/min), times in ms.
+        /// 0.001 degrees), speeds in um/min (0.001 rev/min), times in us.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub struct Parameters {
             /// What is no machine datum.
@@ -119,9 +119,9 @@ use Permitted::{Range, Values};
 /// Places where position limits and cams may lie, in um or 0.001 degrees.
 const POSITIONS: Permitted = Range(-2_147_000_000, 2_147_000_000);
 /// Delays up to ten seconds, in ms.
-const TEN_SECONDS: Permitted = Range(0, 10_000);
+const TEN_SECONDS: Permitted = Range(0, 10_000_000);
 /// Delays up to a minute, in ms.
-const ONE_MINUTE: Permitted = Range(0, 60_000);
+const ONE_MINUTE: Permitted = Range(0, 60_000_000);
 
 machine_data! {
     /// Basic system clock in us (S840D-TIMING-501).
@@ -131,7 +131,7 @@ machine_data! {
     10060 "POSCTRL_SYSCLOCK_TIME_RATIO" posctrl_sysclock_time_ratio: u32 = 1, Range(1, 31), Number;
 
     /// Delay from a failure of the drive bus to pulse cancellation (S840D-BUSFAIL-701); compared only.
-    10089 "SAFE_PULSE_DIS_TIME_BUSFAIL" pulse_dis_time_busfail: u32 = 0, Range(0, 800), Milliseconds;
+    10089 "SAFE_PULSE_DIS_TIME_BUSFAIL" pulse_dis_time_busfail: u32 = 0, Range(0, 800_000), Microseconds;
 
     /// Monitoring cycle T_SI in basic system clocks (S840D-TIMING-501, S840D-PARAM-003).
     10090 "SAFETY_SYSCLOCK_TIME_RATIO" safety_sysclock_time_ratio: u32 = 3, Range(1, 50), Number;
@@ -216,31 +216,31 @@ machine_data! {
     36949 "SAFE_SLIP_VELO_TOL" slip_velo_tol: u32 = 6_000, Range(0, 1_000_000), Speed, linear up to 1_000_000;
 
     /// t_chg: tolerance time of the comparison after a change of an input signal (S840D-PARAM-019).
-    36950 "SAFE_MODE_SWITCH_TIME" mode_switch_time: u32 = 500, TEN_SECONDS, Milliseconds;
+    36950 "SAFE_MODE_SWITCH_TIME" mode_switch_time: u32 = 500_000, TEN_SECONDS, Microseconds;
 
     /// t_vel: delay to a lower speed limit or to the safe operating stop (S840D-PARAM-020).
-    36951 "SAFE_VELO_SWITCH_DELAY" velo_switch_delay: u32 = 100, ONE_MINUTE, Milliseconds;
+    36951 "SAFE_VELO_SWITCH_DELAY" velo_switch_delay: u32 = 100_000, ONE_MINUTE, Microseconds;
 
     /// t_C: from STOP C to the safe operating stop (S840D-PARAM-021).
-    36952 "SAFE_STOP_SWITCH_TIME_C" stop_switch_time_c: u32 = 100, TEN_SECONDS, Milliseconds;
+    36952 "SAFE_STOP_SWITCH_TIME_C" stop_switch_time_c: u32 = 100_000, TEN_SECONDS, Microseconds;
 
     /// t_D: from STOP D to the safe operating stop (S840D-PARAM-021).
-    36953 "SAFE_STOP_SWITCH_TIME_D" stop_switch_time_d: u32 = 100, ONE_MINUTE, Milliseconds;
+    36953 "SAFE_STOP_SWITCH_TIME_D" stop_switch_time_d: u32 = 100_000, ONE_MINUTE, Microseconds;
 
     /// t_E: from STOP E to the safe operating stop (S840D-PARAM-021).
-    36954 "SAFE_STOP_SWITCH_TIME_E" stop_switch_time_e: u32 = 100, ONE_MINUTE, Milliseconds;
+    36954 "SAFE_STOP_SWITCH_TIME_E" stop_switch_time_e: u32 = 100_000, ONE_MINUTE, Microseconds;
 
     /// t_F: from STOP F to STOP B (S840D-PARAM-021); the NCK's default, which is copied to the drive.
-    36955 "SAFE_STOP_SWITCH_TIME_F" stop_switch_time_f: u32 = 0, ONE_MINUTE, Milliseconds;
+    36955 "SAFE_STOP_SWITCH_TIME_F" stop_switch_time_f: u32 = 0, ONE_MINUTE, Microseconds;
 
     /// t_B: longest time from STOP B to STOP A (S840D-PARAM-021).
-    36956 "SAFE_PULSE_DISABLE_DELAY" pulse_disable_delay: u32 = 100, TEN_SECONDS, Milliseconds;
+    36956 "SAFE_PULSE_DISABLE_DELAY" pulse_disable_delay: u32 = 100_000, TEN_SECONDS, Microseconds;
 
     /// t_chk: time for the feedback that the pulses are cancelled (S840D-PARAM-022).
-    36957 "SAFE_PULSE_DIS_CHECK_TIME" pulse_dis_check_time: u32 = 100, TEN_SECONDS, Milliseconds;
+    36957 "SAFE_PULSE_DIS_CHECK_TIME" pulse_dis_check_time: u32 = 100_000, TEN_SECONDS, Microseconds;
 
     /// Time limit of an acceptance test (S840D-PARAM-023); compared only.
-    36958 "SAFE_ACCEPTANCE_TST_TIMEOUT" acceptance_tst_timeout: u32 = 40_000, Range(5_000, 100_000), Milliseconds;
+    36958 "SAFE_ACCEPTANCE_TST_TIMEOUT" acceptance_tst_timeout: u32 = 40_000_000, Range(5_000_000, 100_000_000), Microseconds;
 
     /// Speed below which STOP B cancels the pulses before t_B has passed (S840D-PARAM-024, S840D-PARAM-726).
     36960 "SAFE_STANDSTILL_VELO_TOL" standstill_velo_tol: u32 = 0, Range(0, 1_000_000), Speed, linear up to 1_000_000;
@@ -337,8 +337,10 @@ impl Parameters {
 
     /// Checks every value and the plausibility of their combination, and converts them for the monitors.
     ///
-    /// Delays are rounded up to whole cycles, speeds and tolerances down to whole increments: a monitor is never more
-    /// permissive than the machine datum.
+    /// Limits, thresholds and tolerances are rounded down to whole increments, the interval of the tests down to whole cycles: by
+    /// these a monitor never permits more than the machine datum. Two things it rounds up, so that what the machine datum
+    /// names is granted whole: a delay, by less than a cycle, during which the old state is tolerated that much longer; and
+    /// the slip tolerated, by the dead band and less than an increment in a pass of the comparison (see `Clock::slip`).
     ///
     /// # Errors
     /// [`ParameterError`] with the machine datum, its value and what is permitted, the first found: ranges by number

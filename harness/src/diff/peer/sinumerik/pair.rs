@@ -413,13 +413,13 @@ fn raised(out: &axis::Outputs) -> i64 {
 }
 
 /// A monitoring cycle of 12 ms: one increment a cycle is 5 mm/min.
-const CYCLE_MS: u32 = 12;
+const CYCLE_US: u32 = 12_000;
 const UM_PER_MINUTE: u32 = 5_000;
 
 /// The machine data that mean what the parameters of the systems say.
 fn configuration(p: &Params) -> Result<Configuration, Refusal> {
     let whole = |name: &str| u32::try_from(p.value(name)).unwrap_or(0);
-    let time = |name: &str| whole(name).saturating_mul(CYCLE_MS);
+    let time = |name: &str| whole(name).saturating_mul(CYCLE_US);
     let speed = |name: &str| whole(name).saturating_mul(UM_PER_MINUTE);
     let choice = |name: &str| small(p.value(name));
     let function = |enabled: bool, bit: u32| u32::from(enabled) << bit;
@@ -429,9 +429,9 @@ fn configuration(p: &Params) -> Result<Configuration, Refusal> {
             module: ControlModule::High,
             external_path: true,
             gear_max: choice("gear_max"),
-            test_interval: match time("interval") {
+            test_interval: match u64::from(whole("interval")) {
                 0 => Installation::EIGHT_HOURS,
-                interval => interval,
+                interval => interval * u64::from(CYCLE_US),
             },
             ..Installation::default()
         },
