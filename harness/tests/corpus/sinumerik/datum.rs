@@ -63,14 +63,13 @@ type Judged = (bool, bool);
 fn in_monitors(datum: &Datum, value: &str, unit: &str, rotary: bool) -> Result<Judged, String> {
     let factor = match (datum.unit, unit) {
         (Unit::Microseconds, "s") | (Unit::Grid, "mm") => 1_000_000,
-        (Unit::Milliseconds, "s")
+        (Unit::Microseconds, "ms")
         | (Unit::Length, "mm")
         | (Unit::Length | Unit::Angle, "degrees")
         | (Unit::Grid, "um")
         | (Unit::Pitch, "mm" | "mm/rev")
         | (Unit::Speed, "mm/min" | "rev/min") => 1_000,
-        (Unit::Milliseconds, "ms")
-        | (Unit::Length, "um")
+        (Unit::Length, "um")
         | (Unit::Length | Unit::Angle, "0.001 degrees")
         | (Unit::Percent, "%")
         | (Unit::Hertz, "Hz")
