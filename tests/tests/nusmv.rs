@@ -147,7 +147,11 @@ fn tlc(
     folder.write("model.tla", &module.module);
     // A path may hold a colon, which separates the entries of a class path.
     folder.link(jar, "tla2tools.jar");
+    // TLC names a folder in that of its files by the second, and refuses one that is there already.
+    let runs = std::cell::Cell::new(0);
     let run = |config: &str| {
+        runs.set(runs.get() + 1);
+        let files = format!("meta-{}", runs.get());
         folder.write("one.cfg", config);
         let options = [
             "-XX:+UseSerialGC",
@@ -164,7 +168,7 @@ fn tlc(
             "-workers",
             "1",
             "-metadir",
-            "meta",
+            &files,
             "-config",
             "one.cfg",
             "model",

@@ -20,7 +20,7 @@ const COMBINATIONS: u128 = 10_000;
 const TRANSITIONS: u128 = 400_000;
 
 /// The systems of the shipped specifications that are left out for that reason, as file and system.
-const LEFT_OUT: [&str; 40] = [
+const LEFT_OUT: [&str; 41] = [
     "axis/channel",
     "axis/referencing",
     "axis/stop",
@@ -42,6 +42,7 @@ const LEFT_OUT: [&str; 40] = [
     "faults/fault_actual",
     "faults/fault_selection",
     "faults/fault_test",
+    "fields/functions",
     "group/axes",
     "group/spindle",
     "interface/requests",
