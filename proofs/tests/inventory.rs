@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use stillpoint_proofs::inventory;
 use stillpoint_proofs::page;
-use stillpoint_proofs::results::{Results, Verdict, solver};
+use stillpoint_proofs::results::{Results, Verdict, parts, solver};
 
 #[test]
 fn every_enumeration_proves_and_the_page_is_up_to_date() {
@@ -36,6 +36,7 @@ fn every_answer_of_kani_is_one_of_its_harness() {
             continue;
         };
         let answer = &row.answer;
+        assert_eq!(answer.parts, parts(entry), "{}: its parts", entry.id);
         assert!(
             !matches!(answer.verdict, Verdict::Fails(_) | Verdict::Vacuous),
             "{}: {}",

@@ -12,7 +12,6 @@ use stillpoint::explore::http::Head;
 use stillpoint::recording::csv::{self, Columns};
 use stillpoint::recording::{Recording, Signal, Target as Machinery, ndjson};
 use stillpoint::simulate::{self, Scenario};
-
 use stillpoint::subject::{self, Readings};
 use stillpoint_spec::Spec;
 use stillpoint_spec::diag::Diagnostics;

@@ -62,6 +62,13 @@ fn run() -> Result<bool, String> {
             // Harnesses outside the inventory: the broken monitors.
             continue;
         };
+        // A run that was stopped between the parts of a harness has shown nothing of the others.
+        let parts = results::parts(entry);
+        if answer.parts != parts && !matches!(answer.verdict, Verdict::Fails(_)) {
+            println!("{id}: only {} of {parts} parts have ended", answer.parts);
+            holds = false;
+            continue;
+        }
         seconds += answer.seconds;
         holds &= match answer.verdict {
             Verdict::Holds => true,

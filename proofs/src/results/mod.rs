@@ -105,6 +105,19 @@ pub fn solver(entry: &Entry) -> &'static str {
     }
 }
 
+/// The Kani harnesses of an entry: 1, or its parts, and for a property beside its parts the whole with the covers.
+pub fn parts(entry: &Entry) -> u64 {
+    let declared = entry.kani.split_once("parts").and_then(|(_, rest)| {
+        let digits = rest.trim_start_matches(|c: char| !c.is_ascii_digit());
+        digits
+            .split(|c: char| !c.is_ascii_digit())
+            .next()?
+            .parse()
+            .ok()
+    });
+    declared.map_or(1, |count: u64| count + u64::from(entry.file.is_some()))
+}
+
 impl Results {
     /// Reads [`FILE`]; a file that is not there has no rows.
     ///
@@ -218,6 +231,16 @@ impl Results {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn parts_are_those_declared() {
+        let of = |id: &str| inventory::all().find(|entry| entry.id == id).map(parts);
+        assert_eq!(of("stop_contract"), Some(1));
+        assert_eq!(of("speed_contract"), Some(1));
+        assert_eq!(of("channel_contract"), Some(5));
+        assert_eq!(of("units_speed"), Some(3));
+        assert_eq!(of("hfs_units"), Some(12));
+    }
 
     #[test]
     fn a_file_is_read_as_it_was_written() {
