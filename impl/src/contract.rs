@@ -1,6 +1,6 @@
 //! Contracts, written once.
 //!
-//! The step function of a monitor is declared by one `contract!` block: a precondition and a list of *clauses*. A clause is
+//! The step function of a monitor is declared by one `monitor!` block: a precondition and a list of *clauses*. A clause is
 //! an implication over one step, `when premise => conclusion`, with the requirements it stands for. From the one list
 //! come
 //!
@@ -11,6 +11,9 @@
 //!   contract is broken. Release builds contain neither checks nor panics;
 //! * with the feature `creusot` one `requires` and one `ensures` per clause as Creusot contracts.
 //!
+//! It also makes the monitor known to generic code as a [`Contract`]; the list of its family is the only other place that
+//! names it (`heidenhain_monitors!`, `sinumerik_monitors!`).
+//!
 //! `next` is pure and takes its state by value, so no clause needs the value of an expression before the call.
 //! Together with the invariant, which every contract assumes and re-establishes, the clauses are inductive: what holds for
 //! one step from any state that satisfies the invariant holds along every run from the initial state.
@@ -19,6 +22,74 @@
 //! and nothing else; no Creusot run has been made. Under Creusot's own compiler (`cfg(creusot)`) the predicates are logic
 //! functions, and what calls them as ordinary functions is left out; the small functions of [`crate::kernel`] that the
 //! predicates call would need logic counterparts there.
+
+use crate::fields::Fields;
+#[cfg(feature = "mutants")]
+use crate::mutant::Wrong;
+
+/// The step function of a monitor.
+pub type Next<M> = fn(
+    <M as Contract>::State,
+    &<M as Contract>::Config,
+    &<M as Contract>::Inputs,
+) -> (<M as Contract>::State, <M as Contract>::Outputs);
+
+/// A step of a monitor.
+pub type StepOf<M> = Step<
+    <M as Contract>::State,
+    <M as Contract>::Config,
+    <M as Contract>::Inputs,
+    <M as Contract>::Outputs,
+>;
+
+/// A clause of a monitor.
+pub type ClauseOf<M> = Clause<
+    <M as Contract>::State,
+    <M as Contract>::Config,
+    <M as Contract>::Inputs,
+    <M as Contract>::Outputs,
+>;
+
+/// A monitor with all that generic code needs to know of it; every one but the compositions is declared by `monitor!`.
+#[cfg(not(creusot))]
+pub trait Contract: 'static {
+    /// The module of its family.
+    const FAMILY: &'static str;
+    /// Its own module.
+    const NAME: &'static str;
+    /// The state between two cycles.
+    type State: Fields + PartialEq + core::fmt::Debug;
+    /// The parameters.
+    type Config: Fields + PartialEq + core::fmt::Debug;
+    /// The inputs of one cycle.
+    type Inputs: Fields + PartialEq + core::fmt::Debug;
+    /// The outputs of one cycle.
+    type Outputs: Fields + PartialEq + core::fmt::Debug;
+    /// The state at power-on.
+    const INITIAL: Self::State;
+    /// The clauses of the contract.
+    const CLAUSES: &'static [ClauseOf<Self>];
+
+    /// Whether the state is consistent under these parameters.
+    fn invariant(state: &Self::State, config: &Self::Config) -> bool;
+
+    /// Whether a constructor gives these parameters.
+    fn accepted(config: &Self::Config) -> bool;
+
+    /// One cycle, with the assertions of a debug build.
+    fn next(
+        state: Self::State,
+        config: &Self::Config,
+        inputs: &Self::Inputs,
+    ) -> (Self::State, Self::Outputs);
+
+    /// Every clause on one step.
+    fn evaluate(step: StepOf<Self>) -> Evaluation;
+
+    /// Its deliberately wrong variants.
+    #[cfg(feature = "mutants")]
+    fn wrong() -> &'static [Wrong<Next<Self>>];
+}
 
 /// One observed step of a monitor: everything a clause may talk about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -79,10 +150,12 @@ impl core::fmt::Display for InvalidState {
 
 impl core::error::Error for InvalidState {}
 
-/// The state of a monitor that remembers nothing from one cycle to the next. One type for all of them, so that they have
-/// the same form as the others.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct Stateless;
+fields! {
+    /// The state of a monitor that remembers nothing from one cycle to the next. One type for all of them, so that they have
+    /// the same form as the others.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct Stateless;
+}
 
 impl Stateless {
     /// The only state.
@@ -93,6 +166,46 @@ impl Stateless {
     pub const fn invariant<C>(&self, _config: &C) -> bool {
         true
     }
+}
+
+/// Declares a monitor: `contract!`, and what makes it a [`Contract`] under the names of its family and of its module.
+macro_rules! monitor {
+    ($family:ident::$name:ident; $($clauses:tt)+) => {
+        contract! { $($clauses)+ }
+
+        #[cfg(not(creusot))]
+        impl $crate::contract::Contract for Monitor {
+            const FAMILY: &'static str = stringify!($family);
+            const NAME: &'static str = stringify!($name);
+            type State = State;
+            type Config = Config;
+            type Inputs = Inputs;
+            type Outputs = Outputs;
+            const INITIAL: State = State::INITIAL;
+            const CLAUSES: &'static [$crate::contract::ClauseOf<Self>] = CLAUSES;
+
+            fn invariant(state: &State, config: &Config) -> bool {
+                state.invariant(config)
+            }
+
+            fn accepted(config: &Config) -> bool {
+                config.accepted()
+            }
+
+            fn next(state: State, config: &Config, inputs: &Inputs) -> (State, Outputs) {
+                next(state, config, inputs)
+            }
+
+            fn evaluate(step: Step) -> $crate::contract::Evaluation {
+                evaluate(step)
+            }
+
+            #[cfg(feature = "mutants")]
+            fn wrong() -> &'static [$crate::mutant::Wrong<$crate::contract::Next<Self>>] {
+                $crate::$family::mutant::$name()
+            }
+        }
+    };
 }
 
 /// Declares `next` with its contract, from the module's `State`, `Config`, `Inputs`, `Outputs` and `transition`.

@@ -7,6 +7,7 @@
 //! | [`kernel`] | what the monitors of every family are made of: durations, positions, speeds, windows, timers |
 //! | [`units`] | user values to increments, rounded to the safe side |
 //! | [`contract`] | how a step carries its contract |
+//! | [`fields`] | the types of the monitors as numbers with names |
 //!
 //! A family uses nothing of another one.
 //!
@@ -19,6 +20,8 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+#[macro_use]
+pub mod fields;
 #[macro_use]
 pub mod contract;
 #[cfg(feature = "mutants")]

@@ -140,12 +140,14 @@ pub(crate) const fn narrow(value: u64) -> Result<u32, ConfigError> {
     }
 }
 
-/// The range of positions in which the cams of an endlessly turning axis are calculated: `lower` up to, not including,
-/// `upper`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct ModuloRange {
-    lower: Position,
-    upper: Position,
+fields! {
+    /// The range of positions in which the cams of an endlessly turning axis are calculated: `lower` up to, not including,
+    /// `upper`.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct ModuloRange {
+        lower: Position,
+        upper: Position,
+    }
 }
 
 impl ModuloRange {

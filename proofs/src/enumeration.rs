@@ -17,7 +17,7 @@ pub struct Domain {
 }
 
 /// The result of an enumeration.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Count {
     /// Runs inside the domain of the property, each a different case.
     pub cases: u64,
@@ -118,6 +118,10 @@ impl Source for Odometer {
         }
         let digit = self.choose(reach + 1);
         if digit > reach { highest } else { digit }
+    }
+
+    fn any_whole(&mut self, low: i64, high: i64) -> i64 {
+        low + i64::from(self.choose(u32::try_from(high - low).unwrap_or(u32::MAX)))
     }
 
     fn enumerates(&self) -> bool {

@@ -64,6 +64,25 @@ impl Source for Symbolic {
         self.any_in(0, highest)
     }
 
+    fn any_whole(&mut self, low: i64, high: i64) -> i64 {
+        // As few bits as the type has, and no assumption where it has them all.
+        if low == 0 && high == i64::from(u8::MAX) {
+            i64::from(kani::any::<u8>())
+        } else if low == 0 && high == i64::from(u16::MAX) {
+            i64::from(kani::any::<u16>())
+        } else if low == 0 && high == i64::from(u32::MAX) {
+            i64::from(kani::any::<u32>())
+        } else if low == i64::from(i32::MIN) && high == i64::from(i32::MAX) {
+            i64::from(kani::any::<i32>())
+        } else if low == 0 && high < i64::from(u32::MAX) {
+            i64::from(self.any_in(0, high as u32))
+        } else {
+            let value = kani::any();
+            kani::assume(low <= value && value <= high);
+            value
+        }
+    }
+
     fn any_part(&mut self, _: u32) -> u32 {
         self.part
     }

@@ -20,6 +20,7 @@ pub mod enumeration;
 #[macro_use]
 pub mod inventory;
 pub mod arbitrary;
+pub mod draw;
 #[cfg(kani)]
 mod kani_source;
 #[cfg(not(kani))]
@@ -29,3 +30,5 @@ pub mod properties;
 pub mod results;
 pub mod sampling;
 pub mod source;
+#[cfg(not(kani))]
+pub mod tries;

@@ -168,7 +168,9 @@ fn details(page: &mut String, entry: &Entry, count: &Count) {
     let _ = write!(
         page,
         "\n## `{}`\n\nMonitor: {}. Domain of the enumeration: {}.\n\n",
-        entry.id, entry.monitor, entry.domain
+        entry.id,
+        entry.monitor,
+        (entry.domain)()
     );
     let met = |index: usize| grouped(count.covers.get(index).copied().unwrap_or(0));
     let clauses = (entry.clauses)();

@@ -74,6 +74,17 @@ impl Source for Tape<'_> {
         self.wide(highest)
     }
 
+    fn any_whole(&mut self, low: i64, high: i64) -> i64 {
+        // Near 0, near the ends, or anywhere; a range of 64 bits is taken as one of 32.
+        let span = u32::try_from(high.saturating_sub(low)).unwrap_or(u32::MAX);
+        let value = low.saturating_add(i64::from(self.wide(span)));
+        if low < 0 && self.word() & 1 == 0 {
+            (value - low).min(high)
+        } else {
+            value
+        }
+    }
+
     fn cover(&mut self, index: usize, met: bool) {
         if let Some(count) = self.covers.get_mut(index) {
             *count += u64::from(met);

@@ -39,6 +39,9 @@ pub trait Source {
     /// Any number of at most `highest`; the enumeration takes those up to `reach`, and `highest` itself.
     fn any_u32(&mut self, reach: u32, highest: u32) -> u32;
 
+    /// Any whole number from `low` to `high`, both included, which are in 32 bits or the ends of 64.
+    fn any_whole(&mut self, low: i64, high: i64) -> i64;
+
     /// As [`Source::any_u32`], but Kani takes only the numbers of `bits` bits: for the factors and divisors of arithmetic that
     /// it cannot decide at full width. Each use is a caveat of the harness.
     fn any_cut(&mut self, reach: u32, highest: u32, _bits: u32) -> u32 {

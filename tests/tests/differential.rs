@@ -3,14 +3,13 @@
 use std::collections::BTreeSet;
 
 use stillpoint::diff::pairing::vary;
-use stillpoint::diff::peer::Mutant;
 use stillpoint::diff::product::Product;
 use stillpoint::diff::random::Random;
 use stillpoint::diff::slices::slices;
 use stillpoint::diff::{Compared, Pairing, bytes, exhaustive, pairings, peer, sample, to_json};
 use stillpoint::subject::{self, Readings};
 use stillpoint_model::Options;
-use stillpoint_monitors::sinumerik::mutant::Mutant as Sinumerik;
+use stillpoint_monitors::mutant::Mutant;
 use stillpoint_tests::root;
 
 /// The tables compared: those of a machine, or with the parameters of their systems. What several files use is compared with
@@ -83,18 +82,17 @@ fn explore(pairing: &Pairing) -> Compared {
 
 /// The machine that a mutant is one of; none where no table states what its monitor does, so that only its contract finds it.
 fn machine(mutant: Mutant) -> Option<Name> {
-    let family = mutant.family();
+    let family = peer::family_of(mutant);
     let mut names = family.machines.iter().chain(family.systems);
-    let found = names.find(|(_, module)| *module == mutant.monitor());
+    let found = names.find(|(_, module)| *module == mutant.monitor);
     // Both channels are compared in parts of their own: see the test `pair`.
-    if mutant.monitor() == "pair" {
+    if mutant.monitor == "pair" {
         return None;
     }
     // The filter is part of the table `splc`, which is paired with the blocks together.
     let uncompared = ["channel", "key_filter", "safe_output"];
     assert!(
-        found.is_some()
-            != (family.name == "heidenhain-fs" && uncompared.contains(&mutant.monitor())),
+        found.is_some() != (family.name == "heidenhain-fs" && uncompared.contains(&mutant.monitor)),
         "{mutant:?} is one of no machine that is compared"
     );
     found.map(|(machine, _)| (family.name, (*machine).to_owned()))
@@ -102,7 +100,7 @@ fn machine(mutant: Mutant) -> Option<Name> {
 
 /// The wrong monitors that are compared with a table, and its name.
 fn mutants() -> impl Iterator<Item = (Mutant, Name)> {
-    Mutant::all().filter_map(|mutant| Some((mutant, machine(mutant)?)))
+    peer::mutants().filter_map(|mutant| Some((mutant, machine(mutant)?)))
 }
 
 #[test]
@@ -144,8 +142,8 @@ fn no_reachable_pair_differs() {
 #[test]
 fn every_wrong_monitor_is_found_by_exploration() {
     let pairings = pieces();
-    let names: BTreeSet<&str> = Mutant::all().map(Mutant::name).collect();
-    assert_eq!(names.len(), Mutant::all().count(), "a name is given once");
+    let names: BTreeSet<&str> = peer::mutants().map(|mutant| mutant.name).collect();
+    assert_eq!(names.len(), peer::mutants().count(), "a name is given once");
     assert!(names.len() >= 17);
     let mut survivors = Vec::new();
     for (mutant, machine) in mutants() {
@@ -297,7 +295,6 @@ fn runs_described_by_bytes_find_a_wrong_monitor() {
             .any(|data| bytes::run(&product, inputs, data).is_some())
     };
     assert!(!found(None));
-    assert!(found(Some(Mutant::Sinumerik(
-        Sinumerik::StopLowerDisplaces
-    ))));
+    let wrong = peer::mutant("stop-lower-displaces").expect("its name");
+    assert!(found(Some(wrong)));
 }

@@ -1,10 +1,11 @@
 //! Both channels of an axis: the production pair against the systems composed for it, in parts.
 
-use stillpoint::diff::peer::Mutant;
+use stillpoint::diff::peer;
 use stillpoint::diff::slices::slices;
 use stillpoint::diff::{Compared, Pairing, exhaustive, pairings};
 use stillpoint::subject::{self, Readings};
 use stillpoint_model::Options;
+use stillpoint_monitors::mutant::Mutant;
 use stillpoint_tests::root;
 
 const FILES: [&str; 2] = [
@@ -119,11 +120,11 @@ const WRONG: [(&str, usize); 15] = [
 #[test]
 fn every_wrong_coupling_is_found() {
     let parts = parts();
-    let all = Mutant::all().filter(|m| m.monitor() == "pair");
-    let names: Vec<&str> = all.map(Mutant::name).collect();
+    let all = peer::mutants().filter(|m| m.monitor == "pair");
+    let names: Vec<&str> = all.map(|m| m.name).collect();
     assert_eq!(names, WRONG.map(|(name, _)| name));
     for (name, part) in WRONG {
-        let mutant: Mutant = name.parse().unwrap_or_else(|e| panic!("{e}"));
+        let mutant = peer::mutant(name).unwrap_or_else(|e| panic!("{e}"));
         let found = compare(&parts[part], Some(mutant)).divergence;
         let diagram = found.unwrap_or_else(|| panic!("{name} survives"));
         assert!(diagram.text().contains('^'), "{name}");

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use clap::Args;
-use stillpoint::diff::peer::Mutant;
+use stillpoint::diff::peer;
 use stillpoint::diff::replay;
 use stillpoint::diff::slices::slices;
 use stillpoint::diff::{Compared, DiffError, Pairing, exhaustive, pairings, sample, text, to_json};
@@ -13,6 +13,7 @@ use stillpoint::recording::{self, Target, ndjson};
 use stillpoint::simulate;
 use stillpoint::subject::{self, Readings};
 use stillpoint_model::{Limits, Options};
+use stillpoint_monitors::mutant::Mutant;
 use stillpoint_show::diagram::Diagram;
 use stillpoint_spec::machine;
 
@@ -63,10 +64,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let mutant = arguments
         .mutant
         .as_ref()
-        .map(|name| {
-            name.parse::<Mutant>()
-                .map_err(|e| Failure::Other(format!("`{name}`: {e}")))
-        })
+        .map(|name| peer::mutant(name).map_err(|e| Failure::Other(format!("`{name}`: {e}"))))
         .transpose()?;
     let subject = subject::load(&arguments.file, &Readings::new())?;
     let fail = |e: DiffError| match e {

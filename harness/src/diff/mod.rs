@@ -19,9 +19,9 @@ use stillpoint_show::diagram::Diagram;
 use crate::report::{grouped, params};
 use compact::Compact;
 pub use pairing::{Pairing, pairings};
-use peer::Mutant;
 use product::Product;
 use random::{Driver, Random};
+use stillpoint_monitors::mutant::Mutant;
 
 /// The result for one pairing.
 #[derive(Debug)]

@@ -227,10 +227,7 @@ impl<'a> Product<'a> {
     }
 
     /// What the table said in the last step, by the names of the monitor's outputs.
-    pub(super) fn said<'w>(
-        &self,
-        work: &'w Work,
-    ) -> impl Iterator<Item = (&'static str, i64)> + use<'w> {
+    pub(super) fn said<'w>(&'w self, work: &'w Work) -> impl Iterator<Item = (&'static str, i64)> {
         self.peer
             .outputs()
             .iter()

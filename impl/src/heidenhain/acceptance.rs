@@ -7,10 +7,12 @@
 use crate::heidenhain::types::Stop;
 use crate::kernel::ConfigError;
 
-/// The length of the list.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Config {
-    most: u16,
+config! {
+    /// The length of the list.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Config {
+        most: u16,
+    }
 }
 
 impl Config {
@@ -32,37 +34,31 @@ impl Config {
     }
 }
 
-/// How far the acceptance is.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Phase {
-    /// The set is as it was accepted.
-    Valid,
-    /// The set is another one.
-    #[default]
-    Changed,
-    /// The password has been given: the changes are confirmed one by one.
-    Confirming,
-    /// Refused until the next boot.
-    Interrupted,
-}
-
-impl Phase {
-    /// Every phase, in the order of their declaration.
-    pub const ALL: [Self; 4] = [
-        Self::Valid,
-        Self::Changed,
-        Self::Confirming,
-        Self::Interrupted,
-    ];
-}
-
-/// The state between two cycles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct State {
+fields! {
     /// How far the acceptance is.
-    pub phase: Phase,
-    /// How many changes are still to be confirmed; 0 outside [`Phase::Changed`] and [`Phase::Confirming`].
-    pub open: u16,
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub enum Phase {
+        /// The set is as it was accepted.
+        Valid,
+        /// The set is another one.
+        #[default]
+        Changed,
+        /// The password has been given: the changes are confirmed one by one.
+        Confirming,
+        /// Refused until the next boot.
+        Interrupted,
+    }
+}
+
+fields! {
+    /// The state between two cycles.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct State {
+        /// How far the acceptance is.
+        pub phase: Phase,
+        /// How many changes are still to be confirmed; 0 outside [`Phase::Changed`] and [`Phase::Confirming`].
+        pub open: u16,
+    }
 }
 
 impl State {
@@ -80,33 +76,37 @@ impl State {
     }
 }
 
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// The control boots.
-    pub boot: bool,
-    /// The checksum of the set equals the stored one.
-    pub matches: bool,
-    /// The number of changed parameters.
-    pub changes: u16,
-    /// The password of the machine builder, with the permissive key.
-    pub password: bool,
-    /// A wrong password, or the dialogue was cancelled.
-    pub cancel: bool,
-    /// The permissive key confirms the parameter shown: one press, one parameter.
-    pub permissive: bool,
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// The control boots.
+        pub boot: bool,
+        /// The checksum of the set equals the stored one.
+        pub matches: bool,
+        /// The number of changed parameters.
+        pub changes: u16,
+        /// The password of the machine builder, with the permissive key.
+        pub password: bool,
+        /// A wrong password, or the dialogue was cancelled.
+        pub cancel: bool,
+        /// The permissive key confirms the parameter shown: one press, one parameter.
+        pub permissive: bool,
+    }
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// The control may be put into service.
-    pub in_service: bool,
-    /// The stop to be raised.
-    pub demand: Stop,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// The control may be put into service.
+        pub in_service: bool,
+        /// The stop to be raised.
+        pub demand: Stop,
+    }
 }
 
-contract! {
+monitor! { heidenhain::acceptance;
     /// A boot with the stored checksum is accepted as it is.
     accepted_set_starts ["HFS-PARAM-004", "HFS-PARAM-007"]:
         when |s| s.inputs.boot && s.inputs.matches

@@ -11,11 +11,14 @@
 use crate::heidenhain::types::Stop;
 use crate::kernel::{ConfigError, Cycles};
 
-/// The window, and the stop of the item.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Config {
-    window: Cycles,
-    fatal: bool,
+config! {
+    /// The window, and the stop of the item.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Config {
+        window: Cycles,
+        fatal: bool,
+    }
+    accepted |config| Config::new(config.window).is_ok()
 }
 
 impl Config {
@@ -50,11 +53,13 @@ impl Config {
     }
 }
 
-/// The state between two cycles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct State {
-    /// For how many cycles the channels have differed, at most the window.
-    pub cycles: Cycles,
+fields! {
+    /// The state between two cycles.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct State {
+        /// For how many cycles the channels have differed, at most the window.
+        pub cycles: Cycles,
+    }
 }
 
 impl State {
@@ -70,23 +75,27 @@ impl State {
     }
 }
 
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// The two channels differ in this cycle.
-    pub differ: bool,
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// The two channels differ in this cycle.
+        pub differ: bool,
+    }
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// They have differed for a whole window.
-    pub fault: bool,
-    /// The stop to be raised: SS1F for the flag "axis checked", SS1 for everything else.
-    pub demand: Stop,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// They have differed for a whole window.
+        pub fault: bool,
+        /// The stop to be raised: SS1F for the flag "axis checked", SS1 for everything else.
+        pub demand: Stop,
+    }
 }
 
-contract! {
+monitor! { heidenhain::agreement;
     /// A whole window of difference is a fault, which lasts as long as they differ.
     long_difference_is_a_fault ["HFS-P-31", "HFS-KDV-001", "HFS-KDV-005", "HFS-KDV-006"]:
         when |s| s.inputs.differ && s.before.cycles.count() as u64 + 1 >= s.config.window.count() as u64

@@ -9,21 +9,25 @@
 pub use crate::contract::Stateless as State;
 use crate::heidenhain::types::{GroupState, Stop, Unit};
 
-/// The function has no parameters.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Config;
+config! {
+    /// The function has no parameters.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Config;
+}
 
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// The monitoring state of the groups of this working space.
-    pub state: GroupState,
-    /// The machine operating mode.
-    pub unit: Unit,
-    /// How many NC and auxiliary axes of the working space move.
-    pub moving: u8,
-    /// How many of these belong to no group (SMP600 = -1).
-    pub ungrouped: u8,
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// The monitoring state of the groups of this working space.
+        pub state: GroupState,
+        /// The machine operating mode.
+        pub unit: Unit,
+        /// How many NC and auxiliary axes of the working space move.
+        pub moving: u8,
+        /// How many of these belong to no group (SMP600 = -1).
+        pub ungrouped: u8,
+    }
 }
 
 impl Inputs {
@@ -49,16 +53,18 @@ impl Inputs {
     }
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// One axis only may move.
-    pub one_only: bool,
-    /// The stop to be raised for the groups of the working space.
-    pub demand: Stop,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// One axis only may move.
+        pub one_only: bool,
+        /// The stop to be raised for the groups of the working space.
+        pub demand: Stop,
+    }
 }
 
-contract! {
+monitor! { heidenhain::axis_count;
     /// SOM_2: a second moving axis stops all of them.
     one_axis_in_som_2 ["HFS-MODE-004/c", "HFS-P-32", "HFS-MON-007", "HFS-MON-008"]:
         when |s| s.inputs.state == GroupState::Sls2 && s.inputs.moving > 1 && s.inputs.ungrouped == 0

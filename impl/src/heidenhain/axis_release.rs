@@ -4,10 +4,12 @@
 use crate::heidenhain::stop;
 use crate::kernel::{ConfigError, Cycles};
 
-/// The time of the axis' own SS2.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Config {
-    t_ss2: Cycles,
+config! {
+    /// The time of the axis' own SS2.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Config {
+        t_ss2: Cycles,
+    }
 }
 
 impl Config {
@@ -31,30 +33,29 @@ impl Config {
     }
 }
 
-/// What the axis does.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Mode {
-    /// Monitored for standstill.
-    #[default]
-    Sos,
-    /// Released: the limits of the group apply.
-    Released,
-    /// Braking by an SS2 of its own.
-    Ss2,
-}
-
-impl Mode {
-    /// Every mode.
-    pub const ALL: [Self; 3] = [Self::Sos, Self::Released, Self::Ss2];
-}
-
-/// The state between two cycles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct State {
+fields! {
     /// What the axis does.
-    pub mode: Mode,
-    /// What is left of the time of its SS2 while it brakes; 0 when it is over.
-    pub timer: Cycles,
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub enum Mode {
+        /// Monitored for standstill.
+        #[default]
+        Sos,
+        /// Released: the limits of the group apply.
+        Released,
+        /// Braking by an SS2 of its own.
+        Ss2,
+    }
+}
+
+fields! {
+    /// The state between two cycles.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct State {
+        /// What the axis does.
+        pub mode: Mode,
+        /// What is left of the time of its SS2 while it brakes; 0 when it is over.
+        pub timer: Cycles,
+    }
 }
 
 impl State {
@@ -71,29 +72,33 @@ impl State {
     }
 }
 
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// The group was released at the start of the cycle.
-    pub group_released: bool,
-    /// Feed enable of the axis (`PP_AxFeedEnable`).
-    pub feed: bool,
-    /// The axis moves: 50 mm/min or more.
-    pub moving: bool,
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// The group was released at the start of the cycle.
+        pub group_released: bool,
+        /// Feed enable of the axis (`PP_AxFeedEnable`).
+        pub feed: bool,
+        /// The axis moves: 50 mm/min or more.
+        pub moving: bool,
+    }
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// What the axis does.
-    pub mode: Mode,
-    /// It was not braked in time, or moves without feed enable: SS1.
-    pub asks_ss1: bool,
-    /// It has come to rest: where it is the last one, the group goes to its standstill state.
-    pub stands: bool,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// What the axis does.
+        pub mode: Mode,
+        /// It was not braked in time, or moves without feed enable: SS1.
+        pub asks_ss1: bool,
+        /// It has come to rest: where it is the last one, the group goes to its standstill state.
+        pub stands: bool,
+    }
 }
 
-contract! {
+monitor! { heidenhain::axis_release;
     /// Without feed enable a moving axis brakes, in the cycle in which the enable goes, with its whole time.
     lost_enable_brakes ["HFS-SS2-008/a", "HFS-P-48", "HFS-AXG-009", "HFS-SS2-011", "HFS-FAULT-023"]:
         when |s| s.inputs.group_released && s.before.mode == Mode::Released && !s.inputs.feed && s.inputs.moving

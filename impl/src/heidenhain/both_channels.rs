@@ -9,9 +9,11 @@ pub use crate::contract::Stateless as State;
 use crate::heidenhain::types::{GroupState, Stop};
 use crate::kernel::ConfigError;
 
-/// Nothing to configure.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Config;
+config! {
+    /// Nothing to configure.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Config;
+}
 
 impl Config {
     /// The only configuration.
@@ -23,45 +25,49 @@ impl Config {
     }
 }
 
-/// The checked fields of both channels (see [`crate::heidenhain::gate`]).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// Requested state of channel A.
-    pub request_mc: GroupState,
-    /// Requested state of channel B.
-    pub request_cc: GroupState,
-    /// Requested stop of channel A.
-    pub stop_mc: Stop,
-    /// Requested stop of channel B.
-    pub stop_cc: Stop,
-    /// Channel A activates the group.
-    pub starts_mc: bool,
-    /// Channel B activates the group.
-    pub starts_cc: bool,
-    /// Channel A has a valid permissive.
-    pub held_mc: bool,
-    /// Channel B has a valid permissive.
-    pub held_cc: bool,
-    /// They have differed for longer than the window.
-    pub late: bool,
+fields! {
+    /// The checked fields of both channels (see [`crate::heidenhain::gate`]).
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// Requested state of channel A.
+        pub request_mc: GroupState,
+        /// Requested state of channel B.
+        pub request_cc: GroupState,
+        /// Requested stop of channel A.
+        pub stop_mc: Stop,
+        /// Requested stop of channel B.
+        pub stop_cc: Stop,
+        /// Channel A activates the group.
+        pub starts_mc: bool,
+        /// Channel B activates the group.
+        pub starts_cc: bool,
+        /// Channel A has a valid permissive.
+        pub held_mc: bool,
+        /// Channel B has a valid permissive.
+        pub held_cc: bool,
+        /// They have differed for longer than the window.
+        pub late: bool,
+    }
 }
 
-/// What is in force.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// The requested state.
-    pub request: GroupState,
-    /// The group is activated.
-    pub starts: bool,
-    /// A permissive is valid.
-    pub held: bool,
-    /// The requested stop; at least SS1 where the channels differ for too long.
-    pub stop: Stop,
-    /// The channels differ.
-    pub differ: bool,
+fields! {
+    /// What is in force.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// The requested state.
+        pub request: GroupState,
+        /// The group is activated.
+        pub starts: bool,
+        /// A permissive is valid.
+        pub held: bool,
+        /// The requested stop; at least SS1 where the channels differ for too long.
+        pub stop: Stop,
+        /// The channels differ.
+        pub differ: bool,
+    }
 }
 
-contract! {
+monitor! { heidenhain::both_channels;
     /// The request in force is one of the two, and neither is stricter.
     stricter_request_counts ["HFS-KDV-005", "HFS-STOP-006/a", "HFS-API-001"]:
         when |s| s.inputs.request_mc != s.inputs.request_cc

@@ -11,41 +11,47 @@ pub use crate::contract::Stateless as State;
 use crate::heidenhain::general_fields;
 use crate::heidenhain::types::{Som, Stop};
 
-/// Nothing to configure.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Config;
-
-/// The fields of both channels, as each kernel has taken them over (see [`general_fields`]).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// Those of the MC.
-    pub mc: general_fields::Outputs,
-    /// Those of the CC.
-    pub cc: general_fields::Outputs,
+config! {
+    /// Nothing to configure.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Config;
 }
 
-/// What is in force.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// The higher of the stops for an unknown number: none, or SS1F.
-    pub stop: Stop,
-    /// The safe operating mode; SOM_1 while the channels differ in it.
-    pub som: Som,
-    /// Control voltage is asked for, or on.
-    pub voltage: bool,
-    /// The drives of the group may be switched on.
-    pub drives: bool,
-    /// The chain of normally closed contacts is closed.
-    pub chain: bool,
-    /// A machine key is pressed: the self-test waits.
-    pub keys: bool,
-    /// The axis may move.
-    pub feed: bool,
-    /// A field differs.
-    pub differ: bool,
+fields! {
+    /// The fields of both channels, as each kernel has taken them over (see [`general_fields`]).
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// Those of the MC.
+        pub mc: general_fields::Outputs,
+        /// Those of the CC.
+        pub cc: general_fields::Outputs,
+    }
 }
 
-contract! {
+fields! {
+    /// What is in force.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// The higher of the stops for an unknown number: none, or SS1F.
+        pub stop: Stop,
+        /// The safe operating mode; SOM_1 while the channels differ in it.
+        pub som: Som,
+        /// Control voltage is asked for, or on.
+        pub voltage: bool,
+        /// The drives of the group may be switched on.
+        pub drives: bool,
+        /// The chain of normally closed contacts is closed.
+        pub chain: bool,
+        /// A machine key is pressed: the self-test waits.
+        pub keys: bool,
+        /// The axis may move.
+        pub feed: bool,
+        /// A field differs.
+        pub differ: bool,
+    }
+}
+
+monitor! { heidenhain::both_fields;
     /// Any field that differs is a difference; the test input of the brakes too, with which each channel tests by itself.
     every_field_is_compared ["HFS-KDV-001", "HFS-KDV-002/a"]:
         when |s| s.inputs.mc.som != s.inputs.cc.som || s.inputs.mc.voltage != s.inputs.cc.voltage

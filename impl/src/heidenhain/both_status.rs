@@ -9,40 +9,48 @@
 pub use crate::contract::Stateless as State;
 use crate::heidenhain::types::Stop;
 
-/// Nothing to configure.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Config;
-
-/// What one channel tells the other.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Status {
-    /// The program of its safe PLC is being executed.
-    pub executed: bool,
-    /// The run-time system of its safe PLC asks for SS1F.
-    pub runtime: bool,
-    /// Its half of the dual-channel outputs as they read back, one bit each.
-    pub outputs: u16,
+config! {
+    /// Nothing to configure.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Config;
 }
 
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// What the MC tells.
-    pub mc: Status,
-    /// What the CC tells.
-    pub cc: Status,
+fields! {
+    /// What one channel tells the other.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Status {
+        /// The program of its safe PLC is being executed.
+        pub executed: bool,
+        /// The run-time system of its safe PLC asks for SS1F.
+        pub runtime: bool,
+        /// Its half of the dual-channel outputs as they read back, one bit each.
+        pub outputs: u16,
+    }
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// The channels differ.
-    pub differ: bool,
-    /// SS1F that a run-time system asks for.
-    pub stop: Stop,
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// What the MC tells.
+        pub mc: Status,
+        /// What the CC tells.
+        pub cc: Status,
+    }
 }
 
-contract! {
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// The channels differ.
+        pub differ: bool,
+        /// SS1F that a run-time system asks for.
+        pub stop: Stop,
+    }
+}
+
+monitor! { heidenhain::both_status;
     /// A program that is executed in one channel only is a difference.
     programs_are_compared ["HFS-KDV-001", "HFS-KDV-002/d"]:
         when |s| s.inputs.mc.executed != s.inputs.cc.executed

@@ -6,28 +6,34 @@
 
 pub use crate::contract::Stateless as State;
 
-/// The function has no parameters.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Config;
-
-/// One braked axis as the kernel reports it.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Axis {
-    /// `NN_AxBrkReleaseReq`: the brake is to be released.
-    pub release: bool,
-    /// The drive of the axis is switched on.
-    pub drive: bool,
+config! {
+    /// The function has no parameters.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Config;
 }
 
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// `NN_BrkActivationTest`: the test of the brake control runs.
-    pub test: bool,
-    /// The axis whose brake has an output of its own.
-    pub own: Axis,
-    /// The axes whose brakes share an output.
-    pub shared: [Axis; 2],
+fields! {
+    /// One braked axis as the kernel reports it.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Axis {
+        /// `NN_AxBrkReleaseReq`: the brake is to be released.
+        pub release: bool,
+        /// The drive of the axis is switched on.
+        pub drive: bool,
+    }
+}
+
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// `NN_BrkActivationTest`: the test of the brake control runs.
+        pub test: bool,
+        /// The axis whose brake has an output of its own.
+        pub own: Axis,
+        /// The axes whose brakes share an output.
+        pub shared: [Axis; 2],
+    }
 }
 
 impl Axis {
@@ -37,16 +43,18 @@ impl Axis {
     }
 }
 
-/// The outputs of one cycle: `true` releases.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// The output of the single axis.
-    pub own: bool,
-    /// The output shared by the others; so is -BRK.A.G formed of the releases of its axes (HFS-SBC-009).
-    pub collected: bool,
+fields! {
+    /// The outputs of one cycle: `true` releases.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// The output of the single axis.
+        pub own: bool,
+        /// The output shared by the others; so is -BRK.A.G formed of the releases of its axes (HFS-SBC-009).
+        pub collected: bool,
+    }
 }
 
-contract! {
+monitor! { heidenhain::brakes;
     /// The brake of a single axis is released exactly while it is asked for.
     own_output_follows_the_request ["HFS-SBC-001", "HFS-SBC-004", "HFS-API-035"]:
         when |s| s.inputs.own.drive || s.inputs.test

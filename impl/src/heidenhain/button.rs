@@ -5,10 +5,12 @@
 
 use crate::kernel::{ConfigError, Cycles};
 
-/// How long a press counts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Config {
-    t_max: Cycles,
+config! {
+    /// How long a press counts.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Config {
+        t_max: Cycles,
+    }
 }
 
 impl Config {
@@ -34,30 +36,29 @@ impl Config {
     }
 }
 
-/// What is known of the button.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Button {
-    /// Not pressed.
-    Released,
-    /// Pressed, and the permission counts.
-    Valid,
-    /// Pressed, but the permission does not count.
-    #[default]
-    Jammed,
-}
-
-impl Button {
-    /// Every state.
-    pub const ALL: [Self; 3] = [Self::Released, Self::Valid, Self::Jammed];
-}
-
-/// The state between two cycles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct State {
+fields! {
     /// What is known of the button.
-    pub button: Button,
-    /// What is left of the time of this press while it is valid, else 0.
-    pub timer: Cycles,
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub enum Button {
+        /// Not pressed.
+        Released,
+        /// Pressed, and the permission counts.
+        Valid,
+        /// Pressed, but the permission does not count.
+        #[default]
+        Jammed,
+    }
+}
+
+fields! {
+    /// The state between two cycles.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct State {
+        /// What is known of the button.
+        pub button: Button,
+        /// What is left of the time of this press while it is valid, else 0.
+        pub timer: Cycles,
+    }
 }
 
 impl State {
@@ -74,17 +75,19 @@ impl State {
     }
 }
 
-/// The inputs of one cycle of the safe PLC.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// Main switch off and on.
-    pub power_on: bool,
-    /// Contact of channel A, after the inversion of SMP585.
-    pub contact_a: bool,
-    /// Contact of channel B, after the inversion of SMP586.
-    pub contact_b: bool,
-    /// The operating unit changes in this cycle.
-    pub unit_changes: bool,
+fields! {
+    /// The inputs of one cycle of the safe PLC.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// Main switch off and on.
+        pub power_on: bool,
+        /// Contact of channel A, after the inversion of SMP585.
+        pub contact_a: bool,
+        /// Contact of channel B, after the inversion of SMP586.
+        pub contact_b: bool,
+        /// The operating unit changes in this cycle.
+        pub unit_changes: bool,
+    }
 }
 
 impl Inputs {
@@ -94,18 +97,20 @@ impl Inputs {
     }
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// What is known of the button.
-    pub button: Button,
-    /// The permission counts.
-    pub valid: bool,
-    /// Warning of the PLC: the button is pressed and does not count.
-    pub jammed: bool,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// What is known of the button.
+        pub button: Button,
+        /// The permission counts.
+        pub valid: bool,
+        /// Warning of the PLC: the button is pressed and does not count.
+        pub jammed: bool,
+    }
 }
 
-contract! {
+monitor! { heidenhain::button;
     /// The permission needs both contacts, and an edge of them since power-up.
     permission_needs_both_contacts ["HFS-PB-001", "HFS-HW-002"]:
         when |s| s.outputs.valid

@@ -12,10 +12,12 @@
 use crate::heidenhain::types::Stop;
 use crate::kernel::{ConfigError, Position};
 
-/// How many faulty telegrams in a row are tolerated.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Config {
-    tolerated: u8,
+config! {
+    /// How many faulty telegrams in a row are tolerated.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Config {
+        tolerated: u8,
+    }
 }
 
 impl Config {
@@ -40,30 +42,34 @@ impl Config {
     }
 }
 
-/// What a telegram says about a drive.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct Drive {
-    /// It moves; else it stands still.
-    pub moving: bool,
-    /// Its axis group, 0 to 7; none: no safe axis.
-    pub group: Option<u8>,
-    /// Its actual position.
-    pub position: Position,
-    /// Its brake is controlled to be open: -BRK_REL.B.x or -BRK.B.x is 1.
-    pub brake_open: bool,
-    /// Its cut-out port of channel B gives it torque: -STO.B.x is 1.
-    pub torque: bool,
+fields! {
+    /// What a telegram says about a drive.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct Drive {
+        /// It moves; else it stands still.
+        pub moving: bool,
+        /// Its axis group, 0 to 7; none: no safe axis.
+        pub group: Option<u8>,
+        /// Its actual position.
+        pub position: Position,
+        /// Its brake is controlled to be open: -BRK_REL.B.x or -BRK.B.x is 1.
+        pub brake_open: bool,
+        /// Its cut-out port of channel B gives it torque: -STO.B.x is 1.
+        pub torque: bool,
+    }
 }
 
-/// The state between two cycles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct State {
-    /// The faulty telegrams in a row, at most those that are tolerated.
-    pub faulty: u8,
-    /// The last sound telegram.
-    pub last: Drive,
-    /// The link is lost.
-    pub lost: bool,
+fields! {
+    /// The state between two cycles.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct State {
+        /// The faulty telegrams in a row, at most those that are tolerated.
+        pub faulty: u8,
+        /// The last sound telegram.
+        pub last: Drive,
+        /// The link is lost.
+        pub lost: bool,
+    }
 }
 
 impl State {
@@ -87,29 +93,33 @@ impl State {
     }
 }
 
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// Main switch off and on.
-    pub main_switch: bool,
-    /// A telegram has come, and its checks find no fault.
-    pub sound: bool,
-    /// What it says; without meaning where it is not sound.
-    pub drive: Drive,
-    /// It reports a fatal fault of the other CC; without meaning where it is not sound.
-    pub fatal: bool,
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// Main switch off and on.
+        pub main_switch: bool,
+        /// A telegram has come, and its checks find no fault.
+        pub sound: bool,
+        /// What it says; without meaning where it is not sound.
+        pub drive: Drive,
+        /// It reports a fatal fault of the other CC; without meaning where it is not sound.
+        pub fatal: bool,
+    }
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// The drive as this CC has to take it.
-    pub drive: Drive,
-    /// The stop to be raised.
-    pub demand: Stop,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// The drive as this CC has to take it.
+        pub drive: Drive,
+        /// The stop to be raised.
+        pub demand: Stop,
+    }
 }
 
-contract! {
+monitor! { heidenhain::cc_link;
     /// A sound telegram counts as it is, and ends a row of faulty ones.
     sound_telegram_counts ["HFS-TIMING-003/a", "HFS-ARCH-003"]:
         when |s| s.inputs.sound && !s.inputs.main_switch

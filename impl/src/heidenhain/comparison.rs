@@ -12,14 +12,17 @@
 use crate::heidenhain::types::{GroupState, Stop};
 use crate::kernel::{ConfigError, Cycles, Distance, Percent};
 
-/// The tolerances of one drive.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Config {
-    spindle: bool,
-    grouped: bool,
-    tolerance: Distance,
-    percent: Percent,
-    window: Cycles,
+config! {
+    /// The tolerances of one drive.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Config {
+        spindle: bool,
+        grouped: bool,
+        tolerance: Distance,
+        percent: Percent,
+        window: Cycles,
+    }
+    accepted |config| Config::new(config.spindle, config.tolerance, config.percent, config.window).is_ok()
 }
 
 impl Config {
@@ -67,23 +70,27 @@ impl Config {
     }
 }
 
-/// What is compared.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Compared {
-    /// Nothing: no torque.
-    #[default]
-    Nothing,
-    /// The speed, within the window.
-    Speed,
-    /// The position, at once.
-    Position,
+fields! {
+    /// What is compared.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub enum Compared {
+        /// Nothing: no torque.
+        #[default]
+        Nothing,
+        /// The speed, within the window.
+        Speed,
+        /// The position, at once.
+        Position,
+    }
 }
 
-/// The state between two cycles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct State {
-    /// How long the speed has been outside its tolerance, at most the window.
-    pub outside: Cycles,
+fields! {
+    /// The state between two cycles.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct State {
+        /// How long the speed has been outside its tolerance, at most the window.
+        pub outside: Cycles,
+    }
 }
 
 impl State {
@@ -99,18 +106,20 @@ impl State {
     }
 }
 
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// The monitoring state of the group.
-    pub state: GroupState,
-    /// By the encoder of this channel, that of the motor in the CC and that of the position in the MC, or what is derived from
-    /// the motor's for it (HFS-NAV-004): the magnitude of nominal minus actual position, the intended following error already taken off.
-    pub deviation: Distance,
-    /// The nominal speed in increments per cycle, with its sign.
-    pub nominal: i32,
-    /// The actual speed in increments per cycle, with its sign.
-    pub actual: i32,
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// The monitoring state of the group.
+        pub state: GroupState,
+        /// By the encoder of this channel, that of the motor in the CC and that of the position in the MC, or what is derived from
+        /// the motor's for it (HFS-NAV-004): the magnitude of nominal minus actual position, the intended following error already taken off.
+        pub deviation: Distance,
+        /// The nominal speed in increments per cycle, with its sign.
+        pub nominal: i32,
+        /// The actual speed in increments per cycle, with its sign.
+        pub actual: i32,
+    }
 }
 
 impl Inputs {
@@ -143,18 +152,20 @@ impl Inputs {
     }
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// The position deviates by more than its tolerance.
-    pub position: bool,
-    /// The speed was not within its tolerance for a whole window.
-    pub speed: bool,
-    /// The stop to be raised.
-    pub demand: Stop,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// The position deviates by more than its tolerance.
+        pub position: bool,
+        /// The speed was not within its tolerance for a whole window.
+        pub speed: bool,
+        /// The stop to be raised.
+        pub demand: Stop,
+    }
 }
 
-contract! {
+monitor! { heidenhain::comparison;
     /// Door open, also in the operating stop: an axis off its nominal position is stopped in the same cycle.
     position_off_is_stopped ["HFS-ARCH-004/f", "HFS-NAV-001", "HFS-NAV-002", "HFS-SOS-005"]:
         when |s| s.inputs.compared(&s.config) == Compared::Position && s.inputs.deviation > s.config.tolerance

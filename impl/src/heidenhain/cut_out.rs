@@ -14,14 +14,16 @@ mod laws;
 
 pub use laws::*;
 
-/// Times and options.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Config {
-    t_relay: Cycles,
-    t_ready: Cycles,
-    t_off: Cycles,
-    no_control: bool,
-    no_outputs: bool,
+config! {
+    /// Times and options.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Config {
+        t_relay: Cycles,
+        t_ready: Cycles,
+        t_off: Cycles,
+        no_control: bool,
+        no_outputs: bool,
+    }
 }
 
 impl Config {
@@ -72,53 +74,39 @@ impl Config {
     }
 }
 
-/// The step of the test.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Phase {
-    /// It does not run.
-    #[default]
-    Idle,
-    /// Both channels release the brakes.
-    BrakesOn,
-    /// Channel B alone would release them.
-    BrakeAOff,
-    /// Channel A alone would release them.
-    BrakeBOff,
-    /// The contact chain must be closed.
-    ChainClosed,
-    /// -STO.A.G comes on, and the chain must open.
-    ChainOpens,
-    /// Pulses by the MC alone: the power modules must not be ready.
-    CcOff,
-    /// Pulses by both channels: they must get ready.
-    BothOn,
-    /// Pulses by the CC alone: they must not be ready.
-    McOff,
-    /// The safe outputs must read 0.
-    OutputsOff,
-    /// Passed.
-    Done,
-    /// A feedback has not come.
-    Fault,
+fields! {
+    /// The step of the test.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub enum Phase {
+        /// It does not run.
+        #[default]
+        Idle,
+        /// Both channels release the brakes.
+        BrakesOn,
+        /// Channel B alone would release them.
+        BrakeAOff,
+        /// Channel A alone would release them.
+        BrakeBOff,
+        /// The contact chain must be closed.
+        ChainClosed,
+        /// -STO.A.G comes on, and the chain must open.
+        ChainOpens,
+        /// Pulses by the MC alone: the power modules must not be ready.
+        CcOff,
+        /// Pulses by both channels: they must get ready.
+        BothOn,
+        /// Pulses by the CC alone: they must not be ready.
+        McOff,
+        /// The safe outputs must read 0.
+        OutputsOff,
+        /// Passed.
+        Done,
+        /// A feedback has not come.
+        Fault,
+    }
 }
 
 impl Phase {
-    /// Every step, in the order of the test.
-    pub const ALL: [Self; 12] = [
-        Self::Idle,
-        Self::BrakesOn,
-        Self::BrakeAOff,
-        Self::BrakeBOff,
-        Self::ChainClosed,
-        Self::ChainOpens,
-        Self::CcOff,
-        Self::BothOn,
-        Self::McOff,
-        Self::OutputsOff,
-        Self::Done,
-        Self::Fault,
-    ];
-
     /// Whether the brake control is being tested.
     pub const fn is_brake_control(self) -> bool {
         matches!(self, Self::BrakesOn | Self::BrakeAOff | Self::BrakeBOff)
@@ -130,15 +118,17 @@ impl Phase {
     }
 }
 
-/// The state between two cycles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct State {
-    /// The step.
-    pub step: Phase,
-    /// What is left of its time.
-    pub timer: Cycles,
-    /// The axes must be moved to a safe position before the test begins anew.
-    pub ask: bool,
+fields! {
+    /// The state between two cycles.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct State {
+        /// The step.
+        pub step: Phase,
+        /// What is left of its time.
+        pub timer: Cycles,
+        /// The axes must be moved to a safe position before the test begins anew.
+        pub ask: bool,
+    }
 }
 
 impl State {
@@ -161,56 +151,60 @@ impl State {
     }
 }
 
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// Main switch off and on.
-    pub power_on: bool,
-    /// The self-test comes to this part.
-    pub start: bool,
-    /// T.BRK: the brakes are supplied. `PP_GenTBRK` is 0 then (HFS-BCT-005).
-    pub t_brk: bool,
-    /// FB_NCC: all contacts of the chain are closed.
-    pub chain: bool,
-    /// RDY.x: the power modules are ready.
-    pub ready: bool,
-    /// A safe output reads 1.
-    pub outputs: bool,
-    /// An axis has left the limits of its operating stop.
-    pub moved: bool,
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// Main switch off and on.
+        pub power_on: bool,
+        /// The self-test comes to this part.
+        pub start: bool,
+        /// T.BRK: the brakes are supplied. `PP_GenTBRK` is 0 then (HFS-BCT-005).
+        pub t_brk: bool,
+        /// FB_NCC: all contacts of the chain are closed.
+        pub chain: bool,
+        /// RDY.x: the power modules are ready.
+        pub ready: bool,
+        /// A safe output reads 1.
+        pub outputs: bool,
+        /// An axis has left the limits of its operating stop.
+        pub moved: bool,
+    }
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// The step.
-    pub step: Phase,
-    /// Channel A releases the brakes.
-    pub brake_a: bool,
-    /// Channel B releases the brakes, by whatever output carries it.
-    pub brake_b: bool,
-    /// -STO.A.G is 1.
-    pub sto_a_g: bool,
-    /// -STOS.A.G is 1: never here, no spindle is released by the test (HFS-TEST-010).
-    pub stos_a_g: bool,
-    /// -STO.A.x is 1.
-    pub on_mc: bool,
-    /// -STO.B.x is 1.
-    pub on_cc: bool,
-    /// The MC watches the standstill position, because the CC alone has no torque.
-    pub watch_mc: bool,
-    /// The CC watches it, because the MC alone has no torque.
-    pub watch_cc: bool,
-    /// The axes must be moved to a safe position.
-    pub ask_place: bool,
-    /// The test is passed.
-    pub done: bool,
-    /// A feedback has not come, in this cycle.
-    pub fault: bool,
-    /// The stop of the tested axes.
-    pub tested: Stop,
-    /// The stop of the other ones.
-    pub others: Stop,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// The step.
+        pub step: Phase,
+        /// Channel A releases the brakes.
+        pub brake_a: bool,
+        /// Channel B releases the brakes, by whatever output carries it.
+        pub brake_b: bool,
+        /// -STO.A.G is 1.
+        pub sto_a_g: bool,
+        /// -STOS.A.G is 1: never here, no spindle is released by the test (HFS-TEST-010).
+        pub stos_a_g: bool,
+        /// -STO.A.x is 1.
+        pub on_mc: bool,
+        /// -STO.B.x is 1.
+        pub on_cc: bool,
+        /// The MC watches the standstill position, because the CC alone has no torque.
+        pub watch_mc: bool,
+        /// The CC watches it, because the MC alone has no torque.
+        pub watch_cc: bool,
+        /// The axes must be moved to a safe position.
+        pub ask_place: bool,
+        /// The test is passed.
+        pub done: bool,
+        /// A feedback has not come, in this cycle.
+        pub fault: bool,
+        /// The stop of the tested axes.
+        pub tested: Stop,
+        /// The stop of the other ones.
+        pub others: Stop,
+    }
 }
 
 /// Whether the feedback is as a step wants it.

@@ -9,12 +9,14 @@
 use crate::heidenhain::types::Stop;
 use crate::kernel::{ConfigError, Cycles, Speed};
 
-/// The kind of drive and the waiting time.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Config {
-    spindle: bool,
-    wait: Cycles,
-    off: bool,
+config! {
+    /// The kind of drive and the waiting time.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Config {
+        spindle: bool,
+        wait: Cycles,
+        off: bool,
+    }
 }
 
 impl Config {
@@ -33,15 +35,17 @@ impl Config {
     }
 }
 
-/// The state between two cycles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct State {
-    /// The emergency ramp braked in the last cycle.
-    pub on: bool,
-    /// What is left of the waiting time; 0 without braking.
-    pub timer: Cycles,
-    /// The speed of the last cycle; 0 without braking.
-    pub last: Speed,
+fields! {
+    /// The state between two cycles.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct State {
+        /// The emergency ramp braked in the last cycle.
+        pub on: bool,
+        /// What is left of the waiting time; 0 without braking.
+        pub timer: Cycles,
+        /// The speed of the last cycle; 0 without braking.
+        pub last: Speed,
+    }
 }
 
 impl State {
@@ -59,23 +63,27 @@ impl State {
     }
 }
 
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// The emergency ramp of SS1 or SS1F brakes the drive.
-    pub braking: bool,
-    /// The magnitude of the actual speed.
-    pub speed: Speed,
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// The emergency ramp of SS1 or SS1F brakes the drive.
+        pub braking: bool,
+        /// The magnitude of the actual speed.
+        pub speed: Speed,
+    }
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// The stop to be raised.
-    pub demand: Stop,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// The stop to be raised.
+        pub demand: Stop,
+    }
 }
 
-contract! {
+monitor! { heidenhain::deceleration;
     /// After the waiting time an axis that becomes faster loses its torque in the same cycle.
     faster_axis_loses_its_torque ["HFS-DVDT-001", "HFS-SS1-008"]:
         when |s| !s.config.spindle && s.inputs.braking && s.before.on && s.before.timer.is_zero()

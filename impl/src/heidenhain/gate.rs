@@ -9,10 +9,12 @@ pub use crate::contract::Stateless as State;
 use crate::heidenhain::types::{GroupState, Kind, Som, Stop};
 use crate::kernel::ConfigError;
 
-/// What the group consists of.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Config {
-    kind: Kind,
+config! {
+    /// What the group consists of.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Config {
+        kind: Kind,
+    }
 }
 
 impl Config {
@@ -30,37 +32,41 @@ impl Config {
     }
 }
 
-/// The fields of one cycle as the safe PLC has set them.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// `PP_AxGrpStateReq`: see [`GroupState::from_code`].
-    pub state_code: u8,
-    /// `PP_AxGrpStopReq`: see [`Stop::from_code`].
-    pub stop_code: u8,
-    /// `PP_GenSOM`: see [`Som::from_code`].
-    pub som_code: u8,
-    /// `PP_AxGrpActivate`: an event permits motion of the group.
-    pub activate: bool,
-    /// `PP_AxGrpPB`: a permissive button or key is pressed for the group.
-    pub permissive: bool,
+fields! {
+    /// The fields of one cycle as the safe PLC has set them.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// `PP_AxGrpStateReq`: see [`GroupState::from_code`].
+        pub state_code: u8,
+        /// `PP_AxGrpStopReq`: see [`Stop::from_code`].
+        pub stop_code: u8,
+        /// `PP_GenSOM`: see [`Som::from_code`].
+        pub som_code: u8,
+        /// `PP_AxGrpActivate`: an event permits motion of the group.
+        pub activate: bool,
+        /// `PP_AxGrpPB`: a permissive button or key is pressed for the group.
+        pub permissive: bool,
+    }
 }
 
-/// What the kernel goes on with.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// The requested monitoring state; the strictest where its code does not exist.
-    pub request: GroupState,
-    /// The requested stop; SS1F where any field is illegal.
-    pub stop: Stop,
-    /// The selected mode; SOM_1 where it is illegal.
-    pub som: Som,
-    /// The group is activated.
-    pub starts: bool,
-    /// A permissive is valid for the group.
-    pub held: bool,
+fields! {
+    /// What the kernel goes on with.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// The requested monitoring state; the strictest where its code does not exist.
+        pub request: GroupState,
+        /// The requested stop; SS1F where any field is illegal.
+        pub stop: Stop,
+        /// The selected mode; SOM_1 where it is illegal.
+        pub som: Som,
+        /// The group is activated.
+        pub starts: bool,
+        /// A permissive is valid for the group.
+        pub held: bool,
+    }
 }
 
-contract! {
+monitor! { heidenhain::gate;
     /// A legal request is taken over as it is.
     legal_request_is_taken_over ["HFS-API-001", "HFS-API-018", "HFS-API-031"]:
         when |s| legal(&s.config, &s.inputs)

@@ -8,10 +8,12 @@
 
 use crate::kernel::{ConfigError, Cycles};
 
-/// The time of the others.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Config {
-    t_off: Cycles,
+config! {
+    /// The time of the others.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Config {
+        t_off: Cycles,
+    }
 }
 
 impl Config {
@@ -32,13 +34,15 @@ impl Config {
     }
 }
 
-/// The state between two cycles.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct State {
-    /// -STO.A.G is 1.
-    pub on: bool,
-    /// What is left of SMP2172, 0 where it does not run.
-    pub timer: Cycles,
+fields! {
+    /// The state between two cycles.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    pub struct State {
+        /// -STO.A.G is 1.
+        pub on: bool,
+        /// What is left of SMP2172, 0 where it does not run.
+        pub timer: Cycles,
+    }
 }
 
 impl State {
@@ -61,23 +65,27 @@ impl Default for State {
     }
 }
 
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// An axis is in SS0.
-    pub ss0: bool,
-    /// The SS1F of all others has ended.
-    pub others_off: bool,
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// An axis is in SS0.
+        pub ss0: bool,
+        /// The SS1F of all others has ended.
+        pub others_off: bool,
+    }
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// -STO.A.G is 1: power modules enabled, brakes supplied.
-    pub on: bool,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// -STO.A.G is 1: power modules enabled, brakes supplied.
+        pub on: bool,
+    }
 }
 
-contract! {
+monitor! { heidenhain::global_sto;
     /// The others keep their torque while they brake, until SMP2172 is over.
     others_brake_first ["HFS-SS0-006"]:
         when |s| s.before.on && s.inputs.ss0 && !s.inputs.others_off && s.before.timer.count() != 1

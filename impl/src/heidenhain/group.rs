@@ -14,10 +14,12 @@ mod laws;
 
 pub use laws::*;
 
-/// What the group consists of.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Config {
-    kind: Kind,
+config! {
+    /// What the group consists of.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Config {
+        kind: Kind,
+    }
 }
 
 impl Config {
@@ -51,13 +53,15 @@ impl Config {
     }
 }
 
-/// The state between two cycles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct State {
-    /// The monitoring state.
-    pub state: GroupState,
-    /// The modes it has left in motion, whose limits apply until it stands.
-    pub left: Left,
+fields! {
+    /// The state between two cycles.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct State {
+        /// The monitoring state.
+        pub state: GroupState,
+        /// The modes it has left in motion, whose limits apply until it stands.
+        pub left: Left,
+    }
 }
 
 impl State {
@@ -75,42 +79,46 @@ impl State {
     }
 }
 
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// Main switch off and on.
-    pub main_switch: bool,
-    /// The requested monitoring state (`PP_AxGrpStateReq`).
-    pub request: GroupState,
-    /// An event permits motion of the group (`PP_AxGrpActivate`).
-    pub activate: bool,
-    /// An axis of the group moves (`NN_AxGrpInMotion`).
-    pub moving: bool,
-    /// `NN_GenSafe`: the self-test has passed and is not overdue.
-    pub gen_safe: bool,
-    /// The highest cause of a stop in this cycle.
-    pub demand: Stop,
-    /// What the stop of the group is doing, after its step.
-    pub phase: Phase,
-    /// The torque is off at the end of an SS1D, which needs no drive-on.
-    pub soft: bool,
-    /// An SS2 has ended in this cycle, or was asked of a group that stands.
-    pub ss2_ended: bool,
-    /// Fresh edge of the drive permission, control voltage on, chain closed.
-    pub switch_on: bool,
-    /// The SS2 came from the spindle-stop key, and SMP549 asks for SOS.
-    pub spindle_stop: bool,
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// Main switch off and on.
+        pub main_switch: bool,
+        /// The requested monitoring state (`PP_AxGrpStateReq`).
+        pub request: GroupState,
+        /// An event permits motion of the group (`PP_AxGrpActivate`).
+        pub activate: bool,
+        /// An axis of the group moves (`NN_AxGrpInMotion`).
+        pub moving: bool,
+        /// `NN_GenSafe`: the self-test has passed and is not overdue.
+        pub gen_safe: bool,
+        /// The highest cause of a stop in this cycle.
+        pub demand: Stop,
+        /// What the stop of the group is doing, after its step.
+        pub phase: Phase,
+        /// The torque is off at the end of an SS1D, which needs no drive-on.
+        pub soft: bool,
+        /// An SS2 has ended in this cycle, or was asked of a group that stands.
+        pub ss2_ended: bool,
+        /// Fresh edge of the drive permission, control voltage on, chain closed.
+        pub switch_on: bool,
+        /// The SS2 came from the spindle-stop key, and SMP549 asks for SOS.
+        pub spindle_stop: bool,
+    }
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// The monitoring state (`NN_AxGrpState`).
-    pub state: GroupState,
-    /// The modes left in motion, whose limits apply as well.
-    pub left: Left,
-    /// The group is released; a stop may brake it all the same.
-    pub may_move: bool,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// The monitoring state (`NN_AxGrpState`).
+        pub state: GroupState,
+        /// The modes left in motion, whose limits apply as well.
+        pub left: Left,
+        /// The group is released; a stop may brake it all the same.
+        pub may_move: bool,
+    }
 }
 
 pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (State, Outputs) {

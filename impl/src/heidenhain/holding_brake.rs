@@ -6,10 +6,12 @@
 
 use crate::kernel::ConfigError;
 
-/// The test of this brake.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Config {
-    factor: u16,
+config! {
+    /// The test of this brake.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Config {
+        factor: u16,
+    }
 }
 
 impl Config {
@@ -35,52 +37,44 @@ impl Config {
     }
 }
 
-/// The step of the test.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Phase {
-    /// Not tested yet.
-    #[default]
-    Idle,
-    /// Position and holding torque are known; the drive controls the axis.
-    TorqueKnown,
-    /// The brake closes while the control is reduced.
-    Closes,
-    /// The drive lets go.
-    ControlOff,
-    /// The test torque acts.
-    TestTorque,
-    /// The brake holds.
-    Good,
-    /// It does not: the axis has moved further than SMP2232 (message 8300).
-    Defective,
-    /// The current has not risen with the test torque (message 8310).
-    NoCurrent,
+fields! {
+    /// The step of the test.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub enum Phase {
+        /// Not tested yet.
+        #[default]
+        Idle,
+        /// Position and holding torque are known; the drive controls the axis.
+        TorqueKnown,
+        /// The brake closes while the control is reduced.
+        Closes,
+        /// The drive lets go.
+        ControlOff,
+        /// The test torque acts.
+        TestTorque,
+        /// The brake holds.
+        Good,
+        /// It does not: the axis has moved further than SMP2232 (message 8300).
+        Defective,
+        /// The current has not risen with the test torque (message 8310).
+        NoCurrent,
+    }
 }
 
 impl Phase {
-    /// Every step, in the order of the test.
-    pub const ALL: [Self; 8] = [
-        Self::Idle,
-        Self::TorqueKnown,
-        Self::Closes,
-        Self::ControlOff,
-        Self::TestTorque,
-        Self::Good,
-        Self::Defective,
-        Self::NoCurrent,
-    ];
-
     /// Whether the test has found a fault.
     pub const fn is_bad(self) -> bool {
         matches!(self, Self::Defective | Self::NoCurrent)
     }
 }
 
-/// The state between two cycles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct State {
-    /// The step.
-    pub step: Phase,
+fields! {
+    /// The state between two cycles.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct State {
+        /// The step.
+        pub step: Phase,
+    }
 }
 
 impl State {
@@ -94,35 +88,39 @@ impl State {
     }
 }
 
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// The self-test comes to this part.
-    pub start: bool,
-    /// The step has had its time.
-    pub done: bool,
-    /// The axis has moved further than SMP2232.
-    pub too_far: bool,
-    /// The current has risen with the test torque.
-    pub current: bool,
-    /// The axis has been moved to a safe position.
-    pub safe_now: bool,
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// The self-test comes to this part.
+        pub start: bool,
+        /// The step has had its time.
+        pub done: bool,
+        /// The axis has moved further than SMP2232.
+        pub too_far: bool,
+        /// The current has risen with the test torque.
+        pub current: bool,
+        /// The axis has been moved to a safe position.
+        pub safe_now: bool,
+    }
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// The step.
-    pub step: Phase,
-    /// The brake is closed.
-    pub closed: bool,
-    /// The drive holds the axis.
-    pub controlled: bool,
-    /// The test is passed.
-    pub passed: bool,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// The step.
+        pub step: Phase,
+        /// The brake is closed.
+        pub closed: bool,
+        /// The drive holds the axis.
+        pub controlled: bool,
+        /// The test is passed.
+        pub passed: bool,
+    }
 }
 
-contract! {
+monitor! { heidenhain::holding_brake;
     /// The test takes its steps in their order: holding torque, brake, control off, test torque.
     steps_follow_each_other ["HFS-BRT-006"]:
         when |s| s.config.is_tested() && s.after.step != s.before.step

@@ -13,11 +13,13 @@ mod laws;
 
 pub use laws::*;
 
-/// What is judged.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Config {
-    kind: Kind,
-    som_4: bool,
+config! {
+    /// What is judged.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Config {
+        kind: Kind,
+        som_4: bool,
+    }
 }
 
 impl Config {
@@ -40,39 +42,35 @@ impl Config {
     }
 }
 
-/// The modes with limited speed between which SOM_1 must come.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Modes {
-    /// None requested since SOS or AUTO.
-    #[default]
-    None,
-    /// SOM_2 or SOM_3.
-    Low,
-    /// SOM_4.
-    High,
+fields! {
+    /// The modes with limited speed between which SOM_1 must come.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub enum Modes {
+        /// None requested since SOS or AUTO.
+        #[default]
+        None,
+        /// SOM_2 or SOM_3.
+        Low,
+        /// SOM_4.
+        High,
+    }
 }
 
-impl Modes {
-    /// All of them.
-    pub const ALL: [Self; 3] = [Self::None, Self::Low, Self::High];
-}
-
-/// Where the machine is operated: a change of it stops the groups.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Place {
-    /// At the operating panel, by hand or by program.
-    #[default]
-    Panel,
-    /// At the handwheel.
-    Handwheel,
-    /// Homing and testing of axes.
-    Reference,
+fields! {
+    /// Where the machine is operated: a change of it stops the groups.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub enum Place {
+        /// At the operating panel, by hand or by program.
+        #[default]
+        Panel,
+        /// At the handwheel.
+        Handwheel,
+        /// Homing and testing of axes.
+        Reference,
+    }
 }
 
 impl Place {
-    /// All of them.
-    pub const ALL: [Self; 3] = [Self::Panel, Self::Handwheel, Self::Reference];
-
     /// Where the machine is operated in a machine operating mode.
     pub const fn of(unit: Unit) -> Self {
         match unit {
@@ -83,13 +81,15 @@ impl Place {
     }
 }
 
-/// The state between two cycles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct State {
-    /// The last mode requested since SOS or AUTO.
-    pub modes: Modes,
-    /// Where the machine was operated in the cycle before.
-    pub place: Place,
+fields! {
+    /// The state between two cycles.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct State {
+        /// The last mode requested since SOS or AUTO.
+        pub modes: Modes,
+        /// Where the machine was operated in the cycle before.
+        pub place: Place,
+    }
 }
 
 impl State {
@@ -106,49 +106,53 @@ impl State {
     }
 }
 
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// Main switch off and on.
-    pub main_switch: bool,
-    /// The requested monitoring state (`PP_AxGrpStateReq`).
-    pub request: GroupState,
-    /// The requested stop (`PP_AxGrpStopReq`).
-    pub stop_request: Stop,
-    /// One of the two is no code of the interface.
-    pub bad_code: bool,
-    /// The monitoring state at the start of the cycle.
-    pub state: GroupState,
-    /// An axis of the group moves (`NN_AxGrpInMotion`).
-    pub moving: bool,
-    /// The machine operating mode.
-    pub unit: Unit,
-    /// A permissive is valid for the group (`PP_AxGrpPB`).
-    pub permissive: bool,
-    /// The protection against unexpected start-up responds.
-    pub idle: bool,
-    /// `NN_GenSafe`: the self-test has passed and is not overdue.
-    pub gen_safe: bool,
-    /// An axis that is not checked moves with the door open outside the reference mode.
-    pub untested: bool,
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// Main switch off and on.
+        pub main_switch: bool,
+        /// The requested monitoring state (`PP_AxGrpStateReq`).
+        pub request: GroupState,
+        /// The requested stop (`PP_AxGrpStopReq`).
+        pub stop_request: Stop,
+        /// One of the two is no code of the interface.
+        pub bad_code: bool,
+        /// The monitoring state at the start of the cycle.
+        pub state: GroupState,
+        /// An axis of the group moves (`NN_AxGrpInMotion`).
+        pub moving: bool,
+        /// The machine operating mode.
+        pub unit: Unit,
+        /// A permissive is valid for the group (`PP_AxGrpPB`).
+        pub permissive: bool,
+        /// The protection against unexpected start-up responds.
+        pub idle: bool,
+        /// `NN_GenSafe`: the self-test has passed and is not overdue.
+        pub gen_safe: bool,
+        /// An axis that is not checked moves with the door open outside the reference mode.
+        pub untested: bool,
+    }
 }
 
-/// The outputs of one cycle: which causes there are, and the highest of them. In the cycle of the main switch nothing
-/// follows from the causes.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// A fault of the request: SS1F.
-    pub asks_ss1f: bool,
-    /// Found by the kernel: SS1.
-    pub asks_ss1: bool,
-    /// SS1 of the spindle after the SS2 of the axes.
-    pub asks_ss1d: bool,
-    /// SS2 of the group.
-    pub asks_ss2: bool,
-    /// SS2 of the axis groups of the working space.
-    pub stops_axes: bool,
-    /// The highest of the causes and of the requested stop.
-    pub demand: Stop,
+fields! {
+    /// The outputs of one cycle: which causes there are, and the highest of them. In the cycle of the main switch nothing
+    /// follows from the causes.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// A fault of the request: SS1F.
+        pub asks_ss1f: bool,
+        /// Found by the kernel: SS1.
+        pub asks_ss1: bool,
+        /// SS1 of the spindle after the SS2 of the axes.
+        pub asks_ss1d: bool,
+        /// SS2 of the group.
+        pub asks_ss2: bool,
+        /// SS2 of the axis groups of the working space.
+        pub stops_axes: bool,
+        /// The highest of the causes and of the requested stop.
+        pub demand: Stop,
+    }
 }
 
 impl Outputs {

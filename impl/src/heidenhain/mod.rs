@@ -67,6 +67,22 @@
 //!   nothing else, what its other inputs ask for counts from the next one on.
 //! * A signal that is missing must be the one that stops: an output that permits is `true` only when it was worked out.
 
+/// Hands the monitors of HEIDENHAIN Functional Safety to a macro, after the name of the family and what else is given: the list that
+/// says which there are. Each is a module with a `Monitor` that is a [`Contract`](crate::contract::Contract).
+#[macro_export]
+macro_rules! heidenhain_monitors {
+    ($callback:ident $($more:tt)*) => { $callback! { heidenhain [$($more)*]
+        gate both_channels both_fields both_status stop report neighbour global_sto judge group startup axis_release som
+        button switch_on output_enable channel
+        speed operating_stop stop_path position_limit revolutions comparison deceleration axis_count
+        reference agreement brakes tool_holder acceptance cc_link self_test cut_out holding_brake sampling status_bits
+        self_checks start_checks
+        key_filter axes_logic spindle_logic magazine_logic
+        safe_input working_space control_voltage jog_increment general_fields program_check availability
+        allowed_functions f_limited group_motion safe_output
+    } };
+}
+
 pub mod acceptance;
 pub mod agreement;
 pub mod axis_count;

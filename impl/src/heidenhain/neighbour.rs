@@ -8,10 +8,12 @@ pub use crate::contract::Stateless as State;
 use crate::heidenhain::types::{Phase, Stop};
 use crate::kernel::ConfigError;
 
-/// What SMP610 says of the pair.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Config {
-    listed: bool,
+config! {
+    /// What SMP610 says of the pair.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Config {
+        listed: bool,
+    }
 }
 
 impl Config {
@@ -24,25 +26,29 @@ impl Config {
     }
 }
 
-/// The stop of the other group at the start of the cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// Its level.
-    pub level: Stop,
-    /// What it is doing.
-    pub phase: Phase,
-    /// Its SS1 concerns the whole machine.
-    pub wide: bool,
+fields! {
+    /// The stop of the other group at the start of the cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// Its level.
+        pub level: Stop,
+        /// What it is doing.
+        pub phase: Phase,
+        /// Its SS1 concerns the whole machine.
+        pub wide: bool,
+    }
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// The stop of this group that follows.
-    pub demand: Stop,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// The stop of this group that follows.
+        pub demand: Stop,
+    }
 }
 
-contract! {
+monitor! { heidenhain::neighbour;
     /// SS0 or SS1F of one group is SS1F of all others.
     hard_stop_spreads ["HFS-SS0-004", "HFS-SS1F-001", "HFS-SS1F-002", "HFS-P-03"]:
         when |s| s.inputs.level >= Stop::Ss1F

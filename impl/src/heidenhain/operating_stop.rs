@@ -8,11 +8,13 @@
 use crate::heidenhain::types::Stop;
 use crate::kernel::{ConfigError, Distance, Position, Speed};
 
-/// The limits.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Config {
-    path: Distance,
-    still: Speed,
+config! {
+    /// The limits.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Config {
+        path: Distance,
+        still: Speed,
+    }
 }
 
 impl Config {
@@ -30,13 +32,15 @@ impl Config {
     }
 }
 
-/// The state between two cycles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct State {
-    /// Standstill was watched in the last cycle.
-    pub on: bool,
-    /// The position in the first cycle of it; 0 while nothing is watched.
-    pub begin: Position,
+fields! {
+    /// The state between two cycles.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct State {
+        /// Standstill was watched in the last cycle.
+        pub on: bool,
+        /// The position in the first cycle of it; 0 while nothing is watched.
+        pub begin: Position,
+    }
 }
 
 impl State {
@@ -58,31 +62,35 @@ impl State {
     }
 }
 
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// The group is in SOS, or the axis has no feed enable.
-    pub watched: bool,
-    /// The self-test runs: the path alone counts.
-    pub self_test: bool,
-    /// The actual position of this channel.
-    pub position: Position,
-    /// The magnitude of the actual speed.
-    pub speed: Speed,
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// The group is in SOS, or the axis has no feed enable.
+        pub watched: bool,
+        /// The self-test runs: the path alone counts.
+        pub self_test: bool,
+        /// The actual position of this channel.
+        pub position: Position,
+        /// The magnitude of the actual speed.
+        pub speed: Speed,
+    }
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// The axis moves.
-    pub too_fast: bool,
-    /// The axis does not move, but is further from where it stood than it may be.
-    pub too_far: bool,
-    /// The stop to be raised.
-    pub demand: Stop,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// The axis moves.
+        pub too_fast: bool,
+        /// The axis does not move, but is further from where it stood than it may be.
+        pub too_far: bool,
+        /// The stop to be raised.
+        pub demand: Stop,
+    }
 }
 
-contract! {
+monitor! { heidenhain::operating_stop;
     /// An axis that does not stand is braked by SS1 in the same cycle.
     moving_axis_is_braked ["HFS-P-14", "HFS-SOS-001", "HFS-SOS-002", "HFS-TIMING-012"]:
         when |s| s.inputs.watched && !s.inputs.self_test && s.inputs.speed >= s.config.still

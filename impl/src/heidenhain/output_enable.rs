@@ -9,10 +9,12 @@
 use crate::heidenhain::types::Stop;
 use crate::kernel::{ConfigError, Cycles};
 
-/// How long the outputs may stay on during a stop.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Config {
-    t_off: Cycles,
+config! {
+    /// How long the outputs may stay on during a stop.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Config {
+        t_off: Cycles,
+    }
 }
 
 impl Config {
@@ -49,13 +51,15 @@ impl Config {
     }
 }
 
-/// The state between two cycles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct State {
-    /// The permission.
-    pub enabled: bool,
-    /// What is left until the permission goes in any case; 0 where nothing takes it.
-    pub timer: Cycles,
+fields! {
+    /// The state between two cycles.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct State {
+        /// The permission.
+        pub enabled: bool,
+        /// What is left until the permission goes in any case; 0 where nothing takes it.
+        pub timer: Cycles,
+    }
 }
 
 impl State {
@@ -72,27 +76,31 @@ impl State {
     }
 }
 
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// The self-test has passed and the drives are switched on.
-    pub ready: bool,
-    /// The highest stop of the machine.
-    pub stop: Stop,
-    /// An SS1 in force is due to an external emergency stop, that of a handwheel included.
-    pub emergency: bool,
-    /// All axes and spindles stand still.
-    pub still: bool,
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// The self-test has passed and the drives are switched on.
+        pub ready: bool,
+        /// The highest stop of the machine.
+        pub stop: Stop,
+        /// An SS1 in force is due to an external emergency stop, that of a handwheel included.
+        pub emergency: bool,
+        /// All axes and spindles stand still.
+        pub still: bool,
+    }
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// `NN_GenOutputEnable`.
-    pub enabled: bool,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// `NN_GenOutputEnable`.
+        pub enabled: bool,
+    }
 }
 
-contract! {
+monitor! { heidenhain::output_enable;
     /// SS0 takes the permission at its beginning.
     ss0_takes_it_at_once ["HFS-P-34", "HFS-SS0-003/c", "HFS-API-032"]:
         when |s| s.inputs.stop == Stop::Ss0

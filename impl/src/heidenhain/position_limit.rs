@@ -14,11 +14,13 @@
 use crate::heidenhain::types::Stop;
 use crate::kernel::{ConfigError, Position};
 
-/// The limits.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Config {
-    minus: Position,
-    plus: Position,
+config! {
+    /// The limits.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Config {
+        minus: Position,
+        plus: Position,
+    }
 }
 
 impl Config {
@@ -45,30 +47,29 @@ impl Config {
     }
 }
 
-/// How far an axis may be driven outside its limits.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Lock {
-    /// Inside, or not yet found outside.
-    #[default]
-    None,
-    /// Found outside and stopped: it may be driven back.
-    ReturnAllowed,
-    /// Driven further out: no motion until the limits are changed.
-    Locked,
+fields! {
+    /// How far an axis may be driven outside its limits.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub enum Lock {
+        /// Inside, or not yet found outside.
+        #[default]
+        None,
+        /// Found outside and stopped: it may be driven back.
+        ReturnAllowed,
+        /// Driven further out: no motion until the limits are changed.
+        Locked,
+    }
 }
 
-impl Lock {
-    /// Every lock, in the order of their declaration.
-    pub const ALL: [Self; 3] = [Self::None, Self::ReturnAllowed, Self::Locked];
-}
-
-/// The state between two cycles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct State {
-    /// How far the axis may be driven; `Locked` is kept through power-off.
-    pub lock: Lock,
-    /// The position of the last cycle.
-    pub last: Position,
+fields! {
+    /// The state between two cycles.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct State {
+        /// How far the axis may be driven; `Locked` is kept through power-off.
+        pub lock: Lock,
+        /// The position of the last cycle.
+        pub last: Position,
+    }
 }
 
 impl State {
@@ -93,27 +94,31 @@ impl State {
     }
 }
 
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// `NN_AxSafe`: a safe NC axis whose position is checked.
-    pub checked: bool,
-    /// The limits have been changed: OEM password and restart.
-    pub changed: bool,
-    /// An SS1 or a higher stop brakes the axis or has taken its torque.
-    pub stopping: bool,
-    /// The actual position of this channel.
-    pub position: Position,
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// `NN_AxSafe`: a safe NC axis whose position is checked.
+        pub checked: bool,
+        /// The limits have been changed: OEM password and restart.
+        pub changed: bool,
+        /// An SS1 or a higher stop brakes the axis or has taken its torque.
+        pub stopping: bool,
+        /// The actual position of this channel.
+        pub position: Position,
+    }
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// The stop to be raised.
-    pub demand: Stop,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// The stop to be raised.
+        pub demand: Stop,
+    }
 }
 
-contract! {
+monitor! { heidenhain::position_limit;
     /// A checked axis found beyond a limit for the first time is stopped in the same cycle and may then be driven back.
     axis_beyond_a_limit_stops ["HFS-ARCH-004/e", "HFS-SLP-001", "HFS-SLP-002", "HFS-SLP-003", "HFS-SLP-004"]:
         when |s| s.inputs.checked && !s.inputs.changed && s.before.lock == Lock::None && !s.config.inside(s.inputs.position)

@@ -14,10 +14,12 @@
 use crate::heidenhain::types::{Som, Stop, Unit};
 use crate::kernel::ConfigError;
 
-/// Whether the axis is safe.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Config {
-    safe_axis: bool,
+config! {
+    /// Whether the axis is safe.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Config {
+        safe_axis: bool,
+    }
 }
 
 impl Config {
@@ -30,32 +32,31 @@ impl Config {
     }
 }
 
-/// What is known of the position.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum AxisRef {
-    /// Nothing.
-    #[default]
-    NotHomed,
-    /// Found; not yet compared with the saved one.
-    Homed,
-    /// Found, but nobody has checked it.
-    NotChecked,
-    /// Checked.
-    Checked,
-}
-
-impl AxisRef {
-    /// Every state, in the order of their declaration.
-    pub const ALL: [Self; 4] = [Self::NotHomed, Self::Homed, Self::NotChecked, Self::Checked];
-}
-
-/// The state between two cycles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct State {
+fields! {
     /// What is known of the position.
-    pub axis: AxisRef,
-    /// The saved position was checked when it was saved; kept through power-off.
-    pub saved: bool,
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub enum AxisRef {
+        /// Nothing.
+        #[default]
+        NotHomed,
+        /// Found; not yet compared with the saved one.
+        Homed,
+        /// Found, but nobody has checked it.
+        NotChecked,
+        /// Checked.
+        Checked,
+    }
+}
+
+fields! {
+    /// The state between two cycles.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct State {
+        /// What is known of the position.
+        pub axis: AxisRef,
+        /// The saved position was checked when it was saved; kept through power-off.
+        pub saved: bool,
+    }
 }
 
 impl State {
@@ -84,35 +85,37 @@ impl State {
     }
 }
 
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// Main switch off and on.
-    pub power_on: bool,
-    /// Since the last boot an encoder was exchanged, or a parameter changed that the position depends on.
-    pub check_cause: bool,
-    /// Reference marks passed or absolute value read, in both channels.
-    pub homed: bool,
-    /// The position of this channel is within SMP642.x of the saved one.
-    pub own_matches: bool,
-    /// The same in the other channel.
-    pub peer_matches: bool,
-    /// The position of this channel is within SMP642.x of the mark (SMP646.x).
-    pub own_at_mark: bool,
-    /// The same in the other channel.
-    pub peer_at_mark: bool,
-    /// The permissive key of the operating panel, both contacts.
-    pub confirm: bool,
-    /// `PP_GenSOM`.
-    pub som: Som,
-    /// The machine operating mode.
-    pub unit: Unit,
-    /// A door of the working space of the axis is open.
-    pub door_open: bool,
-    /// The axis moves.
-    pub moving: bool,
-    /// The other channel has it checked.
-    pub peer_checked: bool,
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// Main switch off and on.
+        pub power_on: bool,
+        /// Since the last boot an encoder was exchanged, or a parameter changed that the position depends on.
+        pub check_cause: bool,
+        /// Reference marks passed or absolute value read, in both channels.
+        pub homed: bool,
+        /// The position of this channel is within SMP642.x of the saved one.
+        pub own_matches: bool,
+        /// The same in the other channel.
+        pub peer_matches: bool,
+        /// The position of this channel is within SMP642.x of the mark (SMP646.x).
+        pub own_at_mark: bool,
+        /// The same in the other channel.
+        pub peer_at_mark: bool,
+        /// The permissive key of the operating panel, both contacts.
+        pub confirm: bool,
+        /// `PP_GenSOM`.
+        pub som: Som,
+        /// The machine operating mode.
+        pub unit: Unit,
+        /// A door of the working space of the axis is open.
+        pub door_open: bool,
+        /// The axis moves.
+        pub moving: bool,
+        /// The other channel has it checked.
+        pub peer_checked: bool,
+    }
 }
 
 impl Inputs {
@@ -131,22 +134,24 @@ impl Inputs {
     }
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// `NN_AxSafe`: a safe axis, checked in both channels.
-    pub ax_safe: bool,
-    /// This channel has the axis checked.
-    pub checked: bool,
-    /// The axis may move.
-    pub may_move: bool,
-    /// It moves, not checked, with the door open outside the mode for homing and testing: SS2 of its group.
-    pub untested: bool,
-    /// The stop to be raised.
-    pub demand: Stop,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// `NN_AxSafe`: a safe axis, checked in both channels.
+        pub ax_safe: bool,
+        /// This channel has the axis checked.
+        pub checked: bool,
+        /// The axis may move.
+        pub may_move: bool,
+        /// It moves, not checked, with the door open outside the mode for homing and testing: SS2 of its group.
+        pub untested: bool,
+        /// The stop to be raised.
+        pub demand: Stop,
+    }
 }
 
-contract! {
+monitor! { heidenhain::reference;
     /// Power-on: the position is unknown, what was saved is kept.
     power_on_forgets_the_position ["HFS-REF-001", "HFS-REF-011"]:
         when |s| s.inputs.power_on

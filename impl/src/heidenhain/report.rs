@@ -8,9 +8,11 @@ pub use crate::contract::Stateless as State;
 use crate::heidenhain::types::{Phase, Stop};
 use crate::kernel::ConfigError;
 
-/// Nothing to configure.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Config;
+config! {
+    /// Nothing to configure.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Config;
+}
 
 impl Config {
     /// The only configuration.
@@ -22,25 +24,29 @@ impl Config {
     }
 }
 
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// The stop of the group, after its step.
-    pub level: Stop,
-    /// What it is doing.
-    pub phase: Phase,
-    /// The highest cause that this channel has found in this cycle; what the other one has told is none.
-    pub found: Stop,
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// The stop of the group, after its step.
+        pub level: Stop,
+        /// What it is doing.
+        pub phase: Phase,
+        /// The highest cause that this channel has found in this cycle; what the other one has told is none.
+        pub found: Stop,
+    }
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// What the other channel is told.
-    pub told: Stop,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// What the other channel is told.
+        pub told: Stop,
+    }
 }
 
-contract! {
+monitor! { heidenhain::report;
     /// Every cause that this channel finds is told, whatever its own stop is doing.
     every_finding_is_told ["HFS-STOP-012", "HFS-ARCH-001"]:
         when |s| s.inputs.found != Stop::None

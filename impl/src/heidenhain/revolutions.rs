@@ -8,10 +8,13 @@
 use crate::heidenhain::types::{GroupState, Stop};
 use crate::kernel::ConfigError;
 
-/// The limit.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Config {
-    turns: i32,
+config! {
+    /// The limit.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Config {
+        turns: i32,
+    }
+    accepted |config| u32::try_from(config.turns).is_ok_and(|turns| Config::new(turns).is_ok())
 }
 
 impl Config {
@@ -30,11 +33,13 @@ impl Config {
     }
 }
 
-/// The state between two cycles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct State {
-    /// The angle turned in restricted operation, held at one increment beyond the permitted one; 0 outside.
-    pub angle: i32,
+fields! {
+    /// The state between two cycles.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct State {
+        /// The angle turned in restricted operation, held at one increment beyond the permitted one; 0 outside.
+        pub angle: i32,
+    }
 }
 
 impl State {
@@ -53,23 +58,27 @@ impl State {
     }
 }
 
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// The monitoring state of the group of the spindle.
-    pub state: GroupState,
-    /// The angle turned since the last cycle, in increments, with its sign.
-    pub step: i32,
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// The monitoring state of the group of the spindle.
+        pub state: GroupState,
+        /// The angle turned since the last cycle, in increments, with its sign.
+        pub step: i32,
+    }
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// The stop to be raised.
-    pub demand: Stop,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// The stop to be raised.
+        pub demand: Stop,
+    }
 }
 
-contract! {
+monitor! { heidenhain::revolutions;
     /// The angle of the activation and everything turned since: further than permitted is stopped in the same cycle.
     too_far_is_stopped ["HFS-P-39", "HFS-MODE-013", "HFS-SLI-004"]:
         when |s| s.inputs.state == GroupState::SlsS

@@ -8,11 +8,13 @@
 use crate::heidenhain::types::Stop;
 use crate::kernel::{ConfigError, Cycles};
 
-/// The length of a pulse and the meaning of the pair.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Config {
-    t_low: Cycles,
-    emergency: bool,
+config! {
+    /// The length of a pulse and the meaning of the pair.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Config {
+        t_low: Cycles,
+        emergency: bool,
+    }
 }
 
 impl Config {
@@ -30,34 +32,33 @@ impl Config {
     }
 }
 
-/// Where the test is.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Pulse {
-    /// No test.
-    #[default]
-    None,
-    /// The supply of the inputs of channel A is off.
-    ALow,
-    /// It is back on.
-    ABack,
-    /// The supply of the inputs of channel B is off.
-    BLow,
-    /// It is back on.
-    BBack,
-}
-
-impl Pulse {
-    /// Every pulse, in the order of their declaration.
-    pub const ALL: [Self; 5] = [Self::None, Self::ALow, Self::ABack, Self::BLow, Self::BBack];
-}
-
-/// The state between two cycles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct State {
+fields! {
     /// Where the test is.
-    pub pulse: Pulse,
-    /// What is left of the pulse, else 0.
-    pub timer: Cycles,
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub enum Pulse {
+        /// No test.
+        #[default]
+        None,
+        /// The supply of the inputs of channel A is off.
+        ALow,
+        /// It is back on.
+        ABack,
+        /// The supply of the inputs of channel B is off.
+        BLow,
+        /// It is back on.
+        BBack,
+    }
+}
+
+fields! {
+    /// The state between two cycles.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct State {
+        /// Where the test is.
+        pub pulse: Pulse,
+        /// What is left of the pulse, else 0.
+        pub timer: Cycles,
+    }
 }
 
 impl State {
@@ -75,37 +76,41 @@ impl State {
     }
 }
 
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// A test is due.
-    pub due: bool,
-    /// The contact of channel A is closed: the good state.
-    pub contact_a: bool,
-    /// The contact of channel B is closed.
-    pub contact_b: bool,
-    /// A short circuit to 24 V holds input A.
-    pub stuck_a: bool,
-    /// A short circuit to 24 V holds input B.
-    pub stuck_b: bool,
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// A test is due.
+        pub due: bool,
+        /// The contact of channel A is closed: the good state.
+        pub contact_a: bool,
+        /// The contact of channel B is closed.
+        pub contact_b: bool,
+        /// A short circuit to 24 V holds input A.
+        pub stuck_a: bool,
+        /// A short circuit to 24 V holds input B.
+        pub stuck_b: bool,
+    }
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// What input A reads in this cycle.
-    pub reads_a: bool,
-    /// What input B reads.
-    pub reads_b: bool,
-    /// A contact is open: an input reads 0 outside its own pulse.
-    pub opened: bool,
-    /// An input stays 1 without its supply.
-    pub short: bool,
-    /// The stop to be raised.
-    pub demand: Stop,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// What input A reads in this cycle.
+        pub reads_a: bool,
+        /// What input B reads.
+        pub reads_b: bool,
+        /// A contact is open: an input reads 0 outside its own pulse.
+        pub opened: bool,
+        /// An input stays 1 without its supply.
+        pub short: bool,
+        /// The stop to be raised.
+        pub demand: Stop,
+    }
 }
 
-contract! {
+monitor! { heidenhain::sampling;
     /// An open contact that no short circuit hides is seen in the same cycle unless its own pulse runs: during a pulse the
     /// other channel sees it.
     open_contact_is_seen ["HFS-ARCH-004/g", "HFS-P-07", "HFS-DYN-001", "HFS-ES-004"]:

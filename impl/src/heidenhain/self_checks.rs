@@ -4,11 +4,13 @@ pub use crate::contract::Stateless as State;
 use crate::heidenhain::types::Stop;
 use crate::kernel::ConfigError;
 
-/// The channel and the drive.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Config {
-    cc: bool,
-    safe: bool,
+config! {
+    /// The channel and the drive.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Config {
+        cc: bool,
+        safe: bool,
+    }
 }
 
 impl Config {
@@ -21,49 +23,53 @@ impl Config {
     }
 }
 
-/// The faults found in one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// The amplitude of an encoder is outside its limits.
-    pub amplitude: bool,
-    /// The input frequency of an encoder is too high.
-    pub frequency: bool,
-    /// The temperature of a component is outside its limits.
-    pub temperature: bool,
-    /// A fan is too slow.
-    pub fan: bool,
-    /// A supply voltage of a board is outside its limits.
-    pub supply: bool,
-    /// The check of the watchdog counters failed.
-    pub watchdog: bool,
-    /// Internal error of the safe software.
-    pub software: bool,
-    /// Fatal system error.
-    pub fatal: bool,
-    /// A checksum is wrong.
-    pub checksum: bool,
-    /// The run-time system of the safe PLC asks for SS1F.
-    pub runtime: bool,
-    /// Internal emergency stop: from the interpolator or a CC.
-    pub internal_es: bool,
-    /// A safe output reads back differently from its command.
-    pub readback: bool,
+fields! {
+    /// The faults found in one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// The amplitude of an encoder is outside its limits.
+        pub amplitude: bool,
+        /// The input frequency of an encoder is too high.
+        pub frequency: bool,
+        /// The temperature of a component is outside its limits.
+        pub temperature: bool,
+        /// A fan is too slow.
+        pub fan: bool,
+        /// A supply voltage of a board is outside its limits.
+        pub supply: bool,
+        /// The check of the watchdog counters failed.
+        pub watchdog: bool,
+        /// Internal error of the safe software.
+        pub software: bool,
+        /// Fatal system error.
+        pub fatal: bool,
+        /// A checksum is wrong.
+        pub checksum: bool,
+        /// The run-time system of the safe PLC asks for SS1F.
+        pub runtime: bool,
+        /// Internal emergency stop: from the interpolator or a CC.
+        pub internal_es: bool,
+        /// A safe output reads back differently from its command.
+        pub readback: bool,
+    }
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// A fault asks for SS1F.
-    pub asks_ss1f: bool,
-    /// A fault asks for SS1.
-    pub asks_ss1: bool,
-    /// A fault asks for SS2.
-    pub asks_ss2: bool,
-    /// The highest of them.
-    pub demand: Stop,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// A fault asks for SS1F.
+        pub asks_ss1f: bool,
+        /// A fault asks for SS1.
+        pub asks_ss1: bool,
+        /// A fault asks for SS2.
+        pub asks_ss2: bool,
+        /// The highest of them.
+        pub demand: Stop,
+    }
 }
 
-contract! {
+monitor! { heidenhain::self_checks;
     /// Voltages, watchdogs, fatal errors, checksums and the safe PLC's run-time system: SS1F in both channels.
     fatal_faults_are_ss1f ["HFS-MON-005", "HFS-MON-006", "HFS-FAULT-003", "HFS-FAULT-004", "HFS-FAULT-019"]:
         when |s| s.inputs.supply || s.inputs.watchdog || s.inputs.fatal || s.inputs.checksum || s.inputs.runtime

@@ -15,13 +15,15 @@
 use crate::heidenhain::types::Stop;
 use crate::kernel::{ConfigError, Cycles};
 
-/// The interval and the parts that are left out.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Config {
-    interval: Cycles,
-    doors_free: bool,
-    no_control: bool,
-    cc: bool,
+config! {
+    /// The interval and the parts that are left out.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Config {
+        interval: Cycles,
+        doors_free: bool,
+        no_control: bool,
+        cc: bool,
+    }
 }
 
 impl Config {
@@ -49,69 +51,53 @@ impl Config {
     }
 }
 
-/// A step of the test.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Phase {
-    /// Serial numbers of the components against the stored list.
-    #[default]
-    Configuration,
-    /// Internal checks and watchdogs.
-    Internal,
-    /// The chain of normally closed contacts.
-    Chain,
-    /// The emergency stop circuit.
-    EsCircuit,
-    /// The control voltage must be off.
-    VoltageOff,
-    /// The operator is asked to switch it on.
-    VoltageOn,
-    /// No machine key and no permissive is pressed.
-    Keys,
-    /// The doors are shut.
-    Doors,
-    /// The brakes can be switched by either channel alone.
-    BrakeControl,
-    /// Either channel can take the torque away.
-    CutOut,
-    /// The brakes hold.
-    HoldingBrakes,
-    /// Repeated test: the drives are switched off after the test of the brakes.
-    DrivesOff,
-    /// Passed.
-    Passed,
-    /// Failed: main switch.
-    Failed,
+fields! {
+    /// A step of the test.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub enum Phase {
+        /// Serial numbers of the components against the stored list.
+        #[default]
+        Configuration,
+        /// Internal checks and watchdogs.
+        Internal,
+        /// The chain of normally closed contacts.
+        Chain,
+        /// The emergency stop circuit.
+        EsCircuit,
+        /// The control voltage must be off.
+        VoltageOff,
+        /// The operator is asked to switch it on.
+        VoltageOn,
+        /// No machine key and no permissive is pressed.
+        Keys,
+        /// The doors are shut.
+        Doors,
+        /// The brakes can be switched by either channel alone.
+        BrakeControl,
+        /// Either channel can take the torque away.
+        CutOut,
+        /// The brakes hold.
+        HoldingBrakes,
+        /// Repeated test: the drives are switched off after the test of the brakes.
+        DrivesOff,
+        /// Passed.
+        Passed,
+        /// Failed: main switch.
+        Failed,
+    }
 }
 
-impl Phase {
-    /// Every step, in the order of their declaration.
-    pub const ALL: [Self; 14] = [
-        Self::Configuration,
-        Self::Internal,
-        Self::Chain,
-        Self::EsCircuit,
-        Self::VoltageOff,
-        Self::VoltageOn,
-        Self::Keys,
-        Self::Doors,
-        Self::BrakeControl,
-        Self::CutOut,
-        Self::HoldingBrakes,
-        Self::DrivesOff,
-        Self::Passed,
-        Self::Failed,
-    ];
-}
-
-/// The state between two cycles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct State {
-    /// The step.
-    pub phase: Phase,
-    /// The test is a repeated one: its holding brakes came first.
-    pub repeated: bool,
-    /// How long the last passed test is still good for.
-    pub rest: Cycles,
+fields! {
+    /// The state between two cycles.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct State {
+        /// The step.
+        pub phase: Phase,
+        /// The test is a repeated one: its holding brakes came first.
+        pub repeated: bool,
+        /// How long the last passed test is still good for.
+        pub rest: Cycles,
+    }
 }
 
 impl State {
@@ -145,31 +131,33 @@ impl State {
     }
 }
 
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// Main switch off and on.
-    pub power_on: bool,
-    /// The PLC starts a repeated test.
-    pub start: bool,
-    /// The serial numbers match the stored list, or the password of the machine builder confirms them.
-    pub configured: bool,
-    /// The step has done its work.
-    pub done: bool,
-    /// The step has found a fault of the control or the drives.
-    pub fault: bool,
-    /// The emergency stop circuit is closed and follows its test pulses.
-    pub es_closed: bool,
-    /// The control voltage is on.
-    pub cvo: bool,
-    /// `PP_GenMKG` = 0: no machine key, no permissive pressed.
-    pub keys_free: bool,
-    /// AUTO is requested for all groups: the doors are shut.
-    pub doors_shut: bool,
-    /// Channel A has not run the test of the brake control.
-    pub omitted: bool,
-    /// The path of every braked axis stays within SMP2232.x, and its current rises.
-    pub brake_good: bool,
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// Main switch off and on.
+        pub power_on: bool,
+        /// The PLC starts a repeated test.
+        pub start: bool,
+        /// The serial numbers match the stored list, or the password of the machine builder confirms them.
+        pub configured: bool,
+        /// The step has done its work.
+        pub done: bool,
+        /// The step has found a fault of the control or the drives.
+        pub fault: bool,
+        /// The emergency stop circuit is closed and follows its test pulses.
+        pub es_closed: bool,
+        /// The control voltage is on.
+        pub cvo: bool,
+        /// `PP_GenMKG` = 0: no machine key, no permissive pressed.
+        pub keys_free: bool,
+        /// AUTO is requested for all groups: the doors are shut.
+        pub doors_shut: bool,
+        /// Channel A has not run the test of the brake control.
+        pub omitted: bool,
+        /// The path of every braked axis stays within SMP2232.x, and its current rises.
+        pub brake_good: bool,
+    }
 }
 
 impl Inputs {
@@ -179,28 +167,30 @@ impl Inputs {
     }
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// `NN_GenSafe`: a test has passed and its interval is not over.
-    pub gen_safe: bool,
-    /// A test runs (M4190).
-    pub running: bool,
-    /// `NN_BrkActivationTest`.
-    pub brake_test: bool,
-    /// The operating stop watches the path, not the speed.
-    pub path_only: bool,
-    /// The operator is asked for the control voltage (M4192).
-    pub ask_voltage: bool,
-    /// The cut-out channels are tested: the groups may leave STO.
-    pub cut_out_done: bool,
-    /// The stop to be raised for the whole machine.
-    pub demand: Stop,
-    /// The stop of the drives whose brake control has failed.
-    pub brake_demand: Stop,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// `NN_GenSafe`: a test has passed and its interval is not over.
+        pub gen_safe: bool,
+        /// A test runs (M4190).
+        pub running: bool,
+        /// `NN_BrkActivationTest`.
+        pub brake_test: bool,
+        /// The operating stop watches the path, not the speed.
+        pub path_only: bool,
+        /// The operator is asked for the control voltage (M4192).
+        pub ask_voltage: bool,
+        /// The cut-out channels are tested: the groups may leave STO.
+        pub cut_out_done: bool,
+        /// The stop to be raised for the whole machine.
+        pub demand: Stop,
+        /// The stop of the drives whose brake control has failed.
+        pub brake_demand: Stop,
+    }
 }
 
-contract! {
+monitor! { heidenhain::self_test;
     /// A test is good from the cycle in which it passes, for the interval, and not before the first.
     passed_test_is_good_for_the_interval ["HFS-P-30", "HFS-TEST-003", "HFS-TEST-004", "HFS-TEST-030"]:
         when |s| s.before.phase != Phase::Passed && s.after.phase == Phase::Passed

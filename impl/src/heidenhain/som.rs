@@ -9,10 +9,12 @@
 use crate::heidenhain::types::Som;
 use crate::kernel::ConfigError;
 
-/// Which modes there are.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Config {
-    som_4: bool,
+config! {
+    /// Which modes there are.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Config {
+        som_4: bool,
+    }
 }
 
 impl Config {
@@ -25,15 +27,17 @@ impl Config {
     }
 }
 
-/// The state between two cycles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct State {
-    /// The selected mode.
-    pub som: Som,
-    /// The last mode other than SOM_1 granted since no input was active; SOM_1 for none.
-    pub last: Som,
-    /// SOM_4 was left by soft key and its key is still turned.
-    pub refused: bool,
+fields! {
+    /// The state between two cycles.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct State {
+        /// The selected mode.
+        pub som: Som,
+        /// The last mode other than SOM_1 granted since no input was active; SOM_1 for none.
+        pub last: Som,
+        /// SOM_4 was left by soft key and its key is still turned.
+        pub refused: bool,
+    }
 }
 
 impl State {
@@ -53,19 +57,21 @@ impl State {
     }
 }
 
-/// The inputs of one cycle of the safe PLC.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// Main switch off and on.
-    pub power_on: bool,
-    /// Keylock input for SOM_2, both contacts.
-    pub key_2: bool,
-    /// Keylock input for SOM_3, both contacts.
-    pub key_3: bool,
-    /// Keylock input for SOM_4, both contacts.
-    pub key_4: bool,
-    /// The soft key that leaves SOM_4.
-    pub deselected: bool,
+fields! {
+    /// The inputs of one cycle of the safe PLC.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// Main switch off and on.
+        pub power_on: bool,
+        /// Keylock input for SOM_2, both contacts.
+        pub key_2: bool,
+        /// Keylock input for SOM_3, both contacts.
+        pub key_3: bool,
+        /// Keylock input for SOM_4, both contacts.
+        pub key_4: bool,
+        /// The soft key that leaves SOM_4.
+        pub deselected: bool,
+    }
 }
 
 impl Inputs {
@@ -85,16 +91,18 @@ impl Inputs {
     }
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// The selected mode (`PP_GenSOM`).
-    pub som: Som,
-    /// It has changed: with an open door an SS2 for the groups of its space.
-    pub changed: bool,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// The selected mode (`PP_GenSOM`).
+        pub som: Som,
+        /// It has changed: with an open door an SS2 for the groups of its space.
+        pub changed: bool,
+    }
 }
 
-contract! {
+monitor! { heidenhain::som;
     /// A mode other than SOM_1 needs its input, and no other one.
     mode_needs_its_key_alone ["HFS-P-22", "HFS-KSW-001"]:
         when |s| s.outputs.som != Som::Som1

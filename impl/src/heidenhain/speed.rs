@@ -11,24 +11,28 @@ pub use crate::contract::Stateless as State;
 use crate::heidenhain::types::{GroupState, Left, Stop};
 use crate::kernel::{ConfigError, Speed};
 
-/// The limits in increments per cycle (see [`crate::heidenhain::parameters`]), 0 where none is set.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Limits {
-    /// SOM_2: SMP590.x of an axis, SMP591 of the spindle.
-    pub som_2: Speed,
-    /// SOM_3: SMP540.x, SMP541.
-    pub som_3: Speed,
-    /// SOM_4: SMP552.x, SMP551.
-    pub som_4: Speed,
-    /// Restricted spindle operation: 50 rpm.
-    pub restricted: Speed,
+fields! {
+    /// The limits in increments per cycle (see [`crate::heidenhain::parameters`]), 0 where none is set.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Limits {
+        /// SOM_2: SMP590.x of an axis, SMP591 of the spindle.
+        pub som_2: Speed,
+        /// SOM_3: SMP540.x, SMP541.
+        pub som_3: Speed,
+        /// SOM_4: SMP552.x, SMP551.
+        pub som_4: Speed,
+        /// Restricted spindle operation: 50 rpm.
+        pub restricted: Speed,
+    }
 }
 
-/// The limits and the channel.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Config {
-    limits: Limits,
-    cc: bool,
+config! {
+    /// The limits and the channel.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Config {
+        limits: Limits,
+        cc: bool,
+    }
 }
 
 impl Config {
@@ -82,31 +86,35 @@ const fn with_margin(limit: Speed) -> u64 {
     limit.0 as u64 * 105 / 100
 }
 
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// The monitoring state of the group at the start of the cycle.
-    pub state: GroupState,
-    /// The modes left in motion, whose limits apply as well.
-    pub left: Left,
-    /// The magnitude of the actual speed.
-    pub speed: Speed,
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// The monitoring state of the group at the start of the cycle.
+        pub state: GroupState,
+        /// The modes left in motion, whose limits apply as well.
+        pub left: Left,
+        /// The magnitude of the actual speed.
+        pub speed: Speed,
+    }
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// The speed is limited.
-    pub watched: bool,
-    /// The speed is above the limit and its margin.
-    pub violated: bool,
-    /// The limit in force is not set (found by channel B only).
-    pub not_set: bool,
-    /// The stop to be raised.
-    pub demand: Stop,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// The speed is limited.
+        pub watched: bool,
+        /// The speed is above the limit and its margin.
+        pub violated: bool,
+        /// The limit in force is not set (found by channel B only).
+        pub not_set: bool,
+        /// The stop to be raised.
+        pub demand: Stop,
+    }
 }
 
-contract! {
+monitor! { heidenhain::speed;
     /// Faster than the limit of the mode plus 5 %: SS1 in the same cycle.
     faster_than_the_limit_stops ["HFS-ARCH-004/c", "HFS-MODE-004/a", "HFS-MODE-004/b", "HFS-MODE-005/a", "HFS-MODE-005/b", "HFS-TIMING-007", "HFS-TIMING-008", "HFS-P-11", "HFS-SLS-001", "HFS-SLS-003", "HFS-SLS-004", "HFS-SLS-006", "HFS-SLS-010"]:
         when |s| s.inputs.state != GroupState::SlsS && s.config.limit(s.inputs.state, s.inputs.left)

@@ -7,10 +7,12 @@
 use crate::heidenhain::types::Stop;
 use crate::kernel::ConfigError;
 
-/// The channel.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Config {
-    cc: bool,
+config! {
+    /// The channel.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Config {
+        cc: bool,
+    }
 }
 
 impl Config {
@@ -23,28 +25,27 @@ impl Config {
     }
 }
 
-/// How far the start is.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Start {
-    /// The control boots.
-    #[default]
-    Booting,
-    /// The control is in service.
-    InService,
-    /// A check has failed: main switch.
-    Refused,
-}
-
-impl Start {
-    /// Every value, in the order of their declaration.
-    pub const ALL: [Self; 3] = [Self::Booting, Self::InService, Self::Refused];
-}
-
-/// The state between two cycles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct State {
+fields! {
     /// How far the start is.
-    pub start: Start,
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub enum Start {
+        /// The control boots.
+        #[default]
+        Booting,
+        /// The control is in service.
+        InService,
+        /// A check has failed: main switch.
+        Refused,
+    }
+}
+
+fields! {
+    /// The state between two cycles.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct State {
+        /// How far the start is.
+        pub start: Start,
+    }
 }
 
 impl State {
@@ -60,21 +61,23 @@ impl State {
     }
 }
 
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// Main switch off and on.
-    pub power_on: bool,
-    /// The boot has come to its end.
-    pub booted: bool,
-    /// Axes of different kind (MP100) are in one group.
-    pub mixed: bool,
-    /// Motor speed at rated speed in 1000 rpm (MP3210), 0 to 100.
-    pub motor_speed: i32,
-    /// Rated speed for gear ranges (MP3510) in rpm, above 0.
-    pub rated_speed: i32,
-    /// The feed constant (SMP1054.x) is not 0.
-    pub feed_constant: bool,
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// Main switch off and on.
+        pub power_on: bool,
+        /// The boot has come to its end.
+        pub booted: bool,
+        /// Axes of different kind (MP100) are in one group.
+        pub mixed: bool,
+        /// Motor speed at rated speed in 1000 rpm (MP3210), 0 to 100.
+        pub motor_speed: i32,
+        /// Rated speed for gear ranges (MP3510) in rpm, above 0.
+        pub rated_speed: i32,
+        /// The feed constant (SMP1054.x) is not 0.
+        pub feed_constant: bool,
+    }
 }
 
 impl Inputs {
@@ -87,14 +90,16 @@ impl Inputs {
     }
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// The stop to be raised.
-    pub demand: Stop,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// The stop to be raised.
+        pub demand: Stop,
+    }
 }
 
-contract! {
+monitor! { heidenhain::start_checks;
     /// Axes of different kind in one group, found while booting by either channel: SS1F.
     mixed_group_is_refused ["HFS-FAULT-005", "HFS-LIM-003", "HFS-GRP-001"]:
         when |s| s.inputs.mixed && s.before.start == Start::Booting && !s.inputs.power_on

@@ -6,10 +6,12 @@
 use crate::heidenhain::types::Unit;
 use crate::kernel::{ConfigError, Cycles};
 
-/// How long the group may stand.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Config {
-    t_idle: Cycles,
+config! {
+    /// How long the group may stand.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Config {
+        t_idle: Cycles,
+    }
 }
 
 impl Config {
@@ -41,11 +43,13 @@ impl Config {
     }
 }
 
-/// The state between two cycles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct State {
-    /// How long the released group has stood, up to the time of the configuration.
-    pub timer: Cycles,
+fields! {
+    /// The state between two cycles.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct State {
+        /// How long the released group has stood, up to the time of the configuration.
+        pub timer: Cycles,
+    }
 }
 
 impl State {
@@ -61,27 +65,31 @@ impl State {
     }
 }
 
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// The group is released with the door open: SLS_2, SLS_3, SLS_4 or SLS_S.
-    pub limited: bool,
-    /// An axis of the group moves (`NN_AxGrpInMotion`).
-    pub moving: bool,
-    /// The machine operating mode.
-    pub unit: Unit,
-    /// A permissive is valid for the group (`PP_AxGrpPB`).
-    pub permissive: bool,
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// The group is released with the door open: SLS_2, SLS_3, SLS_4 or SLS_S.
+        pub limited: bool,
+        /// An axis of the group moves (`NN_AxGrpInMotion`).
+        pub moving: bool,
+        /// The machine operating mode.
+        pub unit: Unit,
+        /// A permissive is valid for the group (`PP_AxGrpPB`).
+        pub permissive: bool,
+    }
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// The group has stood for too long: SS2.
-    pub idle: bool,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// The group has stood for too long: SS2.
+        pub idle: bool,
+    }
 }
 
-contract! {
+monitor! { heidenhain::startup;
     /// A group that has stood for the time is stopped as long as it stands, unless a permissive is held.
     long_standstill_stops ["HFS-USTART-001", "HFS-USTART-002", "HFS-USTART-004"]:
         when |s| stands(&s.inputs) && s.before.timer.count() + 1 >= s.config.t_idle.count() && !s.inputs.permissive

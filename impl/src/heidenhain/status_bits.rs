@@ -10,49 +10,53 @@
 pub use crate::contract::Stateless as State;
 use crate::heidenhain::types::Stop;
 
-/// The function has no parameters.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Config;
+config! {
+    /// The function has no parameters.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Config;
+}
 
-/// The bits of one cycle: `true` where the signal is active, which most of them are as 0.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// Bit 0, `-ES.A`: emergency stop, channel A.
-    pub es_a: bool,
-    /// Bit 1, `-ES.B`: emergency stop, channel B.
-    pub es_b: bool,
-    /// Bit 2, `-ES.A.HW`: emergency stop of the handwheel, channel A.
-    pub es_a_hw: bool,
-    /// Bit 3, `-ES.B.HW`: emergency stop of the handwheel, channel B.
-    pub es_b_hw: bool,
-    /// Bit 4, `-STO.A.MC.WD`: watchdog of the MC.
-    pub mc_wd: bool,
-    /// Bit 5, `-STOS.A.MC`: the MC has switched the spindle off.
-    pub stos_mc: bool,
-    /// Bit 6, `-STO.B.CC.WD`: watchdog of the CC.
-    pub cc_wd: bool,
-    /// Bit 7, `-SMC.A.WD`: fast watchdog of the MC.
-    pub smc_wd: bool,
-    /// Bit 8, `-SPL.WD`: watchdog of an I/O assembly.
-    pub spl_wd: bool,
-    /// Bit 9, `-SMOP.WD`: watchdog of an operating panel.
-    pub smop_wd: bool,
-    /// Bit 10, `-PF.PS.AC`: line voltage fails.
-    pub pf_ac: bool,
-    /// Bit 11, `-PF.PS.DC`: DC-link voltage fails.
-    pub pf_dc: bool,
-    /// Bit 12, `-PF.BOARD`: supply voltage of a board.
-    pub pf_board: bool,
-    /// Bit 13, `-N0`.
-    pub n0: bool,
-    /// Bit 14, `-REQ.SS2`: a participant asks for SS2.
-    pub req_ss2: bool,
-    /// A module of the PLC has switched the evaluation of bits 10 and 11 off.
-    pub masked: bool,
-    /// The I/O assembly's own fault bits: the control has crashed, the component has a fault, or its HSCI communication.
-    pub spl_fault: bool,
-    /// The same of the operating panel.
-    pub smop_fault: bool,
+fields! {
+    /// The bits of one cycle: `true` where the signal is active, which most of them are as 0.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// Bit 0, `-ES.A`: emergency stop, channel A.
+        pub es_a: bool,
+        /// Bit 1, `-ES.B`: emergency stop, channel B.
+        pub es_b: bool,
+        /// Bit 2, `-ES.A.HW`: emergency stop of the handwheel, channel A.
+        pub es_a_hw: bool,
+        /// Bit 3, `-ES.B.HW`: emergency stop of the handwheel, channel B.
+        pub es_b_hw: bool,
+        /// Bit 4, `-STO.A.MC.WD`: watchdog of the MC.
+        pub mc_wd: bool,
+        /// Bit 5, `-STOS.A.MC`: the MC has switched the spindle off.
+        pub stos_mc: bool,
+        /// Bit 6, `-STO.B.CC.WD`: watchdog of the CC.
+        pub cc_wd: bool,
+        /// Bit 7, `-SMC.A.WD`: fast watchdog of the MC.
+        pub smc_wd: bool,
+        /// Bit 8, `-SPL.WD`: watchdog of an I/O assembly.
+        pub spl_wd: bool,
+        /// Bit 9, `-SMOP.WD`: watchdog of an operating panel.
+        pub smop_wd: bool,
+        /// Bit 10, `-PF.PS.AC`: line voltage fails.
+        pub pf_ac: bool,
+        /// Bit 11, `-PF.PS.DC`: DC-link voltage fails.
+        pub pf_dc: bool,
+        /// Bit 12, `-PF.BOARD`: supply voltage of a board.
+        pub pf_board: bool,
+        /// Bit 13, `-N0`.
+        pub n0: bool,
+        /// Bit 14, `-REQ.SS2`: a participant asks for SS2.
+        pub req_ss2: bool,
+        /// A module of the PLC has switched the evaluation of bits 10 and 11 off.
+        pub masked: bool,
+        /// The I/O assembly's own fault bits: the control has crashed, the component has a fault, or its HSCI communication.
+        pub spl_fault: bool,
+        /// The same of the operating panel.
+        pub smop_fault: bool,
+    }
 }
 
 impl Inputs {
@@ -76,26 +80,28 @@ impl Inputs {
     }
 }
 
-/// The reactions of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// The stop that the MC raises.
-    pub mc: Stop,
-    /// The stop that the CC raises.
-    pub cc: Stop,
-    /// Both lift the tool off the workpiece; no stop.
-    pub lift_off: bool,
-    /// The MC still serves its watchdogs.
-    pub mc_retrigger: bool,
-    /// The I/O assembly switches its outputs off: the fault is its own.
-    pub spl_off: bool,
-    /// The operating panel switches its outputs off: the fault is its own.
-    pub smop_off: bool,
-    /// The CC notes for the self-test that the spindle is switched off; no stop.
-    pub spindle_seen: bool,
+fields! {
+    /// The reactions of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// The stop that the MC raises.
+        pub mc: Stop,
+        /// The stop that the CC raises.
+        pub cc: Stop,
+        /// Both lift the tool off the workpiece; no stop.
+        pub lift_off: bool,
+        /// The MC still serves its watchdogs.
+        pub mc_retrigger: bool,
+        /// The I/O assembly switches its outputs off: the fault is its own.
+        pub spl_off: bool,
+        /// The operating panel switches its outputs off: the fault is its own.
+        pub smop_off: bool,
+        /// The CC notes for the self-test that the spindle is switched off; no stop.
+        pub spindle_seen: bool,
+    }
 }
 
-contract! {
+monitor! { heidenhain::status_bits;
     /// Any emergency stop contact, in either channel, stops in both.
     emergency_stop_stops_both ["HFS-STAT-002/a", "HFS-TIMING-005/a", "HFS-TIMING-006/a", "HFS-TIMING-006/b", "HFS-P-07", "HFS-STAT-005", "HFS-STAT-007", "HFS-FAULT-011", "HFS-FAULT-013", "HFS-ES-001"]:
         when |s| s.inputs.es_a || s.inputs.es_b || s.inputs.es_a_hw || s.inputs.es_b_hw

@@ -27,13 +27,15 @@ mod laws;
 
 pub use laws::*;
 
-/// The times of a group, equal in both channels, and which channel it is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Config {
-    cc: bool,
-    t_ss1: Cycles,
-    t_ss2: Cycles,
-    t_brake: Cycles,
+config! {
+    /// The times of a group, equal in both channels, and which channel it is.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Config {
+        cc: bool,
+        t_ss1: Cycles,
+        t_ss2: Cycles,
+        t_brake: Cycles,
+    }
 }
 
 impl Config {
@@ -85,19 +87,21 @@ pub const fn started(time: Cycles) -> Cycles {
     if time.is_zero() { Cycles::new(1) } else { time }
 }
 
-/// The state between two cycles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct State {
-    /// The stop in force.
-    pub level: Stop,
-    /// What it is doing.
-    pub phase: Phase,
-    /// What is left of the time of the SS2 or SS1 that runs, else 0.
-    pub timer: Cycles,
-    /// What is left of the overlap of the brake while it closes, else 0.
-    pub brake: Cycles,
-    /// The SS1 that brakes concerns the whole machine: it stops the other groups too.
-    pub wide: bool,
+fields! {
+    /// The state between two cycles.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct State {
+        /// The stop in force.
+        pub level: Stop,
+        /// What it is doing.
+        pub phase: Phase,
+        /// What is left of the time of the SS2 or SS1 that runs, else 0.
+        pub timer: Cycles,
+        /// What is left of the overlap of the brake while it closes, else 0.
+        pub brake: Cycles,
+        /// The SS1 that brakes concerns the whole machine: it stops the other groups too.
+        pub wide: bool,
+    }
 }
 
 impl State {
@@ -138,52 +142,56 @@ impl State {
     }
 }
 
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// Main switch off and on.
-    pub main_switch: bool,
-    /// The highest cause of this cycle for this group, in this channel or told by the other.
-    pub demand: Stop,
-    /// An SS1 among the causes concerns the whole machine: emergency stop, or found by the safety kernel.
-    pub wide_cause: bool,
-    /// All drives of the group are below 50 mm/min or 10 rpm.
-    pub still: bool,
-    /// The groups that SMP610 lists for this one stand still, or none is listed.
-    pub listed_still: bool,
-    /// The other channel has reported torque off.
-    pub peer_off: bool,
-    /// The operator switches the drives on: a fresh edge after torque off, the contact chain closed.
-    pub restart: bool,
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// Main switch off and on.
+        pub main_switch: bool,
+        /// The highest cause of this cycle for this group, in this channel or told by the other.
+        pub demand: Stop,
+        /// An SS1 among the causes concerns the whole machine: emergency stop, or found by the safety kernel.
+        pub wide_cause: bool,
+        /// All drives of the group are below 50 mm/min or 10 rpm.
+        pub still: bool,
+        /// The groups that SMP610 lists for this one stand still, or none is listed.
+        pub listed_still: bool,
+        /// The other channel has reported torque off.
+        pub peer_off: bool,
+        /// The operator switches the drives on: a fresh edge after torque off, the contact chain closed.
+        pub restart: bool,
+    }
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// The stop in force.
-    pub level: Stop,
-    /// What it is doing.
-    pub phase: Phase,
-    /// The SS1 that brakes concerns the whole machine: it stops the other groups too.
-    pub wide: bool,
-    /// -STO.A.x or -STO.B.x is 0.
-    pub torque_off: bool,
-    /// Safe brake control: the brakes of the group are closed by this channel.
-    pub brake_closed: bool,
-    /// The NC brakes the group along the contour.
-    pub on_contour: bool,
-    /// The drives brake along the emergency ramp.
-    pub emergency_ramp: bool,
-    /// The groups that SMP610 lists get an SS2.
-    pub brake_listed: bool,
-    /// Only the main switch allows a restart.
-    pub needs_switch: bool,
-    /// An SS2 has ended in this cycle, or was asked of a group that stands.
-    pub ss2_ended: bool,
-    /// The drives are switched on again.
-    pub restarted: bool,
-    /// The torque is off at the end of an SS1D, which needs no drive-on.
-    pub keeps_enable: bool,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// The stop in force.
+        pub level: Stop,
+        /// What it is doing.
+        pub phase: Phase,
+        /// The SS1 that brakes concerns the whole machine: it stops the other groups too.
+        pub wide: bool,
+        /// -STO.A.x or -STO.B.x is 0.
+        pub torque_off: bool,
+        /// Safe brake control: the brakes of the group are closed by this channel.
+        pub brake_closed: bool,
+        /// The NC brakes the group along the contour.
+        pub on_contour: bool,
+        /// The drives brake along the emergency ramp.
+        pub emergency_ramp: bool,
+        /// The groups that SMP610 lists get an SS2.
+        pub brake_listed: bool,
+        /// Only the main switch allows a restart.
+        pub needs_switch: bool,
+        /// An SS2 has ended in this cycle, or was asked of a group that stands.
+        pub ss2_ended: bool,
+        /// The drives are switched on again.
+        pub restarted: bool,
+        /// The torque is off at the end of an SS1D, which needs no drive-on.
+        pub keeps_enable: bool,
+    }
 }
 
 pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (State, Outputs) {

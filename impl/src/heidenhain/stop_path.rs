@@ -7,10 +7,12 @@
 use crate::heidenhain::types::{GroupState, Stop};
 use crate::kernel::{ConfigError, Distance, Position};
 
-/// The limit.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Config {
-    path: Distance,
+config! {
+    /// The limit.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Config {
+        path: Distance,
+    }
 }
 
 impl Config {
@@ -23,13 +25,15 @@ impl Config {
     }
 }
 
-/// The state between two cycles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct State {
-    /// An SS2 braked the axis in the last cycle.
-    pub on: bool,
-    /// The position in the first cycle of it; 0 without one.
-    pub begin: Position,
+fields! {
+    /// The state between two cycles.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct State {
+        /// An SS2 braked the axis in the last cycle.
+        pub on: bool,
+        /// The position in the first cycle of it; 0 without one.
+        pub begin: Position,
+    }
 }
 
 impl State {
@@ -46,15 +50,17 @@ impl State {
     }
 }
 
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// An SS2 brakes the axis.
-    pub braking: bool,
-    /// The monitoring state of before the stop.
-    pub state: GroupState,
-    /// The actual position of this channel.
-    pub position: Position,
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// An SS2 brakes the axis.
+        pub braking: bool,
+        /// The monitoring state of before the stop.
+        pub state: GroupState,
+        /// The actual position of this channel.
+        pub position: Position,
+    }
 }
 
 impl Inputs {
@@ -67,14 +73,16 @@ impl Inputs {
     }
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// The stop to be raised.
-    pub demand: Stop,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// The stop to be raised.
+        pub demand: Stop,
+    }
 }
 
-contract! {
+monitor! { heidenhain::stop_path;
     /// Further than permitted since the braking began: SS1 in the same cycle.
     long_path_is_braked_harder ["HFS-P-15", "HFS-SS2-005"]:
         when |s| s.inputs.braking && s.inputs.limited() && s.before.on

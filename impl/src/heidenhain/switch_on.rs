@@ -7,10 +7,12 @@
 use crate::heidenhain::types::Stop;
 use crate::kernel::{ConfigError, Cycles};
 
-/// How long the contacts may take.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Config {
-    t_chain: Cycles,
+config! {
+    /// How long the contacts may take.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Config {
+        t_chain: Cycles,
+    }
 }
 
 impl Config {
@@ -42,32 +44,31 @@ impl Config {
     }
 }
 
-/// The control voltage as the kernel sees it.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Voltage {
-    /// Off.
-    #[default]
-    Off,
-    /// The contact chain is being checked.
-    ChainCheck,
-    /// -STO.A.G is on.
-    On,
+fields! {
+    /// The control voltage as the kernel sees it.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub enum Voltage {
+        /// Off.
+        #[default]
+        Off,
+        /// The contact chain is being checked.
+        ChainCheck,
+        /// -STO.A.G is on.
+        On,
+    }
 }
 
-impl Voltage {
-    /// Every state.
-    pub const ALL: [Self; 3] = [Self::Off, Self::ChainCheck, Self::On];
-}
-
-/// The state between two cycles.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct State {
-    /// The control voltage.
-    pub voltage: Voltage,
-    /// What is left of the wait for the chain, else 0.
-    pub timer: Cycles,
-    /// `PP_GenCVO` in the cycle before.
-    pub seen: bool,
+fields! {
+    /// The state between two cycles.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    pub struct State {
+        /// The control voltage.
+        pub voltage: Voltage,
+        /// What is left of the wait for the chain, else 0.
+        pub timer: Cycles,
+        /// `PP_GenCVO` in the cycle before.
+        pub seen: bool,
+    }
 }
 
 impl State {
@@ -92,41 +93,45 @@ impl Default for State {
     }
 }
 
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// `PP_GenCVO`: the key is pressed or the latch relay K1 has picked up.
-    pub cvo: bool,
-    /// `PP_GenFB_NCC`: all contacts of the chain are closed.
-    pub chain: bool,
-    /// T.BRK: the brakes are supplied; `PP_GenTBRK` is 0 then.
-    pub t_brk: bool,
-    /// The kernel switches -STO.A.G off: emergency stop, SS0, SS1F, or all safe groups in STO.
-    pub dropped: bool,
-    /// Stops have ended, there is no cause of SS1 or higher, and no main switch is needed.
-    pub may_on: bool,
-    /// The self-test runs.
-    pub testing: bool,
-    /// The door of the spindle is open and it stands.
-    pub spindle_rests: bool,
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// `PP_GenCVO`: the key is pressed or the latch relay K1 has picked up.
+        pub cvo: bool,
+        /// `PP_GenFB_NCC`: all contacts of the chain are closed.
+        pub chain: bool,
+        /// T.BRK: the brakes are supplied; `PP_GenTBRK` is 0 then.
+        pub t_brk: bool,
+        /// The kernel switches -STO.A.G off: emergency stop, SS0, SS1F, or all safe groups in STO.
+        pub dropped: bool,
+        /// Stops have ended, there is no cause of SS1 or higher, and no main switch is needed.
+        pub may_on: bool,
+        /// The self-test runs.
+        pub testing: bool,
+        /// The door of the spindle is open and it stands.
+        pub spindle_rests: bool,
+    }
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// The control voltage.
-    pub voltage: Voltage,
-    /// -STO.A.G is 1.
-    pub sto_a_g: bool,
-    /// -STOS.A.G is 1: the power modules of the spindles are enabled too.
-    pub stos_a_g: bool,
-    /// The chain has not closed in time, or a brake is supplied.
-    pub fault: bool,
-    /// The stop that follows: SS1, in the self-test SS1F.
-    pub demand: Stop,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// The control voltage.
+        pub voltage: Voltage,
+        /// -STO.A.G is 1.
+        pub sto_a_g: bool,
+        /// -STOS.A.G is 1: the power modules of the spindles are enabled too.
+        pub stos_a_g: bool,
+        /// The chain has not closed in time, or a brake is supplied.
+        pub fault: bool,
+        /// The stop that follows: SS1, in the self-test SS1F.
+        pub demand: Stop,
+    }
 }
 
-contract! {
+monitor! { heidenhain::switch_on;
     /// The check begins with an edge only, and only when everything has ended.
     edge_starts_the_check ["HFS-P-06", "HFS-ACK-005", "HFS-ACK-006", "HFS-CVO-001"]:
         when |s| s.before.voltage == Voltage::Off && s.after.voltage != Voltage::Off

@@ -6,17 +6,21 @@
 
 use crate::heidenhain::types::GroupState;
 
-/// The function has no parameters.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Config;
+config! {
+    /// The function has no parameters.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Config;
+}
 
-/// The state between two cycles of the safe PLC.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct State {
-    /// The holder is open: outputs TH.A and TH.B.
-    pub open: bool,
-    /// Torque off was asked for in the last cycle, with the door open.
-    pub asked: bool,
+fields! {
+    /// The state between two cycles of the safe PLC.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct State {
+        /// The holder is open: outputs TH.A and TH.B.
+        pub open: bool,
+        /// Torque off was asked for in the last cycle, with the door open.
+        pub asked: bool,
+    }
 }
 
 impl State {
@@ -33,17 +37,19 @@ impl State {
     }
 }
 
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// The PLC asks for it: key with permissive.
-    pub request: bool,
-    /// A door of the working space is open.
-    pub door_open: bool,
-    /// `NN_AxGrpInMotion` of the spindle.
-    pub moving: bool,
-    /// `NN_AxGrpState` of the spindle.
-    pub state: GroupState,
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// The PLC asks for it: key with permissive.
+        pub request: bool,
+        /// A door of the working space is open.
+        pub door_open: bool,
+        /// `NN_AxGrpInMotion` of the spindle.
+        pub moving: bool,
+        /// `NN_AxGrpState` of the spindle.
+        pub state: GroupState,
+    }
 }
 
 impl Inputs {
@@ -53,16 +59,18 @@ impl Inputs {
     }
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// The holder is open.
-    pub open: bool,
-    /// `PP_AxGrpStateReq` of the spindle is STO_O.
-    pub no_torque: bool,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// The holder is open.
+        pub open: bool,
+        /// `PP_AxGrpStateReq` of the spindle is STO_O.
+        pub no_torque: bool,
+    }
 }
 
-contract! {
+monitor! { heidenhain::tool_holder;
     /// With the door open the holder opens only for a spindle that stands without torque, asked for in an earlier cycle.
     open_door_needs_a_spindle_without_torque ["HFS-P-29", "HFS-TH-001", "HFS-TH-005"]:
         when |s| !s.before.open && s.outputs.open && s.inputs.door_open

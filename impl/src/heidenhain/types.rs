@@ -3,35 +3,27 @@
 //! The interface to the safe PLC holds most of them as double words with named constants (`splcapimarker.def`), of which the
 //! manual prints the names only. The codes here number them in the order of the lists `ALL`; an embedding translates.
 
-/// A stop of an axis group, in rising priority (HFS-STOP-001, HFS-STOP-003).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Stop {
-    /// No stop.
-    #[default]
-    None,
-    /// Braking along the contour, then standstill under control (stop category 2).
-    Ss2,
-    /// An SS1 that waits until other axis groups stand still.
-    Ss1D,
-    /// Braking along the emergency ramp, then torque off (stop category 1).
-    Ss1,
-    /// An SS1 of the whole machine on a fatal fault: only the main switch allows a restart.
-    Ss1F,
-    /// Torque off at once (stop category 0); never requested by the safe PLC (HFS-SS0-002).
-    Ss0,
+fields! {
+    /// A stop of an axis group, in rising priority (HFS-STOP-001, HFS-STOP-003).
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+    pub enum Stop {
+        /// No stop.
+        #[default]
+        None,
+        /// Braking along the contour, then standstill under control (stop category 2).
+        Ss2,
+        /// An SS1 that waits until other axis groups stand still.
+        Ss1D,
+        /// Braking along the emergency ramp, then torque off (stop category 1).
+        Ss1,
+        /// An SS1 of the whole machine on a fatal fault: only the main switch allows a restart.
+        Ss1F,
+        /// Torque off at once (stop category 0); never requested by the safe PLC (HFS-SS0-002).
+        Ss0,
+    }
 }
 
 impl Stop {
-    /// Every stop, in rising priority.
-    pub const ALL: [Self; 6] = [
-        Self::None,
-        Self::Ss2,
-        Self::Ss1D,
-        Self::Ss1,
-        Self::Ss1F,
-        Self::Ss0,
-    ];
-
     /// The stop that a code of `PP_AxGrpStopReq` asks for, 0 to 4: none, SS2, SS1D, SS1, SS1F. No other code exists, and
     /// none for SS0 (HFS-API-018).
     pub const fn from_code(code: u8) -> Option<Self> {
@@ -56,77 +48,56 @@ impl Stop {
     }
 }
 
-/// What the stop of a group is doing.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Phase {
-    /// No stop.
-    #[default]
-    Run,
-    /// An SS2 waits for the groups of SMP610.
-    Ss2Wait,
-    /// An SS2 brakes along the contour.
-    Ss2Brake,
-    /// An SS1D waits for the groups of SMP610.
-    Ss1DWait,
-    /// Braking along the emergency ramp.
-    EmergencyBrake,
-    /// The drives stand, the brakes close before the torque goes (channel B).
-    BrakeCloses,
-    /// Torque off until a restart.
-    TorqueOff,
+fields! {
+    /// What the stop of a group is doing.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub enum Phase {
+        /// No stop.
+        #[default]
+        Run,
+        /// An SS2 waits for the groups of SMP610.
+        Ss2Wait,
+        /// An SS2 brakes along the contour.
+        Ss2Brake,
+        /// An SS1D waits for the groups of SMP610.
+        Ss1DWait,
+        /// Braking along the emergency ramp.
+        EmergencyBrake,
+        /// The drives stand, the brakes close before the torque goes (channel B).
+        BrakeCloses,
+        /// Torque off until a restart.
+        TorqueOff,
+    }
 }
 
-impl Phase {
-    /// Every phase.
-    pub const ALL: [Self; 7] = [
-        Self::Run,
-        Self::Ss2Wait,
-        Self::Ss2Brake,
-        Self::Ss1DWait,
-        Self::EmergencyBrake,
-        Self::BrakeCloses,
-        Self::TorqueOff,
-    ];
-}
-
-/// The monitoring state of an axis group (`PP_AxGrpStateReq`, `NN_AxGrpState`), in rising protection (HFS-STOP-006/a).
-///
-/// SLS_2, SLS_3 and SLS_4 are limits of their own, which do not compare (see [`GroupState::strictness`]). The list puts the
-/// mode for everybody before those for the qualified: where one of two must be taken, it is SLS_2 before SLS_3 before SLS_4.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum GroupState {
-    /// Doors closed: the speeds of the machine.
-    Auto,
-    /// Limited speed of SOM_4.
-    Sls4,
-    /// Limited speed of SOM_3.
-    Sls3,
-    /// Limited speed of SOM_2.
-    Sls2,
-    /// Restricted operation of a spindle: 50 rpm and two revolutions.
-    SlsS,
-    /// Safe operating stop: standstill under control.
-    Sos,
-    /// Torque off in operation: left with `PP_AxGrpActivate`.
-    StoO,
-    /// Torque off: left with a permission to switch the drives on only.
-    #[default]
-    Sto,
+fields! {
+    /// The monitoring state of an axis group (`PP_AxGrpStateReq`, `NN_AxGrpState`), in rising protection (HFS-STOP-006/a).
+    ///
+    /// SLS_2, SLS_3 and SLS_4 are limits of their own, which do not compare (see [`GroupState::strictness`]). The list puts the
+    /// mode for everybody before those for the qualified: where one of two must be taken, it is SLS_2 before SLS_3 before SLS_4.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub enum GroupState {
+        /// Doors closed: the speeds of the machine.
+        Auto,
+        /// Limited speed of SOM_4.
+        Sls4,
+        /// Limited speed of SOM_3.
+        Sls3,
+        /// Limited speed of SOM_2.
+        Sls2,
+        /// Restricted operation of a spindle: 50 rpm and two revolutions.
+        SlsS,
+        /// Safe operating stop: standstill under control.
+        Sos,
+        /// Torque off in operation: left with `PP_AxGrpActivate`.
+        StoO,
+        /// Torque off: left with a permission to switch the drives on only.
+        #[default]
+        Sto,
+    }
 }
 
 impl GroupState {
-    /// Every state, in rising protection.
-    pub const ALL: [Self; 8] = [
-        Self::Auto,
-        Self::Sls4,
-        Self::Sls3,
-        Self::Sls2,
-        Self::SlsS,
-        Self::Sos,
-        Self::StoO,
-        Self::Sto,
-    ];
-
     /// The state of a code of `PP_AxGrpStateReq`, 0 to 7 in rising protection; no other code exists.
     pub const fn from_code(code: u8) -> Option<Self> {
         match code {
@@ -183,16 +154,18 @@ impl GroupState {
     }
 }
 
-/// The modes that a moving group has left for another one with limited speed: their limits apply beside that of the mode in
-/// force, until the group stands (HFS-AXG-018).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct Left {
-    /// The limit of SLS_2 applies.
-    pub sls_2: bool,
-    /// The limit of SLS_3 applies.
-    pub sls_3: bool,
-    /// The limit of SLS_4 applies.
-    pub sls_4: bool,
+fields! {
+    /// The modes that a moving group has left for another one with limited speed: their limits apply beside that of the mode in
+    /// force, until the group stands (HFS-AXG-018).
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct Left {
+        /// The limit of SLS_2 applies.
+        pub sls_2: bool,
+        /// The limit of SLS_3 applies.
+        pub sls_3: bool,
+        /// The limit of SLS_4 applies.
+        pub sls_4: bool,
+    }
 }
 
 impl Left {
@@ -229,41 +202,37 @@ impl Left {
     }
 }
 
-/// What an axis group consists of (MP100): all its axes are of one kind and in one working space (HFS-GRP-001).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Kind {
-    /// NC axes.
-    #[default]
-    NcAxes,
-    /// Spindles.
-    Spindle,
-    /// Auxiliary axes, such as those of a tool magazine.
-    Auxiliary,
+fields! {
+    /// What an axis group consists of (MP100): all its axes are of one kind and in one working space (HFS-GRP-001).
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub enum Kind {
+        /// NC axes.
+        #[default]
+        NcAxes,
+        /// Spindles.
+        Spindle,
+        /// Auxiliary axes, such as those of a tool magazine.
+        Auxiliary,
+    }
 }
 
-impl Kind {
-    /// Every kind.
-    pub const ALL: [Self; 3] = [Self::NcAxes, Self::Spindle, Self::Auxiliary];
-}
-
-/// A safe operating mode (`PP_GenSOM`).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Som {
-    /// Automatic operation: no motion with the door open.
-    #[default]
-    Som1,
-    /// Set-up.
-    Som2,
-    /// Manual intervention.
-    Som3,
-    /// Advanced intervention, where it is enabled (SMP560 bit 0).
-    Som4,
+fields! {
+    /// A safe operating mode (`PP_GenSOM`).
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub enum Som {
+        /// Automatic operation: no motion with the door open.
+        #[default]
+        Som1,
+        /// Set-up.
+        Som2,
+        /// Manual intervention.
+        Som3,
+        /// Advanced intervention, where it is enabled (SMP560 bit 0).
+        Som4,
+    }
 }
 
 impl Som {
-    /// Every mode.
-    pub const ALL: [Self; 4] = [Self::Som1, Self::Som2, Self::Som3, Self::Som4];
-
     /// The mode of a code of `PP_GenSOM`, 0 to 3; no other code exists.
     pub const fn from_code(code: u8) -> Option<Self> {
         match code {
@@ -276,24 +245,23 @@ impl Som {
     }
 }
 
-/// The machine operating mode as the kernel knows it (module 9144, mode 10).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Unit {
-    /// By hand at the operating panel.
-    #[default]
-    Panel,
-    /// Program run or positioning with MDI, at the operating panel.
-    Program,
-    /// By handwheel.
-    Handwheel,
-    /// Homing and testing of axes.
-    Reference,
+fields! {
+    /// The machine operating mode as the kernel knows it (module 9144, mode 10).
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub enum Unit {
+        /// By hand at the operating panel.
+        #[default]
+        Panel,
+        /// Program run or positioning with MDI, at the operating panel.
+        Program,
+        /// By handwheel.
+        Handwheel,
+        /// Homing and testing of axes.
+        Reference,
+    }
 }
 
 impl Unit {
-    /// Every mode.
-    pub const ALL: [Self; 4] = [Self::Panel, Self::Program, Self::Handwheel, Self::Reference];
-
     /// Whether it is operated at the panel: by hand or by program.
     pub const fn at_panel(self) -> bool {
         matches!(self, Self::Panel | Self::Program)

@@ -9,11 +9,13 @@
 
 use crate::kernel::{ConfigError, Cycles};
 
-/// Parameters of the agreement.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Config {
-    t_differ: Cycles,
-    se_sn_enabled: bool,
+config! {
+    /// Parameters of the agreement.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Config {
+        t_differ: Cycles,
+        se_sn_enabled: bool,
+    }
 }
 
 impl Config {
@@ -33,13 +35,15 @@ impl Config {
     }
 }
 
-/// The state between two cycles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct State {
-    /// The agreement is given. Non-volatile: kept through power-off.
-    pub agreed: bool,
-    /// What is left until agreements that differ are withdrawn; 0 while they are equal.
-    pub timer: Cycles,
+fields! {
+    /// The state between two cycles.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct State {
+        /// The agreement is given. Non-volatile: kept through power-off.
+        pub agreed: bool,
+        /// What is left until agreements that differ are withdrawn; 0 while they are equal.
+        pub timer: Cycles,
+    }
 }
 
 impl State {
@@ -64,45 +68,49 @@ impl State {
     }
 }
 
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// Power-on of drive and control: the agreement is kept.
-    pub power_on: bool,
-    /// The user gives the agreement.
-    pub set: bool,
-    /// The user withdraws the agreement.
-    pub cancel: bool,
-    /// Key switch in position 3, or the password has been entered.
-    pub key: bool,
-    /// The axis was in state "referenced" after the last cycle.
-    pub axis_ref: bool,
-    /// The axis has been referenced in the last cycle: compare with the history now.
-    pub compare_due: bool,
-    /// The reference position agrees with the stored one within the tolerance, in this channel.
-    pub history_ok: bool,
-    /// A stored standstill position exists.
-    pub stored: bool,
-    /// The gear stage has changed in this cycle (see [`crate::sinumerik::gear`]).
-    pub gear_changed: bool,
-    /// The machine data of the agreement have been altered by hand.
-    pub altered: bool,
-    /// The agreement of the other channel after the last cycle.
-    pub other_agreed: bool,
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// Power-on of drive and control: the agreement is kept.
+        pub power_on: bool,
+        /// The user gives the agreement.
+        pub set: bool,
+        /// The user withdraws the agreement.
+        pub cancel: bool,
+        /// Key switch in position 3, or the password has been entered.
+        pub key: bool,
+        /// The axis was in state "referenced" after the last cycle.
+        pub axis_ref: bool,
+        /// The axis has been referenced in the last cycle: compare with the history now.
+        pub compare_due: bool,
+        /// The reference position agrees with the stored one within the tolerance, in this channel.
+        pub history_ok: bool,
+        /// A stored standstill position exists.
+        pub stored: bool,
+        /// The gear stage has changed in this cycle (see [`crate::sinumerik::gear`]).
+        pub gear_changed: bool,
+        /// The machine data of the agreement have been altered by hand.
+        pub altered: bool,
+        /// The agreement of the other channel after the last cycle.
+        pub other_agreed: bool,
+    }
 }
 
-/// The fault code raised by the agreement (STOP F).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Code {
-    /// No code.
-    #[default]
-    None,
-    /// 1002: the agreements of the channels differ too long.
-    Differs,
-    /// 1003: the position is not the stored one.
-    Position,
-    /// 1004: given again, or given on an axis that is not referenced.
-    Plausibility,
+fields! {
+    /// The fault code raised by the agreement (STOP F).
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub enum Code {
+        /// No code.
+        #[default]
+        None,
+        /// 1002: the agreements of the channels differ too long.
+        Differs,
+        /// 1003: the position is not the stored one.
+        Position,
+        /// 1004: given again, or given on an axis that is not referenced.
+        Plausibility,
+    }
 }
 
 impl Code {
@@ -117,20 +125,22 @@ impl Code {
     }
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// The agreement is given.
-    pub agreed: bool,
-    /// The fault code raised in this cycle; of several the position comes before the difference before the plausibility.
-    pub code: Code,
-    /// The agreement has been withdrawn in this cycle.
-    pub withdrawn: bool,
-    /// The limit switches act (with the unverified agreement too: A-30 SE_ON_UA).
-    pub se_active: bool,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// The agreement is given.
+        pub agreed: bool,
+        /// The fault code raised in this cycle; of several the position comes before the difference before the plausibility.
+        pub code: Code,
+        /// The agreement has been withdrawn in this cycle.
+        pub withdrawn: bool,
+        /// The limit switches act (with the unverified agreement too: A-30 SE_ON_UA).
+        pub se_active: bool,
+    }
 }
 
-contract! {
+monitor! { sinumerik::agreement;
     /// The agreement is given only with the key and on a referenced axis, and only when the user gives it.
     given_only_with_key_and_reference ["S840D-P-48", "S840D-UA-004", "S840D-UA-005", "S840D-UA-003/a", "S840D-UA-003/b"]:
         when |s| !s.before.agreed && s.after.agreed

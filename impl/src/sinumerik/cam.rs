@@ -10,14 +10,21 @@
 use crate::kernel::{ConfigError, Distance, Position};
 use crate::units::ModuloRange;
 
-/// The cam.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Config {
-    enabled: bool,
-    cam: Position,
-    tol: Distance,
-    sync: bool,
-    range: ModuloRange,
+config! {
+    /// The cam.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Config {
+        enabled: bool,
+        cam: Position,
+        tol: Distance,
+        sync: bool,
+        range: ModuloRange,
+    }
+    accepted |config| {
+        let range = config.range;
+        ModuloRange::new(range.lower(), range.upper()).is_ok()
+            && Config::new(config.enabled, config.cam, config.tol, config.sync, range, Distance(0)).is_ok()
+    }
 }
 
 impl Config {
@@ -68,11 +75,13 @@ impl Config {
     }
 }
 
-/// The state between two cycles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct State {
-    /// The result of this channel.
-    pub own: bool,
+fields! {
+    /// The state between two cycles.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct State {
+        /// The result of this channel.
+        pub own: bool,
+    }
 }
 
 impl State {
@@ -86,27 +95,31 @@ impl State {
     }
 }
 
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// Power-on of drive and control.
-    pub power_on: bool,
-    /// The actual position.
-    pub position: Position,
-    /// The result of the other channel, one cycle old; used with cam synchronisation only.
-    pub other: bool,
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// Power-on of drive and control.
+        pub power_on: bool,
+        /// The actual position.
+        pub position: Position,
+        /// The result of the other channel, one cycle old; used with cam synchronisation only.
+        pub other: bool,
+    }
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// The result of this channel: for the other channel and for the comparison of the results.
-    pub own: bool,
-    /// SGA of the cam.
-    pub sga: bool,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// The result of this channel: for the other channel and for the comparison of the results.
+        pub own: bool,
+        /// SGA of the cam.
+        pub sga: bool,
+    }
 }
 
-contract! {
+monitor! { sinumerik::cam;
     /// Beyond the cam, and beyond the hysteresis if there is one, the result is 1.
     beyond_is_one ["S840D-SN-001", "S840D-SN-002", "S840D-SN-008", "S840D-SN-013", "S840D-TIMING-508/a", "S840D-CAM-705",
         "S840D-SN-003"]:

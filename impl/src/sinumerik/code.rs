@@ -3,6 +3,7 @@
 //! They are the parameter of the alarms 27001 and 300911, with the numbers of the manual (`stop-f-codes.toml`). Only codes
 //! that a monitor of this crate raises or compares have a value here.
 
+use crate::fields::{Fields, Visitor};
 use crate::sinumerik::agreement;
 
 /// A code of STOP F.
@@ -69,6 +70,17 @@ impl Code {
     /// (S840D-KDV-730).
     pub const fn is_actual_value(self) -> bool {
         matches!(self.0, 3 | 44..=57)
+    }
+}
+
+/// Its printed number; one that is no code counts as none.
+impl Fields for Code {
+    const ANY: Self = Self::NONE;
+
+    fn visit<V: Visitor + ?Sized>(&mut self, name: &'static str, visitor: &mut V) {
+        let mut number = self.0;
+        number.visit(name, visitor);
+        *self = Self::of(number).unwrap_or(Self::NONE);
     }
 }
 

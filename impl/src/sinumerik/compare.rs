@@ -11,6 +11,7 @@
 
 pub mod list;
 
+use crate::fields::{Fields, Visitor};
 use crate::kernel::{ConfigError, Cycles};
 use crate::sinumerik::code::Code;
 use list::{Item, Kind};
@@ -24,6 +25,21 @@ pub struct Config {
     t_chg: Cycles,
     first: Item,
     items: &'static [Item],
+}
+
+/// The list is no number: a visit keeps it.
+impl Fields for Config {
+    const ANY: Self = Self {
+        t_chg: Cycles::ZERO,
+        first: list::ITEMS[0],
+        items: &list::ITEMS,
+    };
+
+    fn visit<V: Visitor + ?Sized>(&mut self, name: &'static str, visitor: &mut V) {
+        visitor.open(name);
+        self.t_chg.visit("t_chg", visitor);
+        visitor.close();
+    }
 }
 
 impl Config {
@@ -75,19 +91,26 @@ impl Config {
             _ => 0,
         }
     }
+
+    /// Whether the constructor gives this configuration.
+    pub fn accepted(&self) -> bool {
+        Self::new(self.t_chg, self.items).is_ok_and(|made| made == *self)
+    }
 }
 
-/// The state between two cycles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct State {
-    /// The place in the list, from 0, of the item that is compared in the coming cycle.
-    pub item: u8,
-    /// What is left of t_chg since the last change of an own signal.
-    pub change_timer: Cycles,
-    /// What is left of the checking timer while the change timer of the other channel runs; 0 otherwise.
-    pub check_timer: Cycles,
-    /// The change timer of the other channel runs.
-    pub checking: bool,
+fields! {
+    /// The state between two cycles.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct State {
+        /// The place in the list, from 0, of the item that is compared in the coming cycle.
+        pub item: u8,
+        /// What is left of t_chg since the last change of an own signal.
+        pub change_timer: Cycles,
+        /// What is left of the checking timer while the change timer of the other channel runs; 0 otherwise.
+        pub check_timer: Cycles,
+        /// The change timer of the other channel runs.
+        pub checking: bool,
+    }
 }
 
 impl State {
@@ -114,33 +137,37 @@ impl State {
     }
 }
 
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// Power-on of drive and control: the list begins anew, no timer runs.
-    pub power_on: bool,
-    /// A safety-related input signal of this channel has changed in this cycle.
-    pub change: bool,
-    /// The change timer of the other channel ran after its last cycle.
-    pub other_changing: bool,
-    /// The item that is due ([`State::due`]) differs between the channels.
-    pub differs: bool,
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// Power-on of drive and control: the list begins anew, no timer runs.
+        pub power_on: bool,
+        /// A safety-related input signal of this channel has changed in this cycle.
+        pub change: bool,
+        /// The change timer of the other channel ran after its last cycle.
+        pub other_changing: bool,
+        /// The item that is due ([`State::due`]) differs between the channels.
+        pub differs: bool,
+    }
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// The channels differ: STOP F.
-    pub discrepancy: bool,
-    /// The code of the finding; that of the item comes before 1000. 0 without finding.
-    pub code: Code,
-    /// The change timer of this channel runs: the other channel must be told.
-    pub changing: bool,
-    /// Dynamic items are not compared in this cycle.
-    pub suspended: bool,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// The channels differ: STOP F.
+        pub discrepancy: bool,
+        /// The code of the finding; that of the item comes before 1000. 0 without finding.
+        pub code: Code,
+        /// The change timer of this channel runs: the other channel must be told.
+        pub changing: bool,
+        /// Dynamic items are not compared in this cycle.
+        pub suspended: bool,
+    }
 }
 
-contract! {
+monitor! { sinumerik::compare;
     /// A difference of a static item is a finding, whatever timer runs.
     static_difference_is_found ["S840D-STOP-002/f", "S840D-P-26", "S840D-P-27", "S840D-KDV-501", "S840D-KDV-502", "S840D-KDV-508",
         "S840D-KDV-707"]:

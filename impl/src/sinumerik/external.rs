@@ -8,12 +8,14 @@ use crate::kernel::ConfigError;
 
 use crate::sinumerik::level::ExternalStop;
 
-/// Which external stops exist.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Config {
-    enable_ext: bool,
-    enable_e: bool,
-    spl_stop_e: bool,
+config! {
+    /// Which external stops exist.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Config {
+        enable_ext: bool,
+        enable_e: bool,
+        spl_stop_e: bool,
+    }
 }
 
 impl Config {
@@ -35,13 +37,15 @@ impl Config {
     }
 }
 
-/// The state between two cycles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct State {
-    /// The cross comparison of the safe logic has been started since power-on.
-    pub started: bool,
-    /// An error of the safe logic waits for its acknowledgement.
-    pub spl_latched: bool,
+fields! {
+    /// The state between two cycles.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct State {
+        /// The cross comparison of the safe logic has been started since power-on.
+        pub started: bool,
+        /// An error of the safe logic waits for its acknowledgement.
+        pub spl_latched: bool,
+    }
 }
 
 impl State {
@@ -58,39 +62,43 @@ impl State {
     }
 }
 
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// Power-on of drive and control.
-    pub power_on: bool,
-    /// NC-RESET.
-    pub reset: bool,
-    /// The cross comparison of the safe logic has been started.
-    pub spl_started: bool,
-    /// SGE "de-select ext. STOP A": 0 requests pulse cancellation.
-    pub sge_a: bool,
-    /// SGE "de-select ext. STOP C": 0 requests braking with speed setpoint 0.
-    pub sge_c: bool,
-    /// SGE "de-select ext. STOP D": 0 requests braking along the path.
-    pub sge_d: bool,
-    /// SGE "de-select ext. STOP E": 0 requests extended stop and retract.
-    pub sge_e: bool,
-    /// An error of the safe logic or of PROFIsafe is present.
-    pub spl_error: bool,
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// Power-on of drive and control.
+        pub power_on: bool,
+        /// NC-RESET.
+        pub reset: bool,
+        /// The cross comparison of the safe logic has been started.
+        pub spl_started: bool,
+        /// SGE "de-select ext. STOP A": 0 requests pulse cancellation.
+        pub sge_a: bool,
+        /// SGE "de-select ext. STOP C": 0 requests braking with speed setpoint 0.
+        pub sge_c: bool,
+        /// SGE "de-select ext. STOP D": 0 requests braking along the path.
+        pub sge_d: bool,
+        /// SGE "de-select ext. STOP E": 0 requests extended stop and retract.
+        pub sge_e: bool,
+        /// An error of the safe logic or of PROFIsafe is present.
+        pub spl_error: bool,
+    }
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// The stop requested from the arbitration.
-    pub request: ExternalStop,
-    /// The stop selected by the signals alone; none while external stops are not enabled.
-    pub selected: ExternalStop,
-    /// An error of the safe logic waits for its acknowledgement.
-    pub spl_stop: bool,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// The stop requested from the arbitration.
+        pub request: ExternalStop,
+        /// The stop selected by the signals alone; none while external stops are not enabled.
+        pub selected: ExternalStop,
+        /// An error of the safe logic waits for its acknowledgement.
+        pub spl_stop: bool,
+    }
 }
 
-contract! {
+monitor! { sinumerik::external;
     /// Until the comparison of the safe logic has been started, STOP A is held.
     stop_a_until_comparison_runs ["S840D-P-19", "S840D-EXT-002"]:
         when |s| s.config.enable_ext && !s.after.started

@@ -7,10 +7,12 @@
 
 use crate::kernel::{ConfigError, Cycles};
 
-/// The delay from STOP F to STOP B.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Config {
-    t_f: Cycles,
+config! {
+    /// The delay from STOP F to STOP B.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Config {
+        t_f: Cycles,
+    }
 }
 
 impl Config {
@@ -25,27 +27,31 @@ impl Config {
     }
 }
 
-/// How far a discrepancy has come.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum FaultState {
-    /// No discrepancy.
-    #[default]
-    None,
-    /// Found without an active function, or under a STOP C, D or E: message and interlock only.
-    Latched,
-    /// The delay to STOP B runs.
-    Delay,
-    /// STOP B is requested, until power-on.
-    Expired,
+fields! {
+    /// How far a discrepancy has come.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub enum FaultState {
+        /// No discrepancy.
+        #[default]
+        None,
+        /// Found without an active function, or under a STOP C, D or E: message and interlock only.
+        Latched,
+        /// The delay to STOP B runs.
+        Delay,
+        /// STOP B is requested, until power-on.
+        Expired,
+    }
 }
 
-/// The state between two cycles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct State {
-    /// How far a discrepancy has come.
-    pub fault: FaultState,
-    /// What is left of t_F in [`FaultState::Delay`], else 0.
-    pub timer: Cycles,
+fields! {
+    /// The state between two cycles.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct State {
+        /// How far a discrepancy has come.
+        pub fault: FaultState,
+        /// What is left of t_F in [`FaultState::Delay`], else 0.
+        pub timer: Cycles,
+    }
 }
 
 impl State {
@@ -62,41 +68,45 @@ impl State {
     }
 }
 
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// Power-on of drive and control.
-    pub power_on: bool,
-    /// NC-RESET.
-    pub reset: bool,
-    /// This channel's comparison finds a discrepancy now.
-    pub discrepancy: bool,
-    /// STOP F received from the other channel: counts as a discrepancy (S840D-STOP-093).
-    pub rx_fault: bool,
-    /// A safety function is active in this channel now (S840D-STOP-089).
-    pub monitoring: bool,
-    /// A STOP C, D or E was effective before this cycle.
-    pub cde_before: bool,
-    /// A STOP B or A was latched before this cycle.
-    pub ab_before: bool,
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// Power-on of drive and control.
+        pub power_on: bool,
+        /// NC-RESET.
+        pub reset: bool,
+        /// This channel's comparison finds a discrepancy now.
+        pub discrepancy: bool,
+        /// STOP F received from the other channel: counts as a discrepancy (S840D-STOP-093).
+        pub rx_fault: bool,
+        /// A safety function is active in this channel now (S840D-STOP-089).
+        pub monitoring: bool,
+        /// A STOP C, D or E was effective before this cycle.
+        pub cde_before: bool,
+        /// A STOP B or A was latched before this cycle.
+        pub ab_before: bool,
+    }
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// How far a discrepancy has come.
-    pub fault: FaultState,
-    /// The alarm "defect in a monitoring channel" (27001 / 300911) is raised in this cycle.
-    pub alarm: bool,
-    /// STOP B is requested.
-    pub stop_b: bool,
-    /// Bit 1 of `$VA_XFAULTSI`: the delay to STOP B is running or has expired (S840D-STOP-065).
-    pub bit1: bool,
-    /// NC start and traversing are interlocked.
-    pub interlock: bool,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// How far a discrepancy has come.
+        pub fault: FaultState,
+        /// The alarm "defect in a monitoring channel" (27001 / 300911) is raised in this cycle.
+        pub alarm: bool,
+        /// STOP B is requested.
+        pub stop_b: bool,
+        /// Bit 1 of `$VA_XFAULTSI`: the delay to STOP B is running or has expired (S840D-STOP-065).
+        pub bit1: bool,
+        /// NC start and traversing are interlocked.
+        pub interlock: bool,
+    }
 }
 
-contract! {
+monitor! { sinumerik::fault;
     /// A discrepancy with an active function and no STOP C, D or E before starts the full delay, or STOP B if it is 0.
     active_function_leads_to_stop_b ["S840D-P-21", "S840D-STOP-061", "S840D-STOP-063"]:
         when |s| s.before.fault == FaultState::None && s.inputs.discrepancy && s.inputs.monitoring

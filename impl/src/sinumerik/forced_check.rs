@@ -9,10 +9,12 @@ use crate::kernel::{ConfigError, Cycles};
 /// Eight hours in cycles of 31.25 us, the shortest possible ones: the longest interval.
 pub const EIGHT_HOURS: Cycles = Cycles::new(921_600_000);
 
-/// The interval as configured.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Config {
-    interval: Cycles,
+config! {
+    /// The interval as configured.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Config {
+        interval: Cycles,
+    }
 }
 
 impl Config {
@@ -35,13 +37,15 @@ impl Config {
     }
 }
 
-/// The state between two cycles: how long the last test of each path still counts; 0 where a test is due.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct State {
-    /// For the path of the drive channel.
-    pub drive: Cycles,
-    /// For the path of the NCK channel.
-    pub nck: Cycles,
+fields! {
+    /// The state between two cycles: how long the last test of each path still counts; 0 where a test is due.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct State {
+        /// For the path of the drive channel.
+        pub drive: Cycles,
+        /// For the path of the NCK channel.
+        pub nck: Cycles,
+    }
 }
 
 impl State {
@@ -63,31 +67,35 @@ impl State {
     }
 }
 
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// Power-on of drive and control: nothing is tested.
-    pub power_on: bool,
-    /// The path of the drive channel has passed its test in this cycle (see [`crate::sinumerik::test_stop`]).
-    pub passed_drive: bool,
-    /// The path of the NCK channel has passed its test in this cycle.
-    pub passed_nck: bool,
-    /// A test has failed in this cycle.
-    pub failed: bool,
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// Power-on of drive and control: nothing is tested.
+        pub power_on: bool,
+        /// The path of the drive channel has passed its test in this cycle (see [`crate::sinumerik::test_stop`]).
+        pub passed_drive: bool,
+        /// The path of the NCK channel has passed its test in this cycle.
+        pub passed_nck: bool,
+        /// A test has failed in this cycle.
+        pub failed: bool,
+    }
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// A test is due.
-    pub due: bool,
-    /// Exactly one path is tested: the test is half done.
-    pub half: bool,
-    /// The test of the axis became or stayed complete by a passed test in this cycle.
-    pub tested: bool,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// A test is due.
+        pub due: bool,
+        /// Exactly one path is tested: the test is half done.
+        pub half: bool,
+        /// The test of the axis became or stayed complete by a passed test in this cycle.
+        pub tested: bool,
+    }
 }
 
-contract! {
+monitor! { sinumerik::forced_check;
     /// After power-on a test is due, whatever was before.
     due_after_power_on ["S840D-TEST-024", "S840D-TEST-003"]:
         when |s| s.inputs.power_on

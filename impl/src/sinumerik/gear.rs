@@ -5,9 +5,11 @@
 
 use crate::kernel::ConfigError;
 
-/// A gear index as three signals give it: 0 to 7, meaning stage 1 to 8.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct GearIndex(u8);
+fields! {
+    /// A gear index as three signals give it: 0 to 7, meaning stage 1 to 8.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+    pub struct GearIndex(u8) in 0..=7;
+}
 
 impl GearIndex {
     /// Index 0: the first stage.
@@ -29,11 +31,14 @@ impl GearIndex {
     }
 }
 
-/// The gearbox as configured.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Config {
-    gear_max: GearIndex,
-    se_sn_enabled: bool,
+config! {
+    /// The gearbox as configured.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Config {
+        gear_max: GearIndex,
+        se_sn_enabled: bool,
+    }
+    accepted |config| Config::new(config.gear_max.get(), config.se_sn_enabled).is_ok()
 }
 
 impl Config {
@@ -53,13 +58,15 @@ impl Config {
     }
 }
 
-/// The state between two cycles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct State {
-    /// The selected stage.
-    pub stage: GearIndex,
-    /// A stage has been taken since power-on.
-    pub known: bool,
+fields! {
+    /// The state between two cycles.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct State {
+        /// The selected stage.
+        pub stage: GearIndex,
+        /// A stage has been taken since power-on.
+        pub known: bool,
+    }
 }
 
 impl State {
@@ -76,27 +83,31 @@ impl State {
     }
 }
 
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// Power-on of drive and control: the stage is taken without an event.
-    pub power_on: bool,
-    /// The stage selected by the signals.
-    pub index: GearIndex,
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// Power-on of drive and control: the stage is taken without an event.
+        pub power_on: bool,
+        /// The stage selected by the signals.
+        pub index: GearIndex,
+    }
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// The selected stage.
-    pub stage: GearIndex,
-    /// The stage has changed and position monitors are enabled: the user agreement must be withdrawn in this cycle.
-    pub changed: bool,
-    /// The selected stage has no parameterised ratio (beyond the interface of the specification tables; a message only).
-    pub unconfigured: bool,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// The selected stage.
+        pub stage: GearIndex,
+        /// The stage has changed and position monitors are enabled: the user agreement must be withdrawn in this cycle.
+        pub changed: bool,
+        /// The selected stage has no parameterised ratio (beyond the interface of the specification tables; a message only).
+        pub unconfigured: bool,
+    }
 }
 
-contract! {
+monitor! { sinumerik::gear;
     /// A change of the stage on an axis with position monitors is an event in the same cycle.
     change_is_an_event ["S840D-P-37", "S840D-GEAR-505"]:
         when |s| s.before.known && !s.inputs.power_on && s.inputs.index != s.before.stage && s.config.se_sn_enabled

@@ -11,50 +11,45 @@
 
 use crate::sinumerik::level::{InternalStop, Level};
 
-/// How far a stop of the axis reaches (SAFE_IPO_STOP_GROUP, MD36964).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Reach {
-    /// 0: to every axis of the channel.
-    #[default]
-    Channel,
-    /// 1: to the axes that interpolate with it, and only for stops that its monitors raised.
-    Interpolating,
+fields! {
+    /// How far a stop of the axis reaches (SAFE_IPO_STOP_GROUP, MD36964).
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub enum Reach {
+        /// 0: to every axis of the channel.
+        #[default]
+        Channel,
+        /// 1: to the axes that interpolate with it, and only for stops that its monitors raised.
+        Interpolating,
+    }
 }
 
-/// What an axis does because another one stops, in rising order.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Reaction {
-    /// Nothing.
-    #[default]
-    Unaffected,
-    /// It takes part in the extended stop and retract.
-    Esr,
-    /// It brakes along its parameterised ramp.
-    Ramp,
-    /// It brakes along the path.
-    Path,
-    /// It brakes at the current limit.
-    CurrentLimit,
-    /// Fast stop of the interpolator for the whole channel.
-    FastStop,
+fields! {
+    /// What an axis does because another one stops, in rising order.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+    pub enum Reaction {
+        /// Nothing.
+        #[default]
+        Unaffected,
+        /// It takes part in the extended stop and retract.
+        Esr,
+        /// It brakes along its parameterised ramp.
+        Ramp,
+        /// It brakes along the path.
+        Path,
+        /// It brakes at the current limit.
+        CurrentLimit,
+        /// Fast stop of the interpolator for the whole channel.
+        FastStop,
+    }
 }
 
-impl Reaction {
-    /// Every reaction, lowest first.
-    pub const ALL: [Self; 6] = [
-        Self::Unaffected,
-        Self::Esr,
-        Self::Ramp,
-        Self::Path,
-        Self::CurrentLimit,
-        Self::FastStop,
-    ];
-}
-
-/// The setting of the stopping axis.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Config {
-    reach: Reach,
+config! {
+    /// The setting of the stopping axis.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Config {
+        reach: Reach,
+    }
+    accepted |config| *config == Config::new(config.reach)
 }
 
 impl Config {
@@ -64,9 +59,11 @@ impl Config {
     }
 }
 
-/// Nothing is remembered.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct State;
+fields! {
+    /// Nothing is remembered.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct State;
+}
 
 impl State {
     /// The only state.
@@ -79,27 +76,31 @@ impl State {
     }
 }
 
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// The effective stop of the stopping axis.
-    pub level: Level,
-    /// Its latched internal stop, which comes with an alarm; a level above it was asked for by signals.
-    pub internal: InternalStop,
-    /// The two axes interpolate together.
-    pub interpolates: bool,
-    /// Extended stop and retract is configured, and its start programmed.
-    pub esr: bool,
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// The effective stop of the stopping axis.
+        pub level: Level,
+        /// Its latched internal stop, which comes with an alarm; a level above it was asked for by signals.
+        pub internal: InternalStop,
+        /// The two axes interpolate together.
+        pub interpolates: bool,
+        /// Extended stop and retract is configured, and its start programmed.
+        pub esr: bool,
+    }
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// What the other axis does.
-    pub reaction: Reaction,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// What the other axis does.
+        pub reaction: Reaction,
+    }
 }
 
-contract! {
+monitor! { sinumerik::group;
     /// Without a stop that brakes there is no effect: STOP F is a message, the test stop concerns one channel of one axis and
     /// what is queued beneath it is not effective yet.
     message_and_test_affect_nobody ["S840D-STOP-060", "S840D-STOP-082"]:

@@ -8,10 +8,12 @@
 
 use crate::kernel::{ConfigError, Distance, Position};
 
-/// The comparison as configured.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Config {
-    tol: Distance,
+config! {
+    /// The comparison as configured.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Config {
+        tol: Distance,
+    }
 }
 
 impl Config {
@@ -29,13 +31,15 @@ impl Config {
     }
 }
 
-/// The state between two cycles, non-volatile.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct State {
-    /// A position has been stored.
-    pub stored: bool,
-    /// The stored position; 0 where none is.
-    pub standstill: Position,
+fields! {
+    /// The state between two cycles, non-volatile.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct State {
+        /// A position has been stored.
+        pub stored: bool,
+        /// The stored position; 0 where none is.
+        pub standstill: Position,
+    }
 }
 
 impl State {
@@ -63,23 +67,25 @@ impl State {
     }
 }
 
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// Power-on of drive and control: everything is kept, and nothing stored, since nothing has been measured yet.
-    pub power_on: bool,
-    /// Store the position: the operating stop holds, or limit switches or cams act.
-    pub save: bool,
-    /// The safe position. Before the axis is referenced: the stored one extended by the distance travelled.
-    pub position: Position,
-    /// The axis has been referenced in this cycle: nothing is stored, since the comparison, due in the next cycle, would
-    /// compare the reference position with itself.
-    pub reached: bool,
-    /// The reference position: of the reference point, or of the absolute encoder at power-on.
-    pub refpos: Position,
-    /// The signed distance travelled since power-on or since the position was stored, whichever was later, to the reference
-    /// point; 0 with an absolute encoder.
-    pub travelled: i32,
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// Power-on of drive and control: everything is kept, and nothing stored, since nothing has been measured yet.
+        pub power_on: bool,
+        /// Store the position: the operating stop holds, or limit switches or cams act.
+        pub save: bool,
+        /// The safe position. Before the axis is referenced: the stored one extended by the distance travelled.
+        pub position: Position,
+        /// The axis has been referenced in this cycle: nothing is stored, since the comparison, due in the next cycle, would
+        /// compare the reference position with itself.
+        pub reached: bool,
+        /// The reference position: of the reference point, or of the absolute encoder at power-on.
+        pub refpos: Position,
+        /// The signed distance travelled since power-on or since the position was stored, whichever was later, to the reference
+        /// point; 0 with an absolute encoder.
+        pub travelled: i32,
+    }
 }
 
 impl Inputs {
@@ -89,13 +95,15 @@ impl Inputs {
     }
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// A position was stored before this cycle.
-    pub stored: bool,
-    /// The reference position is the one stored before this cycle, within the tolerance.
-    pub history_ok: bool,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// A position was stored before this cycle.
+        pub stored: bool,
+        /// The reference position is the one stored before this cycle, within the tolerance.
+        pub history_ok: bool,
+    }
 }
 
 /// How far the reference position is from the stored one extended by the distance travelled.
@@ -104,7 +112,7 @@ fn distance(state: State, inputs: &Inputs) -> u64 {
     i64::from(inputs.refpos.0).abs_diff(expected)
 }
 
-contract! {
+monitor! { sinumerik::history;
     /// The comparison succeeds exactly up to the tolerance, itself included.
     succeeds_up_to_the_tolerance ["S840D-REF-004", "S840D-REF-007", "S840D-REF-008", "S840D-KDV-516"]:
         when |s| s.before.stored

@@ -190,13 +190,15 @@ impl Input {
     }
 }
 
-/// One output signal of an axis on its way to an NCK output.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Contribution {
-    /// The signal.
-    pub signal: bool,
-    /// Bit 31 of its machine datum: invert before the AND.
-    pub inverted: bool,
+fields! {
+    /// One output signal of an axis on its way to an NCK output.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Contribution {
+        /// The signal.
+        pub signal: bool,
+        /// Bit 31 of its machine datum: invert before the AND.
+        pub inverted: bool,
+    }
 }
 
 /// The level of an NCK output to which the signals of several axes are assigned: each inverted if so assigned, then

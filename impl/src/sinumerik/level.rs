@@ -1,40 +1,30 @@
 //! The stops of the family in their priority: the level of a channel, internal and external requests.
 
-/// The effective stop level of a channel, in rising priority (S840D-STOP-003).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Level {
-    /// No stop.
-    #[default]
-    None,
-    /// Cross comparison found a discrepancy; no motion reaction by itself.
-    F,
-    /// Extended stop and retract, then operating stop.
-    E,
-    /// Braking along the path, then operating stop.
-    D,
-    /// Braking at the current limit, then operating stop.
-    C,
-    /// Test of the shutdown path.
-    Test,
-    /// Braking at the current limit, then pulse cancellation.
-    B,
-    /// Pulse cancellation.
-    A,
+fields! {
+    /// The effective stop level of a channel, in rising priority (S840D-STOP-003).
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+    pub enum Level {
+        /// No stop.
+        #[default]
+        None,
+        /// Cross comparison found a discrepancy; no motion reaction by itself.
+        F,
+        /// Extended stop and retract, then operating stop.
+        E,
+        /// Braking along the path, then operating stop.
+        D,
+        /// Braking at the current limit, then operating stop.
+        C,
+        /// Test of the shutdown path.
+        Test,
+        /// Braking at the current limit, then pulse cancellation.
+        B,
+        /// Pulse cancellation.
+        A,
+    }
 }
 
 impl Level {
-    /// Every level, lowest first.
-    pub const ALL: [Self; 8] = [
-        Self::None,
-        Self::F,
-        Self::E,
-        Self::D,
-        Self::C,
-        Self::Test,
-        Self::B,
-        Self::A,
-    ];
-
     /// The number of the level in the cross comparison: 0 (none) to 7 (A).
     pub const fn rank(self) -> u8 {
         match self {
@@ -76,29 +66,28 @@ impl Level {
     }
 }
 
-/// A stop raised inside a channel: latched until it is acknowledged (S840D-STOP-001). There is no internal test stop,
-/// and STOP F is a machine of its own ([`crate::sinumerik::fault`]).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum InternalStop {
-    /// No stop.
-    #[default]
-    None,
-    /// STOP E.
-    E,
-    /// STOP D.
-    D,
-    /// STOP C.
-    C,
-    /// STOP B.
-    B,
-    /// STOP A.
-    A,
+fields! {
+    /// A stop raised inside a channel: latched until it is acknowledged (S840D-STOP-001). There is no internal test stop,
+    /// and STOP F is a machine of its own ([`crate::sinumerik::fault`]).
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+    pub enum InternalStop {
+        /// No stop.
+        #[default]
+        None,
+        /// STOP E.
+        E,
+        /// STOP D.
+        D,
+        /// STOP C.
+        C,
+        /// STOP B.
+        B,
+        /// STOP A.
+        A,
+    }
 }
 
 impl InternalStop {
-    /// Every internal stop, lowest first.
-    pub const ALL: [Self; 6] = [Self::None, Self::E, Self::D, Self::C, Self::B, Self::A];
-
     /// The place of the stop in the common order.
     pub const fn level(self) -> Level {
         match self {
@@ -134,26 +123,25 @@ impl InternalStop {
     }
 }
 
-/// A stop requested by signals: lasts as long as its request. There is no external STOP B (S840D-STOP-088).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum ExternalStop {
-    /// No stop.
-    #[default]
-    None,
-    /// STOP E.
-    E,
-    /// STOP D.
-    D,
-    /// STOP C.
-    C,
-    /// STOP A.
-    A,
+fields! {
+    /// A stop requested by signals: lasts as long as its request. There is no external STOP B (S840D-STOP-088).
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+    pub enum ExternalStop {
+        /// No stop.
+        #[default]
+        None,
+        /// STOP E.
+        E,
+        /// STOP D.
+        D,
+        /// STOP C.
+        C,
+        /// STOP A.
+        A,
+    }
 }
 
 impl ExternalStop {
-    /// Every external stop, lowest first.
-    pub const ALL: [Self; 5] = [Self::None, Self::E, Self::D, Self::C, Self::A];
-
     /// The place of the stop in the common order.
     pub const fn level(self) -> Level {
         match self {

@@ -8,11 +8,13 @@ pub use crate::contract::Stateless as State;
 use crate::kernel::{ConfigError, Position};
 use crate::sinumerik::level::InternalStop;
 
-/// The two ends of one pair.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Ends {
-    plus: Position,
-    minus: Position,
+fields! {
+    /// The two ends of one pair.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    struct Ends {
+        plus: Position,
+        minus: Position,
+    }
 }
 
 impl Ends {
@@ -25,13 +27,19 @@ impl Ends {
     }
 }
 
-/// The end positions and the reaction.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Config {
-    enabled: bool,
-    se1: Ends,
-    se2: Ends,
-    stop: InternalStop,
+config! {
+    /// The end positions and the reaction.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Config {
+        enabled: bool,
+        se1: Ends,
+        se2: Ends,
+        stop: InternalStop,
+    }
+    accepted |config| {
+        [config.se1, config.se2].iter().all(|ends| Ends::new(ends.plus, ends.minus).is_ok())
+            && matches!(config.stop, InternalStop::C | InternalStop::D | InternalStop::E)
+    }
 }
 
 impl Config {
@@ -77,31 +85,35 @@ impl Config {
     }
 }
 
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// The limit switches may act: the user has agreed to the position.
-    pub active: bool,
-    /// SGE "SE selection": 0 selects SE1, 1 selects SE2.
-    pub select: bool,
-    /// The actual position.
-    pub position: Position,
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// The limit switches may act: the user has agreed to the position.
+        pub active: bool,
+        /// SGE "SE selection": 0 selects SE1, 1 selects SE2.
+        pub select: bool,
+        /// The actual position.
+        pub position: Position,
+    }
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// The selected pair is watched.
-    pub watched: bool,
-    /// The position is beyond the plus end (alarms 27012, 300915).
-    pub upper: bool,
-    /// The position is beyond the minus end (the same alarms).
-    pub lower: bool,
-    /// The configured stop when beyond an end.
-    pub demand: InternalStop,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// The selected pair is watched.
+        pub watched: bool,
+        /// The position is beyond the plus end (alarms 27012, 300915).
+        pub upper: bool,
+        /// The position is beyond the minus end (the same alarms).
+        pub lower: bool,
+        /// The configured stop when beyond an end.
+        pub demand: InternalStop,
+    }
 }
 
-contract! {
+monitor! { sinumerik::limit_switch;
     /// Beyond an end of the selected pair the configured stop is demanded in the same cycle.
     beyond_an_end_demands_the_stop ["S840D-P-49", "S840D-SE-001", "S840D-SE-004", "S840D-TIMING-507", "S840D-PARAM-013",
         "S840D-PARAM-026"]:

@@ -46,6 +46,16 @@
 //!   from the other channel are ignored in that cycle; then the cycle is evaluated with its other inputs.
 //! * Selection signals are "de-select" signals: 0 (`false`) means selected, so that a lost signal selects (S840D-ARCH-504).
 
+/// Hands the monitors of SINUMERIK 840D to a macro, after the name of the family and what else is given: the list that
+/// says which there are. Each is a module with a `Monitor` that is a [`Contract`](crate::contract::Contract).
+#[macro_export]
+macro_rules! sinumerik_monitors {
+    ($callback:ident $($more:tt)*) => { $callback! { sinumerik [$($more)*]
+        stop external fault group selection reference agreement gear test_stop shutdown_test pulses compare slip history
+        forced_check motion standstill speed limit_switch ramp threshold cam results channel
+    } };
+}
+
 pub mod agreement;
 pub mod alarm;
 pub mod axis;

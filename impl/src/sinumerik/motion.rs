@@ -9,19 +9,23 @@
 
 use crate::kernel::{Position, Speed};
 
-/// The function has no parameters.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Config;
+config! {
+    /// The function has no parameters.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Config;
+}
 
-/// The state between two cycles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct State {
-    /// The position of the last cycle in which the axis was not parked.
-    pub last: Position,
-    /// `last` belongs to the cycle just before.
-    pub known: bool,
-    /// The speed of the last cycle; 0 where `last` is not known.
-    pub speed: Speed,
+fields! {
+    /// The state between two cycles.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct State {
+        /// The position of the last cycle in which the axis was not parked.
+        pub last: Position,
+        /// `last` belongs to the cycle just before.
+        pub known: bool,
+        /// The speed of the last cycle; 0 where `last` is not known.
+        pub speed: Speed,
+    }
 }
 
 impl State {
@@ -39,29 +43,33 @@ impl State {
     }
 }
 
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// Power-on of drive and control.
-    pub power_on: bool,
-    /// The position read in this cycle.
-    pub position: Position,
-    /// The axis is parked: the encoder may be unplugged.
-    pub parking: bool,
-    /// From this cycle on the position counts from another zero: it has been set anew.
-    pub set_anew: bool,
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// Power-on of drive and control.
+        pub power_on: bool,
+        /// The position read in this cycle.
+        pub position: Position,
+        /// The axis is parked: the encoder may be unplugged.
+        pub parking: bool,
+        /// From this cycle on the position counts from another zero: it has been set anew.
+        pub set_anew: bool,
+    }
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// The actual position; frozen while the axis is parked.
-    pub position: Position,
-    /// The magnitude of the actual speed.
-    pub speed: Speed,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// The actual position; frozen while the axis is parked.
+        pub position: Position,
+        /// The magnitude of the actual speed.
+        pub speed: Speed,
+    }
 }
 
-contract! {
+monitor! { sinumerik::motion;
     /// The speed is the distance of the positions of two cycles, in either direction and over the whole range.
     speed_is_the_distance_of_two_cycles ["S840D-TIMING-512", "S840D-SBR-007", "S840D-KDV-711"]:
         when |s| s.before.known && !s.inputs.power_on && !s.inputs.parking && !s.inputs.set_anew

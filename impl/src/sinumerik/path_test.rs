@@ -5,10 +5,12 @@
 
 use crate::kernel::{ConfigError, Cycles};
 
-/// The test as configured.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Config {
-    t_chk: Cycles,
+config! {
+    /// The test as configured.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Config {
+        t_chk: Cycles,
+    }
 }
 
 impl Config {
@@ -28,27 +30,31 @@ impl Config {
     }
 }
 
-/// How far the test is.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Phase {
-    /// No test.
-    #[default]
-    Idle,
-    /// The pulses are to be cancelled; the feedback is awaited.
-    Run,
-    /// The feedback has come; the cancellation is held.
-    RunOk,
+fields! {
+    /// How far the test is.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub enum Phase {
+        /// No test.
+        #[default]
+        Idle,
+        /// The pulses are to be cancelled; the feedback is awaited.
+        Run,
+        /// The feedback has come; the cancellation is held.
+        RunOk,
+    }
 }
 
-/// The state between two cycles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct State {
-    /// How far the test is.
-    pub phase: Phase,
-    /// What is left of t_chk; 0 without test.
-    pub timer: Cycles,
-    /// The selection in the last cycle: only its rise starts a test.
-    pub selected: bool,
+fields! {
+    /// The state between two cycles.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct State {
+        /// How far the test is.
+        pub phase: Phase,
+        /// What is left of t_chk; 0 without test.
+        pub timer: Cycles,
+        /// The selection in the last cycle: only its rise starts a test.
+        pub selected: bool,
+    }
 }
 
 impl State {
@@ -76,17 +82,19 @@ impl State {
     }
 }
 
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// Power-on of drive and control: a test ends without result, and a selection that is already there starts none.
-    pub power_on: bool,
-    /// The test is selected (1 = selected, unlike the "de-select" signals).
-    pub select: bool,
-    /// Feedback: the pulses are cancelled.
-    pub pulses_cancelled: bool,
-    /// An internal STOP A or B was latched in this channel after the last cycle.
-    pub internal_ab: bool,
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// Power-on of drive and control: a test ends without result, and a selection that is already there starts none.
+        pub power_on: bool,
+        /// The test is selected (1 = selected, unlike the "de-select" signals).
+        pub select: bool,
+        /// Feedback: the pulses are cancelled.
+        pub pulses_cancelled: bool,
+        /// An internal STOP A or B was latched in this channel after the last cycle.
+        pub internal_ab: bool,
+    }
 }
 
 /// What one cycle has brought.

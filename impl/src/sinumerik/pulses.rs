@@ -9,11 +9,14 @@
 
 use crate::kernel::{ConfigError, Cycles};
 
-/// The shutdown path as configured.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Config {
-    internal: bool,
-    t_chk: Cycles,
+config! {
+    /// The shutdown path as configured.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Config {
+        internal: bool,
+        t_chk: Cycles,
+    }
+    accepted |config| Config::new(config.internal, config.internal, config.t_chk).is_ok()
 }
 
 impl Config {
@@ -34,27 +37,31 @@ impl Config {
     }
 }
 
-/// What has been done to the pulses.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Phase {
-    /// Enabled.
-    Enabled,
-    /// Cancelled over the drive bus; the feedback is awaited.
-    CancelInt,
-    /// Cancelled, and with internal cancellation reported so.
-    #[default]
-    Cancelled,
-    /// The external enable is taken away too.
-    CancelExt,
+fields! {
+    /// What has been done to the pulses.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub enum Phase {
+        /// Enabled.
+        Enabled,
+        /// Cancelled over the drive bus; the feedback is awaited.
+        CancelInt,
+        /// Cancelled, and with internal cancellation reported so.
+        #[default]
+        Cancelled,
+        /// The external enable is taken away too.
+        CancelExt,
+    }
 }
 
-/// The state between two cycles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct State {
-    /// What has been done to the pulses.
-    pub phase: Phase,
-    /// What is left of t_chk; 0 unless the feedback is awaited.
-    pub timer: Cycles,
+fields! {
+    /// The state between two cycles.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct State {
+        /// What has been done to the pulses.
+        pub phase: Phase,
+        /// What is left of t_chk; 0 unless the feedback is awaited.
+        pub timer: Cycles,
+    }
 }
 
 impl State {
@@ -74,19 +81,21 @@ impl State {
     }
 }
 
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// Power-on of drive and control: the cancellation is supervised from its beginning.
-    pub power_on: bool,
-    /// The run-up is complete: before it the pulses are off.
-    pub run_up: bool,
-    /// The pulses are to be cancelled in this cycle (see [`crate::sinumerik::stop`]).
-    pub cancel: bool,
-    /// The test of the external shutdown runs (see [`crate::sinumerik::shutdown_test`]).
-    pub external_test: bool,
-    /// Feedback: the pulses are cancelled.
-    pub feedback: bool,
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// Power-on of drive and control: the cancellation is supervised from its beginning.
+        pub power_on: bool,
+        /// The run-up is complete: before it the pulses are off.
+        pub run_up: bool,
+        /// The pulses are to be cancelled in this cycle (see [`crate::sinumerik::stop`]).
+        pub cancel: bool,
+        /// The test of the external shutdown runs (see [`crate::sinumerik::shutdown_test`]).
+        pub external_test: bool,
+        /// Feedback: the pulses are cancelled.
+        pub feedback: bool,
+    }
 }
 
 impl Inputs {
@@ -96,16 +105,18 @@ impl Inputs {
     }
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// "Enable pulses": 0 requests their cancellation.
-    pub enable: bool,
-    /// "Enable pulses externally".
-    pub enable_external: bool,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// "Enable pulses": 0 requests their cancellation.
+        pub enable: bool,
+        /// "Enable pulses externally".
+        pub enable_external: bool,
+    }
 }
 
-contract! {
+monitor! { sinumerik::pulses;
     /// A request to cancel acts in the same cycle, and so does an incomplete run-up.
     cancellation_acts_at_once ["S840D-SH-001", "S840D-P-01", "S840D-P-54", "S840D-PULSE-001", "S840D-PULSE-002", "S840D-ARCH-505"]:
         when |s| s.inputs.cancel || !s.inputs.run_up

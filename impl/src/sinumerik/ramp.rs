@@ -12,11 +12,13 @@ use crate::kernel::{ConfigError, Speed};
 
 use crate::sinumerik::level::InternalStop;
 
-/// The parameters of the ramp.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Config {
-    velo_x: Speed,
-    tol: Speed,
+config! {
+    /// The parameters of the ramp.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Config {
+        velo_x: Speed,
+        tol: Speed,
+    }
 }
 
 impl Config {
@@ -45,11 +47,13 @@ impl Config {
     }
 }
 
-/// The state between two cycles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct State {
-    /// The lowest speed since the start of the stop, that of the cycle before it included; the last speed without a stop.
-    pub lowest: Speed,
+fields! {
+    /// The state between two cycles.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct State {
+        /// The lowest speed since the start of the stop, that of the cycle before it included; the last speed without a stop.
+        pub lowest: Speed,
+    }
 }
 
 impl State {
@@ -68,31 +72,35 @@ impl State {
     }
 }
 
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// Power-on of drive and control.
-    pub power_on: bool,
-    /// STOP B, or STOP C, was effective after the last cycle (see [`crate::sinumerik::stop::Outputs::sbr_on`]).
-    pub on: bool,
-    /// The magnitude of the actual speed.
-    pub speed: Speed,
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// Power-on of drive and control.
+        pub power_on: bool,
+        /// STOP B, or STOP C, was effective after the last cycle (see [`crate::sinumerik::stop::Outputs::sbr_on`]).
+        pub on: bool,
+        /// The magnitude of the actual speed.
+        pub speed: Speed,
+    }
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// The speed is above the limit (alarms 27013, 300906).
-    pub violated: bool,
-    /// The limit for the next cycle; in force while the ramp is on.
-    pub limit: Speed,
-    /// The ramp is on and the limit has reached its lowest value.
-    pub frozen: bool,
-    /// STOP A when violated.
-    pub demand: InternalStop,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// The speed is above the limit (alarms 27013, 300906).
+        pub violated: bool,
+        /// The limit for the next cycle; in force while the ramp is on.
+        pub limit: Speed,
+        /// The ramp is on and the limit has reached its lowest value.
+        pub frozen: bool,
+        /// STOP A when violated.
+        pub demand: InternalStop,
+    }
 }
 
-contract! {
+monitor! { sinumerik::ramp;
     /// Faster than the limit of the cycle before: STOP A is demanded in the same cycle.
     faster_than_the_ramp_demands_stop_a ["S840D-P-11", "S840D-SBR-002", "S840D-SBR-003", "S840D-PARAM-018"]:
         when |s| s.inputs.on && !s.inputs.power_on && s.inputs.speed > s.before.limit(&s.config)

@@ -7,10 +7,12 @@
 
 use crate::kernel::ConfigError;
 
-/// What the axis is used for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Config {
-    se_sn_enabled: bool,
+config! {
+    /// What the axis is used for.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Config {
+        se_sn_enabled: bool,
+    }
 }
 
 impl Config {
@@ -23,27 +25,31 @@ impl Config {
     }
 }
 
-/// How far the axis is referenced.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum AxisState {
-    /// Drive and control have not run up.
-    #[default]
-    Off,
-    /// Not referenced.
-    NotRef,
-    /// Referenced.
-    Ref,
-    /// Safely referenced.
-    SafeRef,
+fields! {
+    /// How far the axis is referenced.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub enum AxisState {
+        /// Drive and control have not run up.
+        #[default]
+        Off,
+        /// Not referenced.
+        NotRef,
+        /// Referenced.
+        Ref,
+        /// Safely referenced.
+        SafeRef,
+    }
 }
 
-/// The state between two cycles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct State {
-    /// How far the axis is referenced.
-    pub axis: AxisState,
-    /// The axis was referenced in the last cycle: the comparison with the history is due in the next one.
-    pub fresh: bool,
+fields! {
+    /// The state between two cycles.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct State {
+        /// How far the axis is referenced.
+        pub axis: AxisState,
+        /// The axis was referenced in the last cycle: the comparison with the history is due in the next one.
+        pub fresh: bool,
+    }
 }
 
 impl State {
@@ -60,44 +66,48 @@ impl State {
     }
 }
 
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// Power-on of drive and control.
-    pub power_on: bool,
-    /// Drive and control have run up.
-    pub run_up: bool,
-    /// The reference approach is correctly done, or the absolute position is transferred.
-    pub referenced: bool,
-    /// A new reference approach, or the reference is lost.
-    pub reference_lost: bool,
-    /// Parking is selected.
-    pub parking: bool,
-    /// The agreement of this channel after this cycle's step.
-    pub agreed_1: bool,
-    /// The agreement of the other channel as it was told: confirmed there ([`Outputs::confirmed`]).
-    pub agreed_2: bool,
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// Power-on of drive and control.
+        pub power_on: bool,
+        /// Drive and control have run up.
+        pub run_up: bool,
+        /// The reference approach is correctly done, or the absolute position is transferred.
+        pub referenced: bool,
+        /// A new reference approach, or the reference is lost.
+        pub reference_lost: bool,
+        /// Parking is selected.
+        pub parking: bool,
+        /// The agreement of this channel after this cycle's step.
+        pub agreed_1: bool,
+        /// The agreement of the other channel as it was told: confirmed there ([`Outputs::confirmed`]).
+        pub agreed_2: bool,
+    }
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// How far the axis is referenced.
-    pub axis: AxisState,
-    /// Interface signal "reference point reached".
-    pub nst_reference_reached: bool,
-    /// SGA "axis safely referenced".
-    pub safely_referenced: bool,
-    /// The comparison with the history is due in the next cycle.
-    pub compare_due: bool,
-    /// This channel agrees to a referenced position and has nothing left to compare: what the other channel is told.
-    pub confirmed: bool,
-    /// Message "axis not safely referenced" (27000 / 300950), only with position monitors; display only, no stop
-    /// (S840D-REF-013; beyond the interface of the specification tables).
-    pub message: bool,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// How far the axis is referenced.
+        pub axis: AxisState,
+        /// Interface signal "reference point reached".
+        pub nst_reference_reached: bool,
+        /// SGA "axis safely referenced".
+        pub safely_referenced: bool,
+        /// The comparison with the history is due in the next cycle.
+        pub compare_due: bool,
+        /// This channel agrees to a referenced position and has nothing left to compare: what the other channel is told.
+        pub confirmed: bool,
+        /// Message "axis not safely referenced" (27000 / 300950), only with position monitors; display only, no stop
+        /// (S840D-REF-013; beyond the interface of the specification tables).
+        pub message: bool,
+    }
 }
 
-contract! {
+monitor! { sinumerik::reference;
     /// "Safely referenced" only with the agreements of both channels, in the same cycle.
     safely_referenced_needs_both ["S840D-P-13", "S840D-P-14", "S840D-REF-005", "S840D-REF-006/a"]:
         when |s| s.outputs.safely_referenced || s.after.axis == AxisState::SafeRef

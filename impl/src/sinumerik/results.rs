@@ -7,18 +7,20 @@ pub use crate::contract::Stateless as State;
 use crate::kernel::ConfigError;
 use crate::sinumerik::selection::{Monitored, Stage};
 
-/// A field of a result list.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Field {
-    /// The function is not selected.
-    #[default]
-    NotSelected,
-    /// The function is selected; no limit is passed.
-    Within,
-    /// The lower limit is passed.
-    Below,
-    /// The upper limit is passed.
-    Above,
+fields! {
+    /// A field of a result list.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub enum Field {
+        /// The function is not selected.
+        #[default]
+        NotSelected,
+        /// The function is selected; no limit is passed.
+        Within,
+        /// The lower limit is passed.
+        Below,
+        /// The upper limit is passed.
+        Above,
+    }
 }
 
 impl Field {
@@ -42,15 +44,17 @@ impl Field {
     }
 }
 
-/// Result list 1 (MD 1391 / 1392).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct List1 {
-    /// Operating stop.
-    pub sbh: Field,
-    /// The two pairs of limit switches.
-    pub se: [Field; 2],
-    /// The four speed stages.
-    pub sg: [Field; 4],
+fields! {
+    /// Result list 1 (MD 1391 / 1392).
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct List1 {
+        /// Operating stop.
+        pub sbh: Field,
+        /// The two pairs of limit switches.
+        pub se: [Field; 2],
+        /// The four speed stages.
+        pub sg: [Field; 4],
+    }
 }
 
 impl List1 {
@@ -79,18 +83,20 @@ impl List1 {
     }
 }
 
-/// Result list 2 (MD 1393 / 1394).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct List2 {
-    /// The cams SN1+, SN1-, SN2+ to SN4-: above means beyond the cam.
-    pub cams: [Field; 8],
-    /// The upper limit of n_x: above when not slower than n_x.
-    pub n_x_upper: Field,
-    /// The lower limit of n_x: below when not slower than n_x. The monitor compares the magnitude of the speed, so both
-    /// fields change together.
-    pub n_x_lower: Field,
-    /// The modulo range of the cams: selected where positions are folded.
-    pub modulo: Field,
+fields! {
+    /// Result list 2 (MD 1393 / 1394).
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct List2 {
+        /// The cams SN1+, SN1-, SN2+ to SN4-: above means beyond the cam.
+        pub cams: [Field; 8],
+        /// The upper limit of n_x: above when not slower than n_x.
+        pub n_x_upper: Field,
+        /// The lower limit of n_x: below when not slower than n_x. The monitor compares the magnitude of the speed, so both
+        /// fields change together.
+        pub n_x_lower: Field,
+        /// The modulo range of the cams: selected where positions are folded.
+        pub modulo: Field,
+    }
 }
 
 impl List2 {
@@ -107,12 +113,14 @@ impl List2 {
     }
 }
 
-/// Which functions of list 2 exist.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Config {
-    cams: [bool; 8],
-    n_x: bool,
-    modulo: bool,
+config! {
+    /// Which functions of list 2 exist.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Config {
+        cams: [bool; 8],
+        n_x: bool,
+        modulo: bool,
+    }
 }
 
 impl Config {
@@ -126,43 +134,47 @@ impl Config {
     }
 }
 
-/// The inputs of one cycle: the results of the monitors in this cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// What is monitored.
-    pub monitored: Monitored,
-    /// The stage in force.
-    pub stage: Stage,
-    /// The speed is above the limit of the stage.
-    pub speed_violated: bool,
-    /// The position is beyond the upper limit of the operating stop.
-    pub standstill_upper: bool,
-    /// The position is beyond the lower limit of the operating stop.
-    pub standstill_lower: bool,
-    /// A pair of limit switches is watched.
-    pub se_watched: bool,
-    /// The pair selected: 0 is SE1, 1 is SE2.
-    pub se_select: bool,
-    /// The position is beyond the plus end.
-    pub se_upper: bool,
-    /// The position is beyond the minus end.
-    pub se_lower: bool,
-    /// The own results of the cams, before they are combined with those of the other channel.
-    pub cams: [bool; 8],
-    /// The speed is below n_x.
-    pub below: bool,
+fields! {
+    /// The inputs of one cycle: the results of the monitors in this cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// What is monitored.
+        pub monitored: Monitored,
+        /// The stage in force.
+        pub stage: Stage,
+        /// The speed is above the limit of the stage.
+        pub speed_violated: bool,
+        /// The position is beyond the upper limit of the operating stop.
+        pub standstill_upper: bool,
+        /// The position is beyond the lower limit of the operating stop.
+        pub standstill_lower: bool,
+        /// A pair of limit switches is watched.
+        pub se_watched: bool,
+        /// The pair selected: 0 is SE1, 1 is SE2.
+        pub se_select: bool,
+        /// The position is beyond the plus end.
+        pub se_upper: bool,
+        /// The position is beyond the minus end.
+        pub se_lower: bool,
+        /// The own results of the cams, before they are combined with those of the other channel.
+        pub cams: [bool; 8],
+        /// The speed is below n_x.
+        pub below: bool,
+    }
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// Result list 1.
-    pub list_1: List1,
-    /// Result list 2.
-    pub list_2: List2,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// Result list 1.
+        pub list_1: List1,
+        /// Result list 2.
+        pub list_2: List2,
+    }
 }
 
-contract! {
+monitor! { sinumerik::results;
     /// The field of the operating stop: not selected, within the window, or the side that was left.
     operating_stop_has_its_field ["S840D-KDV-515", "S840D-KDV-509"]:
         when |s| s.inputs.monitored == Monitored::Standstill || s.outputs.list_1.sbh != Field::NotSelected

@@ -21,41 +21,45 @@ mod limits;
 
 pub use limits::{Choice, Config, FactorIndex, Stage};
 
-/// What is selected and monitored.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Mode {
-    /// Non-safe operation: neither SBH nor SG.
-    #[default]
-    Nsb,
-    /// The limit of a speed stage.
-    Sg,
-    /// The limit of the old stage; the delay to a lower one runs.
-    SgDown,
-    /// The limit of the old stage; the delay to SBH runs.
-    SbhPend,
-    /// Operating stop, selected by the signals.
-    Sbh,
-    /// Operating stop, forced by the end of a STOP C, D or E.
-    SbhForced,
+fields! {
+    /// What is selected and monitored.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub enum Mode {
+        /// Non-safe operation: neither SBH nor SG.
+        #[default]
+        Nsb,
+        /// The limit of a speed stage.
+        Sg,
+        /// The limit of the old stage; the delay to a lower one runs.
+        SgDown,
+        /// The limit of the old stage; the delay to SBH runs.
+        SbhPend,
+        /// Operating stop, selected by the signals.
+        Sbh,
+        /// Operating stop, forced by the end of a STOP C, D or E.
+        SbhForced,
+    }
 }
 
-/// The state between two cycles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct State {
-    /// What is selected and monitored.
-    pub mode: Mode,
-    /// The stage whose limit is monitored in `Sg`, `SgDown` and `SbhPend`, else SG1.
-    pub stage: Stage,
-    /// The override factor in force in `stage`, else 0.
-    pub factor: FactorIndex,
-    /// The stage to come in `SgDown`, else SG1.
-    pub target: Stage,
-    /// The override factor to come in `SgDown`, else 0.
-    pub target_factor: FactorIndex,
-    /// What is left of t_vel in `SgDown` and `SbhPend`, else 0.
-    pub timer: Cycles,
-    /// The position captured in `Sbh` and `SbhForced`, else 0.
-    pub reference: Position,
+fields! {
+    /// The state between two cycles.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct State {
+        /// What is selected and monitored.
+        pub mode: Mode,
+        /// The stage whose limit is monitored in `Sg`, `SgDown` and `SbhPend`, else SG1.
+        pub stage: Stage,
+        /// The override factor in force in `stage`, else 0.
+        pub factor: FactorIndex,
+        /// The stage to come in `SgDown`, else SG1.
+        pub target: Stage,
+        /// The override factor to come in `SgDown`, else 0.
+        pub target_factor: FactorIndex,
+        /// What is left of t_vel in `SgDown` and `SbhPend`, else 0.
+        pub timer: Cycles,
+        /// The position captured in `Sbh` and `SbhForced`, else 0.
+        pub reference: Position,
+    }
 }
 
 impl State {
@@ -132,58 +136,64 @@ impl State {
     }
 }
 
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// Power-on of drive and control.
-    pub power_on: bool,
-    /// SGE "SBH/SG de-selection": 1 selects neither.
-    pub sge_sbh_sg: bool,
-    /// SGE "SBH de-selection": 0 selects SBH, 1 selects SG.
-    pub sge_sbh: bool,
-    /// The stage selected by the signals.
-    pub sg_select: Stage,
-    /// The override factor selected by the signals.
-    pub over: FactorIndex,
-    /// A STOP C, D or E has ended in the operating stop (see [`crate::sinumerik::stop::Outputs::sbh_internal`]).
-    pub sbh_internal: bool,
-    /// The actual position.
-    pub position: Position,
-    /// The actual position of the cycle before, in which a STOP C, D or E that has just ended did so.
-    pub ended_at: Position,
-    /// From this cycle on the position counts from another zero: it has been set anew (see [`crate::sinumerik::motion`]).
-    pub set_anew: bool,
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// Power-on of drive and control.
+        pub power_on: bool,
+        /// SGE "SBH/SG de-selection": 1 selects neither.
+        pub sge_sbh_sg: bool,
+        /// SGE "SBH de-selection": 0 selects SBH, 1 selects SG.
+        pub sge_sbh: bool,
+        /// The stage selected by the signals.
+        pub sg_select: Stage,
+        /// The override factor selected by the signals.
+        pub over: FactorIndex,
+        /// A STOP C, D or E has ended in the operating stop (see [`crate::sinumerik::stop::Outputs::sbh_internal`]).
+        pub sbh_internal: bool,
+        /// The actual position.
+        pub position: Position,
+        /// The actual position of the cycle before, in which a STOP C, D or E that has just ended did so.
+        pub ended_at: Position,
+        /// From this cycle on the position counts from another zero: it has been set anew (see [`crate::sinumerik::motion`]).
+        pub set_anew: bool,
+    }
 }
 
-/// What is compared with what.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Monitored {
-    /// Nothing.
-    #[default]
-    Nothing,
-    /// The speed with the limit.
-    Speed,
-    /// The position with the reference.
-    Standstill,
-}
-
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// What is selected and monitored.
-    pub mode: Mode,
-    /// SGA "SBH/SG active".
-    pub sga_active: bool,
-    /// SGA "SBH active".
-    pub sga_sbh_active: bool,
-    /// SGA "SG active bit 1, bit 0": the stage whose limit is monitored; SG1 where none is (S840D-SG-014).
-    pub sga_sg: Stage,
+fields! {
     /// What is compared with what.
-    pub monitored: Monitored,
-    /// The effective limit where the speed is monitored, else 0.
-    pub limit: Speed,
-    /// The reference where the position is monitored, else 0.
-    pub reference: Position,
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub enum Monitored {
+        /// Nothing.
+        #[default]
+        Nothing,
+        /// The speed with the limit.
+        Speed,
+        /// The position with the reference.
+        Standstill,
+    }
+}
+
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// What is selected and monitored.
+        pub mode: Mode,
+        /// SGA "SBH/SG active".
+        pub sga_active: bool,
+        /// SGA "SBH active".
+        pub sga_sbh_active: bool,
+        /// SGA "SG active bit 1, bit 0": the stage whose limit is monitored; SG1 where none is (S840D-SG-014).
+        pub sga_sg: Stage,
+        /// What is compared with what.
+        pub monitored: Monitored,
+        /// The effective limit where the speed is monitored, else 0.
+        pub limit: Speed,
+        /// The reference where the position is monitored, else 0.
+        pub reference: Position,
+    }
 }
 
 /// What the signals select.
@@ -219,7 +229,7 @@ impl Mode {
     }
 }
 
-contract! {
+monitor! { sinumerik::selection;
     /// The end of a STOP C, D or E forces the operating stop, whatever the signals select.
     ended_stop_forces_standstill ["S840D-P-07", "S840D-STOP-080"]:
         when |s| s.inputs.sbh_internal && s.config.enable

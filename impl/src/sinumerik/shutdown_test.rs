@@ -13,22 +13,24 @@ use crate::sinumerik::path_test::{Event, advance};
 
 pub use crate::sinumerik::path_test::{Config, Inputs, Phase, State};
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// The test runs; message 27006.
-    pub active: bool,
-    /// The external enable of the pulses as far as the test is concerned: absent while it runs.
-    pub enable_external: bool,
-    /// STOP A where the test has failed in this cycle, else none.
-    pub demand: InternalStop,
-    /// 1010 where the test fails, else 0.
-    pub code: Code,
-    /// The path has been tested: the test ended well in this cycle.
-    pub passed: bool,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// The test runs; message 27006.
+        pub active: bool,
+        /// The external enable of the pulses as far as the test is concerned: absent while it runs.
+        pub enable_external: bool,
+        /// STOP A where the test has failed in this cycle, else none.
+        pub demand: InternalStop,
+        /// 1010 where the test fails, else 0.
+        pub code: Code,
+        /// The path has been tested: the test ended well in this cycle.
+        pub passed: bool,
+    }
 }
 
-contract! {
+monitor! { sinumerik::shutdown_test;
     /// While the test runs the external enable is absent, and only then.
     test_takes_the_external_enable ["S840D-TEST-016", "S840D-TEST-011"]:
         when |s| s.outputs.active || !s.outputs.enable_external

@@ -9,11 +9,14 @@ use crate::kernel::{ConfigError, Distance, Position};
 /// The dead band of the manual: 2 um or 2 mdeg.
 pub const DEAD_BAND: Distance = Distance(2);
 
-/// The synchronisation as configured.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Config {
-    dead: Distance,
-    tol: Distance,
+config! {
+    /// The synchronisation as configured.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Config {
+        dead: Distance,
+        tol: Distance,
+    }
+    accepted |config| Config::new(config.dead, config.tol, true, false).is_ok()
 }
 
 impl Config {
@@ -51,11 +54,13 @@ impl Config {
 /// The greatest offset that two positions can need.
 const FARTHEST: i64 = u32::MAX as i64;
 
-/// The state between two cycles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct State {
-    /// What the own position is corrected by, in increments.
-    pub offset: i64,
+fields! {
+    /// The state between two cycles.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct State {
+        /// What the own position is corrected by, in increments.
+        pub offset: i64,
+    }
 }
 
 impl State {
@@ -86,27 +91,31 @@ impl State {
     }
 }
 
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// Power-on of drive and control: no correction.
-    pub power_on: bool,
-    /// The comparison of the positions is due in this cycle, or the axis has been referenced, or left parking.
-    pub due: bool,
-    /// The position measured in this channel, at the instant at which the other channel measured `other`: if that comes one
-    /// cycle late, the position of one cycle ago. Otherwise the feed of a cycle would count as slip.
-    pub own: Position,
-    /// The corrected position of the other channel after its last cycle.
-    pub other: Position,
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// Power-on of drive and control: no correction.
+        pub power_on: bool,
+        /// The comparison of the positions is due in this cycle, or the axis has been referenced, or left parking.
+        pub due: bool,
+        /// The position measured in this channel, at the instant at which the other channel measured `other`: if that comes one
+        /// cycle late, the position of one cycle ago. Otherwise the feed of a cycle would count as slip.
+        pub own: Position,
+        /// The corrected position of the other channel after its last cycle.
+        pub other: Position,
+    }
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// The corrected position, after this cycle's correction.
-    pub position: Position,
-    /// The channels have been further apart than the tolerance: STOP F, code 3.
-    pub error: bool,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// The corrected position, after this cycle's correction.
+        pub position: Position,
+        /// The channels have been further apart than the tolerance: STOP F, code 3.
+        pub error: bool,
+    }
 }
 
 /// The offset that a step starts from.
@@ -118,7 +127,7 @@ fn start(state: State, inputs: &Inputs) -> State {
     }
 }
 
-contract! {
+monitor! { sinumerik::slip;
     /// The correction only ever brings the channels closer, and never past each other.
     never_overshoots ["S840D-SLIP-502"]:
         when |s| s.inputs.due

@@ -11,12 +11,15 @@ use crate::kernel::{ConfigError, Percent, Speed};
 use crate::sinumerik::level::InternalStop;
 use crate::sinumerik::selection::{Monitored, Stage};
 
-/// The reactions and the limits of the encoder.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Config {
-    stops: [InternalStop; 4],
-    encoder_max: Option<Speed>,
-    setpoint: Percent,
+config! {
+    /// The reactions and the limits of the encoder.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Config {
+        stops: [InternalStop; 4],
+        encoder_max: Option<Speed>,
+        setpoint: Percent,
+    }
+    accepted |config| config.stops.iter().all(|stop| *stop != InternalStop::None)
 }
 
 impl Config {
@@ -79,37 +82,41 @@ const fn stop(value: u8) -> Result<InternalStop, ConfigError> {
     }
 }
 
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// What is monitored in this cycle.
-    pub monitored: Monitored,
-    /// The magnitude of the actual speed, load side.
-    pub speed: Speed,
-    /// The limit in force (see [`crate::sinumerik::selection::Outputs::limit`]).
-    pub limit: Speed,
-    /// The stage in force (see [`crate::sinumerik::selection::Outputs::sga_sg`]).
-    pub stage: Stage,
-    /// The magnitude of the speed the encoder limit frequency is about. Ignored with two encoders.
-    pub encoder_speed: Speed,
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// What is monitored in this cycle.
+        pub monitored: Monitored,
+        /// The magnitude of the actual speed, load side.
+        pub speed: Speed,
+        /// The limit in force (see [`crate::sinumerik::selection::Outputs::limit`]).
+        pub limit: Speed,
+        /// The stage in force (see [`crate::sinumerik::selection::Outputs::sga_sg`]).
+        pub stage: Stage,
+        /// The magnitude of the speed the encoder limit frequency is about. Ignored with two encoders.
+        pub encoder_speed: Speed,
+    }
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// The speed is above the limit of the stage (alarms 27011, 300914).
-    pub violated: bool,
-    /// The speed is above the limit of the encoder (the same alarms).
-    pub encoder_violated: bool,
-    /// The stop to be raised.
-    pub demand: InternalStop,
-    /// The speed setpoint is limited.
-    pub setpoint_limited: bool,
-    /// The highest setpoint where it is limited, else 0.
-    pub setpoint_limit: Speed,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// The speed is above the limit of the stage (alarms 27011, 300914).
+        pub violated: bool,
+        /// The speed is above the limit of the encoder (the same alarms).
+        pub encoder_violated: bool,
+        /// The stop to be raised.
+        pub demand: InternalStop,
+        /// The speed setpoint is limited.
+        pub setpoint_limited: bool,
+        /// The highest setpoint where it is limited, else 0.
+        pub setpoint_limit: Speed,
+    }
 }
 
-contract! {
+monitor! { sinumerik::speed;
     /// Faster than the limit in force: the stop of the stage is demanded in the same cycle.
     faster_than_the_limit_demands_the_stop ["S840D-P-49", "S840D-SG-001", "S840D-SG-006", "S840D-TIMING-506",
         "S840D-TIMING-512", "S840D-PARAM-010", "S840D-ALARM-734"]:

@@ -8,10 +8,12 @@ use crate::kernel::{ConfigError, Distance, Position};
 use crate::sinumerik::level::InternalStop;
 use crate::sinumerik::selection::Monitored;
 
-/// The window.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Config {
-    tol: Distance,
+config! {
+    /// The window.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Config {
+        tol: Distance,
+    }
 }
 
 impl Config {
@@ -36,31 +38,35 @@ impl Config {
     }
 }
 
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// What is monitored in this cycle.
-    pub monitored: Monitored,
-    /// The actual position.
-    pub position: Position,
-    /// The position captured when the operating stop became active.
-    pub reference: Position,
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// What is monitored in this cycle.
+        pub monitored: Monitored,
+        /// The actual position.
+        pub position: Position,
+        /// The position captured when the operating stop became active.
+        pub reference: Position,
+    }
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// The position is outside the window (alarms 27010, 300907).
-    pub violated: bool,
-    /// It is beyond the upper limit of the window, for the result list.
-    pub upper: bool,
-    /// It is beyond the lower limit of the window, for the result list.
-    pub lower: bool,
-    /// STOP B when violated.
-    pub demand: InternalStop,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// The position is outside the window (alarms 27010, 300907).
+        pub violated: bool,
+        /// It is beyond the upper limit of the window, for the result list.
+        pub upper: bool,
+        /// It is beyond the lower limit of the window, for the result list.
+        pub lower: bool,
+        /// STOP B when violated.
+        pub demand: InternalStop,
+    }
 }
 
-contract! {
+monitor! { sinumerik::standstill;
     /// Outside the window STOP B is demanded in the same cycle.
     leaving_the_window_demands_stop_b ["S840D-P-04", "S840D-SBH-001", "S840D-SBH-005", "S840D-SBH-012", "S840D-TIMING-505",
         "S840D-PARAM-009"]:

@@ -12,13 +12,15 @@ use crate::kernel::{ConfigError, Cycles};
 
 use crate::sinumerik::level::{ExternalStop, InternalStop, Level};
 
-/// Transition times of the stops, equal in both channels (S840D-STOP-085). 0 means at once.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Config {
-    t_b: Cycles,
-    t_c: Cycles,
-    t_d: Cycles,
-    t_e: Cycles,
+config! {
+    /// Transition times of the stops, equal in both channels (S840D-STOP-085). 0 means at once.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Config {
+        t_b: Cycles,
+        t_c: Cycles,
+        t_d: Cycles,
+        t_e: Cycles,
+    }
 }
 
 impl Config {
@@ -61,37 +63,41 @@ impl Config {
     }
 }
 
-/// What the effective stop is doing.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Phase {
-    /// No stop.
-    #[default]
-    Idle,
-    /// STOP E, D or C brakes; its timer runs.
-    Braking,
-    /// STOP E, D or C has ended in the internal operating stop.
-    SbhInt,
-    /// STOP B brakes; its timer runs.
-    BBraking,
-    /// STOP A: the pulses are cancelled.
-    PulsesOff,
-    /// The test stop holds the pulses cancelled in this channel.
-    Testing,
+fields! {
+    /// What the effective stop is doing.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub enum Phase {
+        /// No stop.
+        #[default]
+        Idle,
+        /// STOP E, D or C brakes; its timer runs.
+        Braking,
+        /// STOP E, D or C has ended in the internal operating stop.
+        SbhInt,
+        /// STOP B brakes; its timer runs.
+        BBraking,
+        /// STOP A: the pulses are cancelled.
+        PulsesOff,
+        /// The test stop holds the pulses cancelled in this channel.
+        Testing,
+    }
 }
 
-/// The state between two cycles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct State {
-    /// The latched internal stop.
-    pub internal: InternalStop,
-    /// The stop requested by this channel's signals in the last cycle; the other channel reads it.
-    pub external: ExternalStop,
-    /// The effective level.
-    pub level: Level,
-    /// What the effective stop is doing.
-    pub phase: Phase,
-    /// What is left of the transition time while a phase with a timer lasts, else 0.
-    pub timer: Cycles,
+fields! {
+    /// The state between two cycles.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct State {
+        /// The latched internal stop.
+        pub internal: InternalStop,
+        /// The stop requested by this channel's signals in the last cycle; the other channel reads it.
+        pub external: ExternalStop,
+        /// The effective level.
+        pub level: Level,
+        /// What the effective stop is doing.
+        pub phase: Phase,
+        /// What is left of the transition time while a phase with a timer lasts, else 0.
+        pub timer: Cycles,
+    }
 }
 
 impl State {
@@ -133,72 +139,76 @@ impl State {
     }
 }
 
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// Power-on of drive and control: the only acknowledgement of STOP A and B.
-    pub power_on: bool,
-    /// NC-RESET. The pair of channels gives it to both in the same cycle.
-    pub reset: bool,
-    /// The highest stop that this channel's own monitors request now.
-    pub demand: InternalStop,
-    /// STOP F has run out its delay: STOP B is requested (see [`crate::sinumerik::fault`]).
-    pub f_stop_b: bool,
-    /// The latched internal stop of the other channel as received.
-    pub rx_internal: InternalStop,
-    /// The stop requested by this channel's signals (see [`crate::sinumerik::external`]).
-    pub external: ExternalStop,
-    /// The stop requested by the other channel's signals as received.
-    pub rx_external: ExternalStop,
-    /// The test of the shutdown path is running in this channel.
-    pub test: bool,
-    /// The actual speed is below STANDSTILL_VELO_TOL.
-    pub standstill: bool,
-    /// A STOP F is present (see [`crate::sinumerik::fault`]); shown only.
-    pub fault: bool,
-    /// The test of the external shutdown runs (see [`crate::sinumerik::shutdown_test`]); shown only.
-    pub external_test: bool,
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// Power-on of drive and control: the only acknowledgement of STOP A and B.
+        pub power_on: bool,
+        /// NC-RESET. The pair of channels gives it to both in the same cycle.
+        pub reset: bool,
+        /// The highest stop that this channel's own monitors request now.
+        pub demand: InternalStop,
+        /// STOP F has run out its delay: STOP B is requested (see [`crate::sinumerik::fault`]).
+        pub f_stop_b: bool,
+        /// The latched internal stop of the other channel as received.
+        pub rx_internal: InternalStop,
+        /// The stop requested by this channel's signals (see [`crate::sinumerik::external`]).
+        pub external: ExternalStop,
+        /// The stop requested by the other channel's signals as received.
+        pub rx_external: ExternalStop,
+        /// The test of the shutdown path is running in this channel.
+        pub test: bool,
+        /// The actual speed is below STANDSTILL_VELO_TOL.
+        pub standstill: bool,
+        /// A STOP F is present (see [`crate::sinumerik::fault`]); shown only.
+        pub fault: bool,
+        /// The test of the external shutdown runs (see [`crate::sinumerik::shutdown_test`]); shown only.
+        pub external_test: bool,
+    }
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// The effective level.
-    pub level: Level,
-    /// The latched internal stop, sent to the other channel.
-    pub internal: InternalStop,
-    /// What the effective stop is doing.
-    pub phase: Phase,
-    /// Cancel the pulses (S840D-STOP-010).
-    pub cancel_pulses: bool,
-    /// Speed setpoint 0, braking at the current limit (S840D-STOP-020, -030).
-    pub n_set_zero: bool,
-    /// Braking along the path (S840D-STOP-040).
-    pub path_brake: bool,
-    /// Extended stop and retract (S840D-STOP-050).
-    pub esr: bool,
-    /// The internal operating stop is required from the selection (S840D-STOP-080).
-    pub sbh_internal: bool,
-    /// SGA "STOP A/B is active" (S840D-STOP-014).
-    pub sga_stop_ab: bool,
-    /// SGA "STOP C is active" (S840D-STOP-032).
-    pub sga_stop_c: bool,
-    /// SGA "STOP D is active" (S840D-STOP-041).
-    pub sga_stop_d: bool,
-    /// SGA "STOP E is active" (S840D-STOP-052).
-    pub sga_stop_e: bool,
-    /// The braking ramp is monitored.
-    pub sbr_on: bool,
-    /// No braking of a STOP E, D or C is under way.
-    pub ended: bool,
-    /// A restart is prevented (S840D-STOP-083).
-    pub start_inhibit: bool,
-    /// The stop as `$VA_STOPSI` shows it: -1 none, 0 A, 1 B, 2 C, 3 D, 4 E, 5 F, 10 test, 11 test of the external shutdown
-    /// (S840D-STOP-053/a).
-    pub stopsi: i8,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// The effective level.
+        pub level: Level,
+        /// The latched internal stop, sent to the other channel.
+        pub internal: InternalStop,
+        /// What the effective stop is doing.
+        pub phase: Phase,
+        /// Cancel the pulses (S840D-STOP-010).
+        pub cancel_pulses: bool,
+        /// Speed setpoint 0, braking at the current limit (S840D-STOP-020, -030).
+        pub n_set_zero: bool,
+        /// Braking along the path (S840D-STOP-040).
+        pub path_brake: bool,
+        /// Extended stop and retract (S840D-STOP-050).
+        pub esr: bool,
+        /// The internal operating stop is required from the selection (S840D-STOP-080).
+        pub sbh_internal: bool,
+        /// SGA "STOP A/B is active" (S840D-STOP-014).
+        pub sga_stop_ab: bool,
+        /// SGA "STOP C is active" (S840D-STOP-032).
+        pub sga_stop_c: bool,
+        /// SGA "STOP D is active" (S840D-STOP-041).
+        pub sga_stop_d: bool,
+        /// SGA "STOP E is active" (S840D-STOP-052).
+        pub sga_stop_e: bool,
+        /// The braking ramp is monitored.
+        pub sbr_on: bool,
+        /// No braking of a STOP E, D or C is under way.
+        pub ended: bool,
+        /// A restart is prevented (S840D-STOP-083).
+        pub start_inhibit: bool,
+        /// The stop as `$VA_STOPSI` shows it: -1 none, 0 A, 1 B, 2 C, 3 D, 4 E, 5 F, 10 test, 11 test of the external shutdown
+        /// (S840D-STOP-053/a).
+        pub stopsi: i8,
+    }
 }
 
-contract! {
+monitor! { sinumerik::stop;
     /// A latched STOP B or A never falls without power-on, whatever RESET and the signals do.
     b_and_a_stay_latched ["S840D-P-03", "S840D-STOP-012", "S840D-STOP-024", "S840D-ACK-003"]:
         when |s| s.before.internal >= InternalStop::B && !s.inputs.power_on

@@ -15,22 +15,24 @@ use crate::sinumerik::path_test::{Event, advance};
 
 pub use crate::sinumerik::path_test::{Config, Inputs, Phase, State};
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// The test runs: the pulses are to be cancelled through this channel; message 27002/300951.
-    pub active: bool,
-    /// STOP A where the test has failed in this cycle, else none.
-    pub demand: InternalStop,
-    /// The test was refused in this cycle, the pulses being cancelled already: STOP F.
-    pub refused: bool,
-    /// 1005 where the test is refused, 1009 where it fails, else 0.
-    pub code: Code,
-    /// The path has been tested: the test ended well in this cycle.
-    pub passed: bool,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// The test runs: the pulses are to be cancelled through this channel; message 27002/300951.
+        pub active: bool,
+        /// STOP A where the test has failed in this cycle, else none.
+        pub demand: InternalStop,
+        /// The test was refused in this cycle, the pulses being cancelled already: STOP F.
+        pub refused: bool,
+        /// 1005 where the test is refused, 1009 where it fails, else 0.
+        pub code: Code,
+        /// The path has been tested: the test ended well in this cycle.
+        pub passed: bool,
+    }
 }
 
-contract! {
+monitor! { sinumerik::test_stop;
     /// A test selected while the pulses are cancelled is refused with code 1005, unless STOP A or B holds internally.
     cancelled_pulses_refuse_the_test ["S840D-P-28", "S840D-TEST-008", "S840D-TEST-030", "S840D-ALARM-736",
         "S840D-TEST-007", "S840D-TEST-013", "S840D-KDV-721"]:

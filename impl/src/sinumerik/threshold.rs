@@ -8,10 +8,12 @@
 pub use crate::contract::Stateless as State;
 use crate::kernel::{ConfigError, Speed};
 
-/// The threshold.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Config {
-    velo_x: Speed,
+config! {
+    /// The threshold.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Config {
+        velo_x: Speed,
+    }
 }
 
 impl Config {
@@ -24,21 +26,25 @@ impl Config {
     }
 }
 
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// The magnitude of the actual speed.
-    pub speed: Speed,
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// The magnitude of the actual speed.
+        pub speed: Speed,
+    }
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// SGA "n < n_x".
-    pub below: bool,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// SGA "n < n_x".
+        pub below: bool,
+    }
 }
 
-contract! {
+monitor! { sinumerik::threshold;
     /// The signal is 1 below the threshold.
     slower_is_below ["S840D-NX-001"]:
         when |s| s.inputs.speed < s.config.velo_x

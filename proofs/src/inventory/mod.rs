@@ -1,7 +1,10 @@
 //! The list of all harnesses, and the Kani harness of each entry.
 
-use crate::enumeration::{Count, Domain};
-use crate::properties::Subject;
+use stillpoint_monitors::contract::{Contract, Next};
+
+use crate::draw::Case;
+use crate::enumeration::{Count, Domain, Odometer, enumerate};
+use crate::properties::{self, Subject};
 use crate::sampling::Tape;
 use crate::source::Verdict;
 
@@ -20,7 +23,7 @@ pub struct Entry {
     /// The situations that must be met, in the order of their index.
     pub covers: fn() -> Vec<&'static str>,
     /// What the enumeration tries, in words.
-    pub domain: &'static str,
+    pub domain: fn() -> String,
     /// What limits the statement under every engine, Kani included.
     pub bound: &'static str,
     /// What a reader must know before relying on it.
@@ -35,6 +38,47 @@ pub struct Entry {
     pub enumerate: fn(&Subject) -> Count,
     /// Makes one random run.
     pub sample: fn(&mut Tape<'_>, &Subject) -> Verdict,
+}
+
+impl Entry {
+    /// What the entries of all contracts have in common; the engines are still to be set.
+    const fn contract<M: Contract>(
+        id: &'static str,
+        property: &'static str,
+        caveat: &'static str,
+    ) -> Self {
+        Self {
+            id,
+            monitor: M::NAME,
+            family: M::FAMILY,
+            property,
+            requirements: || requirements_of(properties::clauses::<M>()),
+            covers: || M::CLAUSES.iter().map(|clause| clause.name).collect(),
+            domain: String::new,
+            bound: "one step from any consistent state; inductive",
+            caveat,
+            file: None,
+            kani: "",
+            clauses: properties::clauses::<M>,
+            enumerate: |_| Count::default(),
+            sample: |_, _| Verdict::Discarded,
+        }
+    }
+}
+
+/// How often a random step is tried that makes none.
+const ATTEMPTS: usize = 20;
+
+/// Tries every case of a contract.
+fn enumerate_contract<M: Contract>(
+    domain: Domain,
+    case: impl Fn(&mut Odometer) -> Option<Case<M>>,
+    next: Next<M>,
+) -> Count {
+    enumerate(domain, M::CLAUSES.len(), |source| {
+        let case = case(source);
+        properties::contract::<M>(source, case, next)
+    })
 }
 
 /// A clause of a contract as the page shows it.
@@ -61,30 +105,50 @@ fn requirements_of(clauses: Vec<ClauseText>) -> Vec<&'static str> {
 
 macro_rules! entry {
     (contract $([$($how:tt)*])? $id:ident on $family:ident::$monitor:ident {
-        property: $property:literal, domain: $domain:expr, domain_text: $domain_text:literal, caveat: $caveat:literal $(,)?
-    }) => {
-        $crate::inventory::Entry {
-            id: stringify!($id),
-            monitor: stringify!($monitor),
-            family: stringify!($family),
-            property: $property,
-            requirements: || $crate::inventory::requirements_of($crate::properties::$family::clauses::$monitor()),
-            covers: || $crate::properties::$family::clauses::$monitor().iter().map(|clause| clause.name).collect(),
-            domain: $domain_text,
-            bound: "one step from any consistent state; inductive",
-            caveat: $caveat,
-            file: None,
-            kani: concat!($(stringify!($($how)*))?),
-            clauses: $crate::properties::$family::clauses::$monitor,
-            enumerate: |subject| {
-                let covers = stillpoint_monitors::$family::$monitor::CLAUSES.len();
-                $crate::enumeration::enumerate($domain, covers, |source| {
-                    $crate::properties::$family::contracts::$monitor(source, &subject.$family)
-                })
-            },
-            sample: |tape, subject| $crate::properties::$family::contracts::$monitor(tape, &subject.$family),
+        property: $property:literal, tries: $tries:literal, caveat: $caveat:literal $(,)?
+    }) => {{
+        use stillpoint_monitors::$family::$monitor::Monitor;
+        static TRIES: std::sync::OnceLock<$crate::tries::Tries> = std::sync::OnceLock::new();
+        fn tries() -> &'static $crate::tries::Tries {
+            TRIES.get_or_init(|| match $crate::tries::Tries::of::<Monitor>($tries) {
+                Ok(tries) => tries,
+                Err(what) => panic!(concat!(stringify!($id), ": {}"), what),
+            })
         }
-    };
+        $crate::inventory::Entry {
+            kani: concat!($(stringify!($($how)*))?),
+            domain: || $crate::tries::in_words($tries),
+            enumerate: |subject| {
+                let case = |source: &mut $crate::enumeration::Odometer| tries().step::<Monitor, _>(source);
+                $crate::inventory::enumerate_contract::<Monitor>(
+                    $crate::inventory::NARROW, case, subject.$family.$monitor,
+                )
+            },
+            sample: |tape, subject| {
+                let case = (0..$crate::inventory::ATTEMPTS).find_map(|_| tries().step::<Monitor, _>(tape));
+                $crate::properties::contract::<Monitor>(tape, case, subject.$family.$monitor)
+            },
+            ..$crate::inventory::Entry::contract::<Monitor>(stringify!($id), $property, $caveat)
+        }
+    }};
+    (contract $([$($how:tt)*])? $id:ident on $family:ident::$monitor:ident {
+        property: $property:literal, domain: $domain:expr, domain_text: $domain_text:literal, caveat: $caveat:literal $(,)?
+    }) => {{
+        use stillpoint_monitors::$family::$monitor::Monitor;
+        $crate::inventory::Entry {
+            kani: concat!($(stringify!($($how)*))?),
+            domain: || $domain_text.to_owned(),
+            enumerate: |subject| {
+                let case = |source: &mut $crate::enumeration::Odometer| $crate::arbitrary::$family::$monitor(source);
+                $crate::inventory::enumerate_contract::<Monitor>($domain, case, subject.$family.$monitor)
+            },
+            sample: |tape, subject| {
+                let case = $crate::arbitrary::$family::$monitor(tape);
+                $crate::properties::contract::<Monitor>(tape, case, subject.$family.$monitor)
+            },
+            ..$crate::inventory::Entry::contract::<Monitor>(stringify!($id), $property, $caveat)
+        }
+    }};
     (run($unwind:literal) $([$($how:tt)*])? $id:ident on $family:ident::$monitor:literal by $module:ident::$function:ident {
         property: $property:literal, requirements: [$($requirement:literal),+], covers: [$($cover:literal),+],
         domain: $domain:expr, domain_text: $domain_text:literal, bound: $bound:literal, caveat: $caveat:literal $(,)?
@@ -96,7 +160,7 @@ macro_rules! entry {
             property: $property,
             requirements: || vec![$($requirement),+],
             covers: || vec![$($cover),+],
-            domain: $domain_text,
+            domain: || $domain_text.to_owned(),
             bound: $bound,
             caveat: $caveat,
             file: Some(concat!("properties/", stringify!($family), "/", stringify!($module), ".rs")),
@@ -123,6 +187,17 @@ macro_rules! kani_proof {
     };
 }
 
+/// The step that Kani starts from: any that the types of the monitor allow, or one drawn by hand.
+#[cfg(kani)]
+macro_rules! kani_case {
+    ($family:ident $monitor:ident $source:ident { property: $property:literal, tries: $($rest:tt)* }) => {
+        crate::draw::step::<stillpoint_monitors::$family::$monitor::Monitor, _>(&mut $source)
+    };
+    ($family:ident $monitor:ident $source:ident $rest:tt) => {
+        crate::arbitrary::$family::$monitor(&mut $source)
+    };
+}
+
 /// The Kani harness of an entry; with `[parts(COUNT: NAME = NUMBER, ...)]` several in a module of its name. The parts of a
 /// contract share its clauses; those of a run are the parts that its property knows, and part 0 is the whole with the covers
 /// and without the assertion.
@@ -135,7 +210,7 @@ macro_rules! kani_harness {
             $(kani_proof! { $kani [] $part {
                 use stillpoint_monitors::$family::$monitor::{State, Step, assert_clauses, next};
                 let mut source = Symbolic::default();
-                if let Some((before, config, inputs)) = crate::arbitrary::$family::$monitor(&mut source) {
+                if let Some((before, config, inputs)) = kani_case!($family $monitor source $rest) {
                     kani::assume(before.invariant(&config));
                     assert!(State::INITIAL.invariant(&config), "initial_state_satisfies_the_invariant");
                     let (after, outputs) = next(before, &config, &inputs);

@@ -1,16 +1,18 @@
 //! The properties by family, and the step functions they are stated about.
 
-/// Makes, from one list of the monitors of a family, the step functions under test (`Subject`), the contract of each as a
-/// property (`contracts`), and its clauses as texts (`clauses`).
-///
-/// A contract as a property: from any consistent state, under any accepted configuration and any inputs, one step satisfies
-/// every clause. The invariant is one of the clauses, and the initial state satisfies it, so the facts are inductive.
-macro_rules! monitors {
-    ($family:ident: $($(#[$doc:meta])+ $monitor:ident)+) => {
+use stillpoint_monitors::contract::{Contract, Next, Step};
+
+use crate::draw::Case;
+use crate::inventory::ClauseText;
+use crate::source::{Source, Verdict};
+
+/// Makes, from the list of the monitors of a family, the step functions under test (`Subject`).
+macro_rules! subject {
+    ($family:ident [] $($monitor:ident)+) => {
         /// The step functions under test: the production ones, or some replaced by mutants.
         #[derive(Clone, Copy, Debug)]
         pub struct Subject {$(
-            $(#[$doc])+
+            #[doc = concat!("Of [`", stringify!($monitor), "`](stillpoint_monitors::", stringify!($family), "::", stringify!($monitor), ").")]
             pub $monitor: stillpoint_monitors::$family::$monitor::Next,
         )+}
 
@@ -20,50 +22,50 @@ macro_rules! monitors {
                 $monitor: stillpoint_monitors::$family::$monitor::next,
             )+};
         }
-
-        /// The contract of every step function as a property.
-        pub mod contracts {$(
-            $(#[$doc])+
-            pub fn $monitor<S: $crate::source::Source>(
-                source: &mut S,
-                subject: &super::Subject,
-            ) -> $crate::source::Verdict {
-                use stillpoint_monitors::$family::$monitor::{CLAUSES, State, Step, evaluate};
-                use $crate::source::Verdict;
-                let Some((before, config, inputs)) = $crate::arbitrary::$family::$monitor(source) else {
-                    return Verdict::Discarded;
-                };
-                if !State::INITIAL.invariant(&config) {
-                    return Verdict::Broken("initial_state_satisfies_the_invariant");
-                }
-                let (after, outputs) = (subject.$monitor)(before, &config, &inputs);
-                let result = evaluate(Step { before, config, inputs, after, outputs });
-                for index in 0..CLAUSES.len() {
-                    source.cover(index, (result.premises >> index) & 1 == 1);
-                }
-                if let Some(index) = result.first_broken(CLAUSES.len()) {
-                    return Verdict::Broken(CLAUSES.get(index).map_or("", |clause| clause.name));
-                }
-                Verdict::Held
-            }
-        )+}
-
-        /// The clauses of each contract as texts.
-        pub mod clauses {
-            use $crate::inventory::ClauseText;
-            $(
-                $(#[$doc])+
-                pub fn $monitor() -> Vec<ClauseText> {
-                    let clauses = stillpoint_monitors::$family::$monitor::CLAUSES.iter();
-                    clauses.map(|clause| ClauseText {
-                        name: clause.name,
-                        text: clause.text.trim(),
-                        requirements: clause.requirements,
-                    }).collect()
-                }
-            )+
-        }
     };
+}
+
+/// The contract of a monitor as a property: from any consistent state, under any accepted configuration and any inputs, one
+/// step satisfies every clause. The invariant is one of the clauses, and the initial state satisfies it, so the facts are
+/// inductive.
+pub fn contract<M: Contract>(
+    source: &mut impl Source,
+    case: Option<Case<M>>,
+    next: Next<M>,
+) -> Verdict {
+    let Some((before, config, inputs)) = case else {
+        return Verdict::Discarded;
+    };
+    if !M::invariant(&M::INITIAL, &config) {
+        return Verdict::Broken("initial_state_satisfies_the_invariant");
+    }
+    let (after, outputs) = next(before, &config, &inputs);
+    let result = M::evaluate(Step {
+        before,
+        config,
+        inputs,
+        after,
+        outputs,
+    });
+    for index in 0..M::CLAUSES.len() {
+        source.cover(index, (result.premises >> index) & 1 == 1);
+    }
+    match result.first_broken(M::CLAUSES.len()) {
+        Some(index) => Verdict::Broken(M::CLAUSES.get(index).map_or("", |clause| clause.name)),
+        None => Verdict::Held,
+    }
+}
+
+/// The clauses of a contract as texts.
+pub fn clauses<M: Contract>() -> Vec<ClauseText> {
+    let clauses = M::CLAUSES.iter();
+    clauses
+        .map(|clause| ClauseText {
+            name: clause.name,
+            text: clause.text.trim(),
+            requirements: clause.requirements,
+        })
+        .collect()
 }
 
 pub mod heidenhain;

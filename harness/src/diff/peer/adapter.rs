@@ -17,9 +17,9 @@ pub(super) trait Cells: Copy + Send + Sync + 'static {
 
 /// A monitor with its configuration.
 pub(super) struct Adapter {
-    inputs: &'static [&'static str],
+    inputs: Vec<&'static str>,
     unused: &'static [&'static str],
-    outputs: &'static [&'static str],
+    outputs: Vec<&'static str>,
     allowed: Vec<(usize, Values)>,
     domains: Vec<Domain>,
     initial: Vec<i32>,
@@ -41,15 +41,29 @@ impl Adapter {
     ) -> Self {
         let mut cells = vec![0; S::COUNT];
         initial.store(&mut cells);
+        let step = move |cells: &mut [i32], i: &[i32], o: &mut Numbers| {
+            step(S::load(cells), i, o).store(cells);
+        };
+        Self::of(inputs.to_vec(), outputs.to_vec(), domains, cells, step)
+    }
+
+    /// A monitor whose state is in cells, with these ports.
+    pub(super) fn of(
+        inputs: Vec<&'static str>,
+        outputs: Vec<&'static str>,
+        domains: Vec<Domain>,
+        initial: Vec<i32>,
+        step: impl Fn(&mut [i32], &[i32], &mut Numbers) + Send + Sync + 'static,
+    ) -> Self {
         Self {
             inputs,
             unused: &[],
             outputs,
             allowed: Vec::new(),
             domains,
-            initial: cells,
+            initial,
             kept: Vec::new(),
-            step: Box::new(move |cells, i, o| step(S::load(cells), i, o).store(cells)),
+            step: Box::new(step),
         }
     }
 
@@ -141,8 +155,8 @@ impl Cells for () {
 }
 
 impl Peer for Adapter {
-    fn inputs(&self) -> &'static [&'static str] {
-        self.inputs
+    fn inputs(&self) -> &[&'static str] {
+        &self.inputs
     }
 
     fn unused(&self) -> &'static [&'static str] {
@@ -154,8 +168,8 @@ impl Peer for Adapter {
         found.map(|(_, values)| *values)
     }
 
-    fn outputs(&self) -> &'static [&'static str] {
-        self.outputs
+    fn outputs(&self) -> &[&'static str] {
+        &self.outputs
     }
 
     fn domains(&self) -> Vec<Domain> {

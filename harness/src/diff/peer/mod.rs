@@ -3,13 +3,16 @@
 mod adapter;
 mod heidenhain;
 mod numbers;
+mod same;
 mod sinumerik;
 
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 
 use stillpoint_model::Domain;
+use stillpoint_monitors::contract::{Contract, Next};
 use stillpoint_monitors::kernel::{ConfigError, Cycles, Speed};
+use stillpoint_monitors::mutant::{Mutant, Wrong};
 use stillpoint_spec::bind::Bound;
 
 use super::product::Values;
@@ -21,13 +24,13 @@ pub type Numbers = Vec<i64>;
 /// A production monitor with its configuration, driven and observed in the numbers of its table.
 pub trait Peer: Send + Sync {
     /// Names of the inputs, as the table calls them.
-    fn inputs(&self) -> &'static [&'static str];
+    fn inputs(&self) -> &[&'static str];
     /// Names of the inputs that only the table has; they keep their least value.
     fn unused(&self) -> &'static [&'static str];
     /// The values input `k` can have at this interface; none where every value of the table's type is possible.
     fn allowed(&self, k: usize) -> Option<Values>;
     /// Names of the outputs; each is an output or a state variable of the table.
-    fn outputs(&self) -> &'static [&'static str];
+    fn outputs(&self) -> &[&'static str];
     /// Ranges of the cells of the state.
     fn domains(&self) -> Vec<Domain>;
     /// The initial cells; `table` gives the initial value of a table's state variable, for what is non-volatile.
@@ -40,6 +43,8 @@ pub trait Peer: Send + Sync {
 pub struct Family {
     /// The folder of its tables: the first part of their names.
     pub name: &'static str,
+    /// The module of its monitors.
+    pub module: &'static str,
     /// The machines that have a monitor, each with the name of its module.
     pub machines: &'static [(&'static str, &'static str)],
     /// The systems that have a monitor: several machines together.
@@ -58,53 +63,16 @@ pub fn family(name: &str) -> Option<&'static Family> {
     FAMILIES.into_iter().find(|family| family.name == folder)
 }
 
-/// Declares [`Mutant`] from the families, each with its module of mutants.
-macro_rules! families {
-    ($($(#[$doc:meta])+ $family:ident: $module:ident)+) => {
-        /// A deliberately wrong monitor.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-        pub enum Mutant {$(
-            $(#[$doc])+
-            $family(stillpoint_monitors::$module::mutant::Mutant),
-        )+}
-
-        impl Mutant {
-            /// Every one.
-            pub fn all() -> impl Iterator<Item = Self> {
-                std::iter::empty()$(
-                    .chain(stillpoint_monitors::$module::mutant::Mutant::ALL.iter().copied().map(Self::$family))
-                )+
-            }
-
-            /// The name for command lines: the monitor first.
-            pub fn name(self) -> &'static str {
-                match self {
-                    $(Self::$family(mutant) => mutant.name(),)+
-                }
-            }
-
-            /// The module of the monitor it is a variant of.
-            pub fn monitor(self) -> &'static str {
-                match self {
-                    $(Self::$family(mutant) => mutant.monitor(),)+
-                }
-            }
-
-            /// The family of its monitor.
-            pub fn family(self) -> &'static Family {
-                match self {
-                    $(Self::$family(_) => &$module::FAMILY,)+
-                }
-            }
-        }
-    };
+/// Every deliberately wrong monitor.
+pub fn mutants() -> impl Iterator<Item = Mutant> {
+    stillpoint_monitors::sinumerik::mutant::all()
+        .chain(stillpoint_monitors::heidenhain::mutant::all())
 }
 
-families! {
-    /// Of the SINUMERIK 840D.
-    Sinumerik: sinumerik
-    /// Of HEIDENHAIN Functional Safety.
-    Heidenhain: heidenhain
+/// The family of a wrong monitor.
+pub fn family_of(mutant: Mutant) -> &'static Family {
+    let own = FAMILIES.into_iter().find(|f| f.module == mutant.family);
+    own.unwrap_or(&sinumerik::FAMILY)
 }
 
 /// A name that is no mutant's.
@@ -114,8 +82,8 @@ pub struct UnknownMutant;
 impl std::fmt::Display for UnknownMutant {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str("no mutant has this name; the names are")?;
-        for mutant in Mutant::all() {
-            write!(f, " {}", mutant.name())?;
+        for mutant in mutants() {
+            write!(f, " {}", mutant.name)?;
         }
         Ok(())
     }
@@ -123,20 +91,35 @@ impl std::fmt::Display for UnknownMutant {
 
 impl std::error::Error for UnknownMutant {}
 
-impl std::str::FromStr for Mutant {
-    type Err = UnknownMutant;
+/// The wrong monitor of a name.
+///
+/// # Errors
+/// [`UnknownMutant`], which lists the names.
+pub fn mutant(name: &str) -> Result<Mutant, UnknownMutant> {
+    mutants()
+        .find(|mutant| mutant.name == name)
+        .ok_or(UnknownMutant)
+}
 
-    fn from_str(name: &str) -> Result<Self, UnknownMutant> {
-        let mut all = Self::all();
-        all.find(|mutant| mutant.name() == name)
-            .ok_or(UnknownMutant)
-    }
+/// The step function of a monitor, or that of its wrong variant where it has this one.
+fn chosen<M: Contract>(mutant: Option<Mutant>) -> Next<M> {
+    one_of(M::next, M::wrong(), mutant)
+}
+
+/// The step function of the wrong variant, if it is among these; else the right one.
+fn one_of<N: Copy>(right: N, wrong: &[Wrong<N>], mutant: Option<Mutant>) -> N {
+    let found = wrong.iter().find(|wrong| Some(wrong.mutant) == mutant);
+    found.map_or(right, |wrong| wrong.next)
 }
 
 /// Why there is no peer under some parameters.
 enum Refusal {
     /// The monitor does not accept them.
     Monitor(ConfigError),
+    /// The monitor does not accept this configuration.
+    Values(String),
+    /// The table does not have what the monitor needs.
+    Unknown(String),
     /// The table is too small for what the monitor does.
     Table(&'static str),
 }
@@ -177,6 +160,15 @@ impl<'a> Params<'a> {
         self.bound.values[k]
     }
 
+    /// A value of a name that the table has.
+    fn known(&self, name: &str) -> Result<i32, Refusal> {
+        if self.bound.system.params.iter().any(|p| p.var.name == name) {
+            Ok(self.value(name))
+        } else {
+            Err(Refusal::Unknown(format!("the parameter `{name}`")))
+        }
+    }
+
     fn is(&self, name: &str) -> bool {
         self.value(name) != 0
     }
@@ -203,11 +195,12 @@ pub fn peer(
     let Some(family) = family(&bound.system.name) else {
         return Ok(None);
     };
-    let mutant = mutant.filter(|m| m.family().name == family.name);
     let made = (family.make)(machine, &Params::new(bound), mutant).map_err(|e| match e {
         Refusal::Monitor(e) => {
             format!("the monitor of `{machine}` refuses these parameters: {e:?}")
         }
+        Refusal::Values(config) => format!("the monitor of `{machine}` refuses {config}"),
+        Refusal::Unknown(what) => format!("machine `{machine}`: the table does not say {what}"),
         Refusal::Table(text) => format!("machine `{machine}`: {text}"),
     })?;
     Ok(made.map(|adapter| Box::new(adapter) as Box<dyn Peer>))

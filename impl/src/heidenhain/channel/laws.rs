@@ -30,7 +30,7 @@ const fn hard(step: &Step) -> bool {
         )
 }
 
-contract! {
+monitor! { heidenhain::channel;
     /// Every cause acts in its cycle, wherever it comes from; an SS2 may end at once where the group stands.
     every_cause_acts ["HFS-ARCH-004/m", "HFS-STOP-001", "HFS-STOP-009", "HFS-STOP-012", "HFS-P-03", "HFS-P-04"]:
         when |s| !s.inputs.main_switch && (causes(&s.inputs) != Stop::None || own(&s).stop != Stop::None || s.inputs.peer.stop != Stop::None)

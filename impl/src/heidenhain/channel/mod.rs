@@ -17,16 +17,24 @@ mod laws;
 
 pub use laws::*;
 
-/// The configurations of the monitors.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Config {
-    gate: gate::Config,
-    both: both_channels::Config,
-    startup: startup::Config,
-    judge: judge::Config,
-    stop: stop::Config,
-    report: report::Config,
-    group: group::Config,
+config! {
+    /// The configurations of the monitors.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Config {
+        gate: gate::Config,
+        both: both_channels::Config,
+        startup: startup::Config,
+        judge: judge::Config,
+        stop: stop::Config,
+        report: report::Config,
+        group: group::Config,
+    }
+    accepted |config| {
+        let Config { gate, both, startup, judge, stop, report, group } = config;
+        let parts = gate.accepted() && both.accepted() && startup.accepted() && judge.accepted();
+        parts && stop.accepted() && report.accepted() && group.accepted()
+            && gate.kind() == group.kind() && judge.kind() == group.kind()
+    }
 }
 
 impl Config {
@@ -73,21 +81,23 @@ impl Config {
     }
 }
 
-/// The states of the monitors, and what is known of the drive permission.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct State {
-    /// Start-up protection.
-    pub startup: startup::State,
-    /// Judgement.
-    pub judge: judge::State,
-    /// Stop.
-    pub stop: stop::State,
-    /// Monitoring state.
-    pub group: group::State,
-    /// `PP_AxGrpPermitDrvOn` in the cycle before.
-    pub permitted: bool,
-    /// Its edge has come since torque off, and nothing has spoilt it.
-    pub fresh: bool,
+fields! {
+    /// The states of the monitors, and what is known of the drive permission.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    pub struct State {
+        /// Start-up protection.
+        pub startup: startup::State,
+        /// Judgement.
+        pub judge: judge::State,
+        /// Stop.
+        pub stop: stop::State,
+        /// Monitoring state.
+        pub group: group::State,
+        /// `PP_AxGrpPermitDrvOn` in the cycle before.
+        pub permitted: bool,
+        /// Its edge has come since torque off, and nothing has spoilt it.
+        pub fresh: bool,
+    }
 }
 
 impl State {
@@ -120,68 +130,72 @@ impl Default for State {
     }
 }
 
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// Main switch off and on.
-    pub main_switch: bool,
-    /// The fields that this channel's safe PLC has set.
-    pub fields: gate::Inputs,
-    /// What the other channel has taken over ([`Outputs::taken`] of it).
-    pub peer: gate::Outputs,
-    /// The channels have differed for longer than the window.
-    pub late: bool,
-    /// An axis of the group moves (`NN_AxGrpInMotion`).
-    pub moving: bool,
-    /// The machine operating mode.
-    pub unit: Unit,
-    /// `NN_GenSafe`: the self-test has passed and is not overdue.
-    pub gen_safe: bool,
-    /// An axis that is not checked moves with the door open outside the reference mode.
-    pub untested: bool,
-    /// The highest stop that the monitors of this channel demand for the group; an SS1 among them concerns the machine.
-    pub monitors: Stop,
-    /// What the other channel tells of the group ([`Outputs::tells`] of it).
-    pub told: Stop,
-    /// The highest of what the other groups make of this one ([`crate::heidenhain::neighbour`]), and the emergency stop.
-    pub machine: Stop,
-    /// The last axis has come to rest after it lost its feed enable.
-    pub at_rest: bool,
-    /// The groups that SMP610 lists for this one stand still, or none is listed.
-    pub listed_still: bool,
-    /// The other channel has reported torque off.
-    pub peer_off: bool,
-    /// `PP_AxGrpPermitDrvOn`: the drives of the group may be switched on.
-    pub permit: bool,
-    /// -STO.A.G is on: control voltage, with the contact chain closed before.
-    pub voltage: bool,
-    /// The SS2 came from the spindle-stop key, and SMP549 asks for SOS.
-    pub spindle_stop: bool,
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// Main switch off and on.
+        pub main_switch: bool,
+        /// The fields that this channel's safe PLC has set.
+        pub fields: gate::Inputs,
+        /// What the other channel has taken over ([`Outputs::taken`] of it).
+        pub peer: gate::Outputs,
+        /// The channels have differed for longer than the window.
+        pub late: bool,
+        /// An axis of the group moves (`NN_AxGrpInMotion`).
+        pub moving: bool,
+        /// The machine operating mode.
+        pub unit: Unit,
+        /// `NN_GenSafe`: the self-test has passed and is not overdue.
+        pub gen_safe: bool,
+        /// An axis that is not checked moves with the door open outside the reference mode.
+        pub untested: bool,
+        /// The highest stop that the monitors of this channel demand for the group; an SS1 among them concerns the machine.
+        pub monitors: Stop,
+        /// What the other channel tells of the group ([`Outputs::tells`] of it).
+        pub told: Stop,
+        /// The highest of what the other groups make of this one ([`crate::heidenhain::neighbour`]), and the emergency stop.
+        pub machine: Stop,
+        /// The last axis has come to rest after it lost its feed enable.
+        pub at_rest: bool,
+        /// The groups that SMP610 lists for this one stand still, or none is listed.
+        pub listed_still: bool,
+        /// The other channel has reported torque off.
+        pub peer_off: bool,
+        /// `PP_AxGrpPermitDrvOn`: the drives of the group may be switched on.
+        pub permit: bool,
+        /// -STO.A.G is on: control voltage, with the contact chain closed before.
+        pub voltage: bool,
+        /// The SS2 came from the spindle-stop key, and SMP549 asks for SOS.
+        pub spindle_stop: bool,
+    }
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// What was taken over from this channel's safe PLC, for the other channel.
-    pub taken: gate::Outputs,
-    /// The channels differ in what they were asked for.
-    pub differ: bool,
-    /// The mode that this channel's safe PLC has selected.
-    pub som: Som,
-    /// The highest cause of the cycle.
-    pub demand: Stop,
-    /// SS2 of the axis groups of the working space.
-    pub stops_axes: bool,
-    /// The stop of the group.
-    pub stop: stop::Outputs,
-    /// What the other channel is told: the stop that runs, and the causes that this channel finds.
-    pub tells: Stop,
-    /// The monitoring state of the group.
-    pub group: group::Outputs,
-    /// The group has no torque in this channel: a stop has taken it, or its state is STO or STO_O.
-    pub torque_off: bool,
-    /// Its brakes are closed by this channel.
-    pub brake_closed: bool,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// What was taken over from this channel's safe PLC, for the other channel.
+        pub taken: gate::Outputs,
+        /// The channels differ in what they were asked for.
+        pub differ: bool,
+        /// The mode that this channel's safe PLC has selected.
+        pub som: Som,
+        /// The highest cause of the cycle.
+        pub demand: Stop,
+        /// SS2 of the axis groups of the working space.
+        pub stops_axes: bool,
+        /// The stop of the group.
+        pub stop: stop::Outputs,
+        /// What the other channel is told: the stop that runs, and the causes that this channel finds.
+        pub tells: Stop,
+        /// The monitoring state of the group.
+        pub group: group::Outputs,
+        /// The group has no torque in this channel: a stop has taken it, or its state is STO or STO_O.
+        pub torque_off: bool,
+        /// Its brakes are closed by this channel.
+        pub brake_closed: bool,
+    }
 }
 
 /// The causes that this channel finds outside the group's own requests.

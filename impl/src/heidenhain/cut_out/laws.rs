@@ -3,7 +3,7 @@
 use super::{Config, Inputs, Outputs, Phase, State, transition};
 use crate::heidenhain::types::Stop;
 
-contract! {
+monitor! { heidenhain::cut_out;
     /// Every part is tested in its order: brake control, chain, each channel alone, safe outputs.
     parts_follow_each_other ["HFS-TEST-002", "HFS-TEST-015", "HFS-TEST-023", "HFS-BCT-001"]:
         when |s| s.after.step != s.before.step && !matches!(s.after.step, Phase::Idle | Phase::Fault)

@@ -12,7 +12,7 @@ const fn held(step: &Step) -> GroupState {
     }
 }
 
-contract! {
+monitor! { heidenhain::group;
     /// A standing group is released only by an activation without any stop, in the state that is requested.
     release_needs_an_activation ["HFS-P-12", "HFS-AXG-004", "HFS-AXG-005", "HFS-API-005"]:
         when |s| !held(&s).is_released() && s.outputs.state.is_released()

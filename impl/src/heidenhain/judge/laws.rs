@@ -3,7 +3,7 @@
 use super::{Config, Inputs, Modes, Outputs, Place, State, transition};
 use crate::heidenhain::types::{GroupState, Kind, Stop, Unit};
 
-contract! {
+monitor! { heidenhain::judge;
     /// The demand is the highest of the causes and of the requested stop.
     demand_is_the_highest_cause ["HFS-STOP-009", "HFS-FAULT-018", "HFS-SS1-001"]:
         when |s| !s.inputs.main_switch

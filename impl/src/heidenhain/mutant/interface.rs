@@ -3,60 +3,50 @@
 use crate::heidenhain::types::{GroupState, Kind, Stop};
 use crate::heidenhain::{both_channels, both_fields, both_status, gate};
 
-pub(super) fn gate_activates_illegal(
-    state: gate::State,
-    config: &gate::Config,
-    inputs: &gate::Inputs,
-) -> (gate::State, gate::Outputs) {
-    let (after, mut outputs) = gate::transition(state, config, inputs);
-    outputs.starts = inputs.activate;
-    (after, outputs)
-}
-
-pub(super) fn gate_trusts_codes(
-    state: gate::State,
-    config: &gate::Config,
-    inputs: &gate::Inputs,
-) -> (gate::State, gate::Outputs) {
-    let (after, mut outputs) = gate::transition(state, config, inputs);
-    outputs.stop = Stop::from_code(inputs.stop_code).unwrap_or(outputs.stop);
-    (after, outputs)
-}
-
-pub(super) fn gate_grants_spindle_mode(
-    state: gate::State,
-    config: &gate::Config,
-    inputs: &gate::Inputs,
-) -> (gate::State, gate::Outputs) {
-    let (after, mut outputs) = gate::transition(state, config, inputs);
-    if inputs.state_code == GroupState::SlsS.code() && config.kind() != Kind::Spindle {
-        outputs.stop = Stop::from_code(inputs.stop_code).unwrap_or(Stop::Ss1F);
+variants! { heidenhain::gate:
+    /// A request with an illegal field still activates.
+    "gate-activates-illegal" |state, config, inputs| {
+        let (after, mut outputs) = gate::transition(state, config, inputs);
+        outputs.starts = inputs.activate;
+        (after, outputs)
     }
-    (after, outputs)
+
+    /// A code that does not exist raises no stop.
+    "gate-trusts-codes" |state, config, inputs| {
+        let (after, mut outputs) = gate::transition(state, config, inputs);
+        outputs.stop = Stop::from_code(inputs.stop_code).unwrap_or(outputs.stop);
+        (after, outputs)
+    }
+
+    /// Restricted spindle operation is granted to a group without spindle.
+    "gate-grants-spindle-mode" |state, config, inputs| {
+        let (after, mut outputs) = gate::transition(state, config, inputs);
+        if inputs.state_code == GroupState::SlsS.code() && config.kind() != Kind::Spindle {
+            outputs.stop = Stop::from_code(inputs.stop_code).unwrap_or(Stop::Ss1F);
+        }
+        (after, outputs)
+    }
 }
 
-pub(super) fn both_channels_trusts_a(
-    state: both_channels::State,
-    config: &both_channels::Config,
-    inputs: &both_channels::Inputs,
-) -> (both_channels::State, both_channels::Outputs) {
-    let (after, mut outputs) = both_channels::transition(state, config, inputs);
-    outputs.request = inputs.request_mc;
-    (after, outputs)
+variants! { heidenhain::both_channels:
+    /// The request of channel A counts alone.
+    "both-channels-trusts-a" |state, config, inputs| {
+        let (after, mut outputs) = both_channels::transition(state, config, inputs);
+        outputs.request = inputs.request_mc;
+        (after, outputs)
+    }
+
+    /// A permissive of one channel is enough.
+    "both-channels-one-permissive" |state, config, inputs| {
+        let (after, mut outputs) = both_channels::transition(state, config, inputs);
+        outputs.held = inputs.held_mc || inputs.held_cc;
+        (after, outputs)
+    }
 }
 
-pub(super) fn both_channels_one_permissive(
-    state: both_channels::State,
-    config: &both_channels::Config,
-    inputs: &both_channels::Inputs,
-) -> (both_channels::State, both_channels::Outputs) {
-    let (after, mut outputs) = both_channels::transition(state, config, inputs);
-    outputs.held = inputs.held_mc || inputs.held_cc;
-    (after, outputs)
-}
-
-variants! {
-    both_fields_forgets_mode: both_fields |state, config, inputs| {
+variants! { heidenhain::both_fields:
+    /// The mode is not compared.
+    "both-fields-forgets-mode" |state, config, inputs| {
         let (after, mut outputs) = both_fields::transition(state, config, inputs);
         let mut inputs = *inputs;
         inputs.cc.som = inputs.mc.som;
@@ -64,25 +54,31 @@ variants! {
         (after, outputs)
     }
 
-    both_fields_one_drives: both_fields |state, config, inputs| {
+    /// The drives may be switched on by one channel.
+    "both-fields-one-drives" |state, config, inputs| {
         let (after, mut outputs) = both_fields::transition(state, config, inputs);
         outputs.drives = inputs.mc.drives || inputs.cc.drives;
         (after, outputs)
     }
+}
 
-    both_status_forgets_program: both_status |state, config, inputs| {
+variants! { heidenhain::both_status:
+    /// A program that is not executed in one channel is overlooked.
+    "both-status-forgets-program" |state, config, inputs| {
         let mut inputs = *inputs;
         inputs.cc.executed = inputs.mc.executed;
         both_status::transition(state, config, &inputs)
     }
 
-    both_status_forgets_outputs: both_status |state, config, inputs| {
+    /// The outputs are not compared.
+    "both-status-forgets-outputs" |state, config, inputs| {
         let mut inputs = *inputs;
         inputs.cc.outputs = inputs.mc.outputs;
         both_status::transition(state, config, &inputs)
     }
 
-    both_status_needs_both: both_status |state, config, inputs| {
+    /// Both run-time systems must ask for SS1F.
+    "both-status-needs-both" |state, config, inputs| {
         let (after, mut outputs) = both_status::transition(state, config, inputs);
         if !(inputs.mc.runtime && inputs.cc.runtime) {
             outputs.stop = Stop::None;

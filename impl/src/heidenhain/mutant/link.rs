@@ -3,8 +3,9 @@
 use crate::heidenhain::cc_link;
 use crate::heidenhain::types::Stop;
 
-variants! {
-    cc_link_one_too_many: cc_link |state, config, inputs| {
+variants! { heidenhain::cc_link:
+    /// One faulty telegram more than allowed is tolerated.
+    "cc-link-one-too-many" |state, config, inputs| {
         let (mut after, mut outputs) = cc_link::transition(state, config, inputs);
         if !state.lost && !inputs.sound && state.faulty == config.tolerated() {
             after.lost = false;
@@ -13,7 +14,8 @@ variants! {
         (after, outputs)
     }
 
-    cc_link_trusts_the_last: cc_link |state, config, inputs| {
+    /// While telegrams are faulty the drive is taken to be as it was.
+    "cc-link-trusts-the-last" |state, config, inputs| {
         let (after, mut outputs) = cc_link::transition(state, config, inputs);
         if !inputs.sound {
             outputs.drive.moving = after.last.moving;

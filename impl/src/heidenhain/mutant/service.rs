@@ -6,76 +6,44 @@ use crate::heidenhain::{
     status_bits, tool_holder,
 };
 
-variants! {
-    brakes_any_request: brakes |state, config, inputs| {
-        let (after, mut outputs) = brakes::transition(state, config, inputs);
-        outputs.collected = inputs.shared[0].release || inputs.shared[1].release;
-        (after, outputs)
-    }
-
-    brakes_test_overlooked: brakes |state, config, inputs| {
-        brakes::transition(state, config, &brakes::Inputs { test: false, ..*inputs })
-    }
-
-    tool_holder_at_once: tool_holder |state, config, inputs| {
-        let state = tool_holder::State { asked: true, ..state };
-        tool_holder::transition(state, config, inputs)
-    }
-
-    tool_holder_door_overlooked: tool_holder |state, config, inputs| {
-        let inputs = tool_holder::Inputs { door_open: false, ..*inputs };
-        tool_holder::transition(state, config, &inputs)
-    }
-
-    tool_holder_cuts_off_turning: tool_holder |state, config, inputs| {
-        let (mut after, mut outputs) = tool_holder::transition(state, config, inputs);
-        after.asked = inputs.request && inputs.door_open;
-        outputs.no_torque |= after.asked;
-        (after, outputs)
-    }
-
-    acceptance_without_password: acceptance |state, config, inputs| {
-        let inputs = acceptance::Inputs { password: true, ..*inputs };
-        acceptance::transition(state, config, &inputs)
-    }
-
-    acceptance_one_press: acceptance |state, config, inputs| {
-        let mut state = state;
-        if state.phase == acceptance::Phase::Confirming {
-            state.open = 1;
-        }
-        acceptance::transition(state, config, inputs)
-    }
-
-    reference_position_only: reference |state, config, inputs| {
+variants! { heidenhain::reference:
+    /// A saved position counts whether it was checked or not.
+    "reference-position-only" |state, config, inputs| {
         let mut state = state;
         state.saved |= state.axis == reference::AxisRef::Homed;
         reference::transition(state, config, inputs)
     }
 
-    reference_in_som_1: reference |state, config, inputs| {
+    /// The confirmation is accepted in SOM_1.
+    "reference-in-som-1" |state, config, inputs| {
         let inputs = reference::Inputs { som: Som::Som2, ..*inputs };
         reference::transition(state, config, &inputs)
     }
 
-    reference_one_channel: reference |state, config, inputs| {
+    /// The other channel is not asked.
+    "reference-one-channel" |state, config, inputs| {
         let inputs = reference::Inputs { peer_matches: true, peer_checked: true, ..*inputs };
         reference::transition(state, config, &inputs)
     }
 
-    reference_forgets_the_cause: reference |state, config, inputs| {
+    /// A cause for a check counts only if the axis was checked when the power went: a second power-on forgets it.
+    "reference-forgets-the-cause" |state, config, inputs| {
         let mut inputs = *inputs;
         inputs.check_cause &= state.axis == reference::AxisRef::Checked;
         reference::transition(state, config, &inputs)
     }
+}
 
-    agreement_early: agreement |state, config, inputs| {
+variants! { heidenhain::agreement:
+    /// The window is one cycle short.
+    "agreement-early" |state, config, inputs| {
         let (after, _) = agreement::transition(state, config, inputs);
         let (_, outputs) = agreement::transition(after, config, inputs);
         (after, outputs)
     }
 
-    agreement_adds_up: agreement |state, config, inputs| {
+    /// The window is not whole again when the channels agree.
+    "agreement-adds-up" |state, config, inputs| {
         let (mut after, outputs) = agreement::transition(state, config, inputs);
         if !inputs.differ {
             after = state;
@@ -83,23 +51,82 @@ variants! {
         (after, outputs)
     }
 
-    agreement_never_fatal: agreement |state, config, inputs| {
+    /// A difference of the flag "axis checked" is SS1 only.
+    "agreement-never-fatal" |state, config, inputs| {
         let (after, mut outputs) = agreement::transition(state, config, inputs);
         outputs.demand = outputs.demand.min(Stop::Ss1);
         (after, outputs)
     }
+}
 
-    self_test_doors_overlooked: self_test |state, config, inputs| {
+variants! { heidenhain::brakes:
+    /// In operation one request opens a shared output.
+    "brakes-any-request" |state, config, inputs| {
+        let (after, mut outputs) = brakes::transition(state, config, inputs);
+        outputs.collected = inputs.shared[0].release || inputs.shared[1].release;
+        (after, outputs)
+    }
+
+    /// In the test a shared output needs all requests.
+    "brakes-test-overlooked" |state, config, inputs| {
+        brakes::transition(state, config, &brakes::Inputs { test: false, ..*inputs })
+    }
+}
+
+variants! { heidenhain::tool_holder:
+    /// The holder opens in the cycle in which torque off is asked for.
+    "tool-holder-at-once" |state, config, inputs| {
+        let state = tool_holder::State { asked: true, ..state };
+        tool_holder::transition(state, config, inputs)
+    }
+
+    /// An open door counts as closed.
+    "tool-holder-door-overlooked" |state, config, inputs| {
+        let inputs = tool_holder::Inputs { door_open: false, ..*inputs };
+        tool_holder::transition(state, config, &inputs)
+    }
+
+    /// Torque off is asked for while the spindle turns.
+    "tool-holder-cuts-off-turning" |state, config, inputs| {
+        let (mut after, mut outputs) = tool_holder::transition(state, config, inputs);
+        after.asked = inputs.request && inputs.door_open;
+        outputs.no_torque |= after.asked;
+        (after, outputs)
+    }
+}
+
+variants! { heidenhain::acceptance:
+    /// The list begins without the password.
+    "acceptance-without-password" |state, config, inputs| {
+        let inputs = acceptance::Inputs { password: true, ..*inputs };
+        acceptance::transition(state, config, &inputs)
+    }
+
+    /// One press confirms the whole list.
+    "acceptance-one-press" |state, config, inputs| {
+        let mut state = state;
+        if state.phase == acceptance::Phase::Confirming {
+            state.open = 1;
+        }
+        acceptance::transition(state, config, inputs)
+    }
+}
+
+variants! { heidenhain::self_test:
+    /// The test goes on with open doors.
+    "self-test-doors-overlooked" |state, config, inputs| {
         let inputs = self_test::Inputs { doors_shut: true, ..*inputs };
         self_test::transition(state, config, &inputs)
     }
 
-    self_test_bad_brake_passes: self_test |state, config, inputs| {
+    /// A brake that does not hold passes.
+    "self-test-bad-brake-passes" |state, config, inputs| {
         let inputs = self_test::Inputs { brake_good: true, ..*inputs };
         self_test::transition(state, config, &inputs)
     }
 
-    self_test_never_overdue: self_test |state, config, inputs| {
+    /// A passed test is good for ever.
+    "self-test-never-overdue" |state, config, inputs| {
         let (mut after, mut outputs) = self_test::transition(state, config, inputs);
         if state.phase == self_test::Phase::Passed && !inputs.power_on {
             after.rest = state.rest;
@@ -107,15 +134,19 @@ variants! {
         }
         (after, outputs)
     }
+}
 
-    sampling_blind_in_the_pulse: sampling |state, config, inputs| {
+variants! { heidenhain::sampling:
+    /// During a pulse neither channel sees an open contact.
+    "sampling-blind-in-the-pulse" |state, config, inputs| {
         let (after, mut outputs) = sampling::transition(state, config, inputs);
         outputs.opened &= state.timer.is_zero();
 
         (after, outputs)
     }
 
-    sampling_b_untested: sampling |state, config, inputs| {
+    /// A short circuit of channel B is not found.
+    "sampling-b-untested" |state, config, inputs| {
         let (after, mut outputs) = sampling::transition(state, config, inputs);
         if state.pulse == sampling::Pulse::BLow && outputs.short {
             outputs.short = false;
@@ -123,32 +154,41 @@ variants! {
         }
         (after, outputs)
     }
+}
 
-    status_bits_mask_too_wide: status_bits |state, config, inputs| {
+variants! { heidenhain::status_bits:
+    /// The mask of the PLC also hides -N0.
+    "status-bits-mask-too-wide" |state, config, inputs| {
         let mut inputs = *inputs;
         inputs.n0 &= !inputs.masked;
         status_bits::transition(state, config, &inputs)
     }
 
-    status_bits_mc_serves_on: status_bits |state, config, inputs| {
+    /// The MC serves its watchdogs without DC-link voltage.
+    "status-bits-mc-serves-on" |state, config, inputs| {
         let (after, mut outputs) = status_bits::transition(state, config, inputs);
         outputs.mc_retrigger = true;
         (after, outputs)
     }
 
-    status_bits_board_switches_all_off: status_bits |state, config, inputs| {
+    /// -PF.BOARD of any participant switches the outputs of all of them off.
+    "status-bits-board-switches-all-off" |state, config, inputs| {
         let (after, mut outputs) = status_bits::transition(state, config, inputs);
         outputs.spl_off |= inputs.pf_board;
         outputs.smop_off |= inputs.pf_board;
         (after, outputs)
     }
+}
 
-    self_checks_fan_overlooked: self_checks |state, config, inputs| {
+variants! { heidenhain::self_checks:
+    /// A slow fan is not seen.
+    "self-checks-fan-overlooked" |state, config, inputs| {
         let inputs = self_checks::Inputs { fan: false, ..*inputs };
         self_checks::transition(state, config, &inputs)
     }
 
-    self_checks_runtime_is_ss1: self_checks |state, config, inputs| {
+    /// The request of the safe PLC's run-time system is SS1 only.
+    "self-checks-runtime-is-ss1" |state, config, inputs| {
         let inputs = self_checks::Inputs {
             runtime: false,
             internal_es: inputs.internal_es || inputs.runtime,
@@ -156,13 +196,17 @@ variants! {
         };
         self_checks::transition(state, config, &inputs)
     }
+}
 
-    start_checks_any_speed: start_checks |state, config, inputs| {
+variants! { heidenhain::start_checks:
+    /// Any motor speed is plausible.
+    "start-checks-any-speed" |state, config, inputs| {
         let motor_speed = inputs.motor_speed.min(100);
         start_checks::transition(state, config, &start_checks::Inputs { motor_speed, ..*inputs })
     }
 
-    start_checks_tries_again: start_checks |state, config, inputs| {
+    /// A refused control tries again by itself.
+    "start-checks-tries-again" |state, config, inputs| {
         let power_on = inputs.power_on || state.start == start_checks::Start::Refused;
         start_checks::transition(state, config, &start_checks::Inputs { power_on, ..*inputs })
     }

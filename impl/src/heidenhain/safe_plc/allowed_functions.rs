@@ -2,59 +2,55 @@
 
 pub use crate::contract::Stateless as State;
 
-/// The function has no parameters.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Config;
-
-/// A function that is not a motion of a safe axis.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Function {
-    /// Automatic change of the pallet.
-    #[default]
-    PalletChange,
-    /// Automatic change of tool or workpiece.
-    ToolChange,
-    /// Coolant under high pressure.
-    Coolant,
-    /// Measurement of the tool, with a laser for instance.
-    ToolMeasurement,
-    /// Turning on a milling machine.
-    Turning,
-    /// Chip conveyor.
-    ChipConveyor,
+config! {
+    /// The function has no parameters.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Config;
 }
 
-impl Function {
-    /// Every function.
-    pub const ALL: [Self; 6] = [
-        Self::PalletChange,
-        Self::ToolChange,
-        Self::Coolant,
-        Self::ToolMeasurement,
-        Self::Turning,
-        Self::ChipConveyor,
-    ];
+fields! {
+    /// A function that is not a motion of a safe axis.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub enum Function {
+        /// Automatic change of the pallet.
+        #[default]
+        PalletChange,
+        /// Automatic change of tool or workpiece.
+        ToolChange,
+        /// Coolant under high pressure.
+        Coolant,
+        /// Measurement of the tool, with a laser for instance.
+        ToolMeasurement,
+        /// Turning on a milling machine.
+        Turning,
+        /// Chip conveyor.
+        ChipConveyor,
+    }
 }
 
-/// What is asked.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// A guard door of the working space is open.
-    pub door_open: bool,
-    /// An additional permissive key is valid.
-    pub permissive: bool,
-    /// The function.
-    pub function: Function,
+fields! {
+    /// What is asked.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// A guard door of the working space is open.
+        pub door_open: bool,
+        /// An additional permissive key is valid.
+        pub permissive: bool,
+        /// The function.
+        pub function: Function,
+    }
 }
 
-/// The answer.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// The function may run.
-    pub allowed: bool,
+fields! {
+    /// The answer.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// The function may run.
+        pub allowed: bool,
+    }
 }
 
-contract! {
+monitor! { heidenhain::allowed_functions;
     /// With the door open only the chip conveyor runs, with its permissive.
     open_door_forbids ["HFS-MODE-012"]:
         when |s| s.inputs.door_open

@@ -4,58 +4,51 @@ use crate::heidenhain::types::{Kind, Som};
 
 pub use crate::contract::Stateless as State;
 
-/// The function has no parameters.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Config;
-
-/// A safety function.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Function {
-    /// Safe torque off.
-    #[default]
-    Sto,
-    /// Safe operating stop.
-    Sos,
-    /// Safely limited speed.
-    Sls,
-    /// Safely limited increment.
-    Sli,
-    /// Safely limited position.
-    Slp,
-    /// The safe stops SS0, SS1, SS1F, SS2.
-    Stops,
-    /// Safe brake control.
-    Sbc,
+config! {
+    /// The function has no parameters.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Config;
 }
 
-impl Function {
-    /// Every function.
-    pub const ALL: [Self; 7] = [
-        Self::Sto,
-        Self::Sos,
-        Self::Sls,
-        Self::Sli,
-        Self::Slp,
-        Self::Stops,
-        Self::Sbc,
-    ];
+fields! {
+    /// A safety function.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub enum Function {
+        /// Safe torque off.
+        #[default]
+        Sto,
+        /// Safe operating stop.
+        Sos,
+        /// Safely limited speed.
+        Sls,
+        /// Safely limited increment.
+        Sli,
+        /// Safely limited position.
+        Slp,
+        /// The safe stops SS0, SS1, SS1F, SS2.
+        Stops,
+        /// Safe brake control.
+        Sbc,
+    }
 }
 
-/// What is asked.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// What the group consists of.
-    pub kind: Kind,
-    /// The function.
-    pub function: Function,
-    /// The mode.
-    pub som: Som,
-    /// The spindle has a brake.
-    pub has_brake: bool,
-    /// SMP549: the spindle is kept under control after an SS2.
-    pub spindle_sos: bool,
-    /// SMP600 or SMP601 is -1: the drive belongs to no group and is not safe.
-    pub ungrouped: bool,
+fields! {
+    /// What is asked.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// What the group consists of.
+        pub kind: Kind,
+        /// The function.
+        pub function: Function,
+        /// The mode.
+        pub som: Som,
+        /// The spindle has a brake.
+        pub has_brake: bool,
+        /// SMP549: the spindle is kept under control after an SS2.
+        pub spindle_sos: bool,
+        /// SMP600 or SMP601 is -1: the drive belongs to no group and is not safe.
+        pub ungrouped: bool,
+    }
 }
 
 impl Inputs {
@@ -65,14 +58,16 @@ impl Inputs {
     }
 }
 
-/// The answer.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// The function is there.
-    pub available: bool,
+fields! {
+    /// The answer.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// The function is there.
+        pub available: bool,
+    }
 }
 
-contract! {
+monitor! { heidenhain::availability;
     /// Torque off and the stops are there always.
     stops_are_always_there ["HFS-MODE-016"]:
         when |s| matches!(s.inputs.function, Function::Sto | Function::Stops) && !s.inputs.ungrouped

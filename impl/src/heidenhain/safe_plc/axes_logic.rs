@@ -14,12 +14,14 @@ use crate::kernel::{ConfigError, Cycles};
 /// Every axis of the group has its feed enable.
 pub const ALL_AXES: u8 = u8::MAX;
 
-/// What the permissive is needed for besides the start.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Config {
-    t_clear: Cycles,
-    hold: bool,
-    manual: bool,
+config! {
+    /// What the permissive is needed for besides the start.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Config {
+        t_clear: Cycles,
+        hold: bool,
+        manual: bool,
+    }
 }
 
 impl Config {
@@ -59,23 +61,25 @@ impl Config {
     }
 }
 
-/// The state between two cycles of the safe PLC.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct State {
-    /// The door was open in the cycle before.
-    pub open: bool,
-    /// A key of the axes was pressed in the cycle before.
-    pub keyed: bool,
-    /// NC start was pressed in the cycle before, or the door was closed.
-    pub starts: bool,
-    /// A key of the axes was pressed since the door was closed.
-    pub latch: bool,
-    /// NC start was accepted and is still held with the permissive.
-    pub started: bool,
-    /// `MG_Program_Running`.
-    pub program: bool,
-    /// How long the axes have stood, up to the time of the program latch.
-    pub rest: Cycles,
+fields! {
+    /// The state between two cycles of the safe PLC.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    pub struct State {
+        /// The door was open in the cycle before.
+        pub open: bool,
+        /// A key of the axes was pressed in the cycle before.
+        pub keyed: bool,
+        /// NC start was pressed in the cycle before, or the door was closed.
+        pub starts: bool,
+        /// A key of the axes was pressed since the door was closed.
+        pub latch: bool,
+        /// NC start was accepted and is still held with the permissive.
+        pub started: bool,
+        /// `MG_Program_Running`.
+        pub program: bool,
+        /// How long the axes have stood, up to the time of the program latch.
+        pub rest: Cycles,
+    }
 }
 
 impl State {
@@ -106,37 +110,39 @@ impl Default for State {
     }
 }
 
-/// The inputs of one cycle of the safe PLC.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// A guard door of the working space is open.
-    pub door_open: bool,
-    /// The magazine door is open.
-    pub t_open: bool,
-    /// The safe operating mode.
-    pub som: Som,
-    /// It has changed in this cycle.
-    pub som_changed: bool,
-    /// The machine operating mode.
-    pub unit: Unit,
-    /// Valid permissive of the panel, filtered.
-    pub panel: bool,
-    /// Valid permissive of the handwheel, filtered.
-    pub wheel: bool,
-    /// Axis-direction keys of the panel, filtered: bit k for axis k.
-    pub keys: u8,
-    /// NC start, filtered.
-    pub nc_start: bool,
-    /// NC start is pressed, filtered or not.
-    pub start_held: bool,
-    /// Axis-direction key, NC start or permissive of the handwheel is pressed, filtered or not.
-    pub key_held: bool,
-    /// NC stop or an external stop.
-    pub stop: bool,
-    /// `NN_AxGrpState`.
-    pub state: GroupState,
-    /// `NN_GenSafe`: the self-test has passed and is not overdue; else no motion is started with the door open.
-    pub gen_safe: bool,
+fields! {
+    /// The inputs of one cycle of the safe PLC.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// A guard door of the working space is open.
+        pub door_open: bool,
+        /// The magazine door is open.
+        pub t_open: bool,
+        /// The safe operating mode.
+        pub som: Som,
+        /// It has changed in this cycle.
+        pub som_changed: bool,
+        /// The machine operating mode.
+        pub unit: Unit,
+        /// Valid permissive of the panel, filtered.
+        pub panel: bool,
+        /// Valid permissive of the handwheel, filtered.
+        pub wheel: bool,
+        /// Axis-direction keys of the panel, filtered: bit k for axis k.
+        pub keys: u8,
+        /// NC start, filtered.
+        pub nc_start: bool,
+        /// NC start is pressed, filtered or not.
+        pub start_held: bool,
+        /// Axis-direction key, NC start or permissive of the handwheel is pressed, filtered or not.
+        pub key_held: bool,
+        /// NC stop or an external stop.
+        pub stop: bool,
+        /// `NN_AxGrpState`.
+        pub state: GroupState,
+        /// `NN_GenSafe`: the self-test has passed and is not overdue; else no motion is started with the door open.
+        pub gen_safe: bool,
+    }
 }
 
 impl Inputs {
@@ -182,19 +188,21 @@ impl Inputs {
     }
 }
 
-/// The outputs of one cycle: fields of the interface to the kernel.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// `PP_AxGrpStateReq`.
-    pub request: GroupState,
-    /// `PP_AxGrpActivate`.
-    pub activate: bool,
-    /// `PP_AxFeedEnable`: bit k for axis k.
-    pub feed: u8,
-    /// `PP_AxGrpStopReq`.
-    pub stop: Stop,
-    /// `PP_AxGrpPB`.
-    pub permissive: bool,
+fields! {
+    /// The outputs of one cycle: fields of the interface to the kernel.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// `PP_AxGrpStateReq`.
+        pub request: GroupState,
+        /// `PP_AxGrpActivate`.
+        pub activate: bool,
+        /// `PP_AxFeedEnable`: bit k for axis k.
+        pub feed: u8,
+        /// `PP_AxGrpStopReq`.
+        pub stop: Stop,
+        /// `PP_AxGrpPB`.
+        pub permissive: bool,
+    }
 }
 
 /// The state that a mode asks for with the door open.
@@ -207,7 +215,7 @@ pub const fn limited(som: Som) -> GroupState {
     }
 }
 
-contract! {
+monitor! { heidenhain::axes_logic;
     /// With the door open the mode decides the monitoring state, and nothing else.
     open_door_asks_for_the_mode ["HFS-API-002", "HFS-MODE-001", "HFS-MODE-003", "HFS-P-10", "HFS-GRP-006"]:
         when |s| s.inputs.door_open

@@ -7,11 +7,13 @@
 
 use crate::kernel::ConfigError;
 
-/// What the machine has.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Config {
-    reset: bool,
-    t_key: bool,
+config! {
+    /// What the machine has.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Config {
+        reset: bool,
+        t_key: bool,
+    }
 }
 
 impl Config {
@@ -24,11 +26,13 @@ impl Config {
     }
 }
 
-/// The state between two cycles of the safe PLC.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct State {
-    /// The reset button was pressed since the control voltage went.
-    pub armed: bool,
+fields! {
+    /// The state between two cycles of the safe PLC.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct State {
+        /// The reset button was pressed since the control voltage went.
+        pub armed: bool,
+    }
 }
 
 impl State {
@@ -42,33 +46,37 @@ impl State {
     }
 }
 
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// The kernel has switched the control voltage off.
-    pub dropped: bool,
-    /// The reset button, both contacts.
-    pub reset: bool,
-    /// The key "control voltage on", both contacts.
-    pub key: bool,
-    /// The latch circuit is set (K1).
-    pub latched: bool,
-    /// The key of the magazine, both contacts.
-    pub t_key: bool,
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// The kernel has switched the control voltage off.
+        pub dropped: bool,
+        /// The reset button, both contacts.
+        pub reset: bool,
+        /// The key "control voltage on", both contacts.
+        pub key: bool,
+        /// The latch circuit is set (K1).
+        pub latched: bool,
+        /// The key of the magazine, both contacts.
+        pub t_key: bool,
+    }
 }
 
-/// The outputs of one cycle: fields of the interface to the kernel.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// `PP_GenCVO`.
-    pub voltage: bool,
-    /// `PP_AxGrpPermitDrvOn` of axes and spindle.
-    pub drives: bool,
-    /// `PP_AxGrpPermitDrvOn` of the magazine.
-    pub t_drives: bool,
+fields! {
+    /// The outputs of one cycle: fields of the interface to the kernel.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// `PP_GenCVO`.
+        pub voltage: bool,
+        /// `PP_AxGrpPermitDrvOn` of axes and spindle.
+        pub drives: bool,
+        /// `PP_AxGrpPermitDrvOn` of the magazine.
+        pub t_drives: bool,
+    }
 }
 
-contract! {
+monitor! { heidenhain::control_voltage;
     /// Where there is a reset button nothing is switched on before it was pressed, after the last time the voltage went.
     reset_comes_first ["HFS-ACK-002"]:
         when |s| s.config.reset && !s.before.armed && !s.inputs.reset

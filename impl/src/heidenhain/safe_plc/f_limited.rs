@@ -9,10 +9,12 @@ use crate::kernel::{ConfigError, Speed};
 
 pub use crate::contract::Stateless as State;
 
-/// The limits of the modes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Config {
-    limits: [Speed; 3],
+config! {
+    /// The limits of the modes.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Config {
+        limits: [Speed; 3],
+    }
 }
 
 impl Config {
@@ -36,25 +38,29 @@ impl Config {
     }
 }
 
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// The soft key is on.
-    pub pressed: bool,
-    /// The safe operating mode.
-    pub som: Som,
-    /// The speed of the program.
-    pub wanted: Speed,
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// The soft key is on.
+        pub pressed: bool,
+        /// The safe operating mode.
+        pub som: Som,
+        /// The speed of the program.
+        pub wanted: Speed,
+    }
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// The speed asked of the drive.
-    pub speed: Speed,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// The speed asked of the drive.
+        pub speed: Speed,
+    }
 }
 
-contract! {
+monitor! { heidenhain::f_limited;
     /// With the key on no drive is asked for more than the limit of its mode.
     limit_of_the_mode ["HFS-SLS-007", "HFS-MODE-023"]:
         when |s| s.inputs.pressed

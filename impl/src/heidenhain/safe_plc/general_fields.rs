@@ -7,27 +7,31 @@ use crate::heidenhain::types::{Som, Stop};
 
 pub use crate::contract::Stateless as State;
 
-/// The function has no parameters.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Config;
+config! {
+    /// The function has no parameters.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Config;
+}
 
-/// The fields as double words and markers: 0 and 1 are the values of a marker.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// `PP_GenSOM`: 0 to 3.
-    pub som: u8,
-    /// `PP_GenCVO`.
-    pub voltage: u8,
-    /// `PP_AxGrpPermitDrvOn`.
-    pub drives: u8,
-    /// `PP_GenFB_NCC`: 1 closed, a copy of the input.
-    pub chain: u8,
-    /// `PP_GenMKG`.
-    pub keys: u8,
-    /// `PP_GenTBRK`: 0 active, a copy of the input.
-    pub brakes: u8,
-    /// `PP_AxFeedEnable` of an axis; the spindle has index 18.
-    pub feed: u8,
+fields! {
+    /// The fields as double words and markers: 0 and 1 are the values of a marker.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// `PP_GenSOM`: 0 to 3.
+        pub som: u8,
+        /// `PP_GenCVO`.
+        pub voltage: u8,
+        /// `PP_AxGrpPermitDrvOn`.
+        pub drives: u8,
+        /// `PP_GenFB_NCC`: 1 closed, a copy of the input.
+        pub chain: u8,
+        /// `PP_GenMKG`.
+        pub keys: u8,
+        /// `PP_GenTBRK`: 0 active, a copy of the input.
+        pub brakes: u8,
+        /// `PP_AxFeedEnable` of an axis; the spindle has index 18.
+        pub feed: u8,
+    }
 }
 
 impl Inputs {
@@ -45,28 +49,30 @@ impl Inputs {
     }
 }
 
-/// What is taken over.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// SS1F for an unknown number.
-    pub stop: Stop,
-    /// The safe operating mode.
-    pub som: Som,
-    /// Control voltage is asked for, or on.
-    pub voltage: bool,
-    /// The drives of the group may be switched on.
-    pub drives: bool,
-    /// The chain of normally closed contacts is closed.
-    pub chain: bool,
-    /// A machine key is pressed: the self-test waits.
-    pub keys: bool,
-    /// The test input of the brakes is active.
-    pub brakes: bool,
-    /// The axis may move.
-    pub feed: bool,
+fields! {
+    /// What is taken over.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// SS1F for an unknown number.
+        pub stop: Stop,
+        /// The safe operating mode.
+        pub som: Som,
+        /// Control voltage is asked for, or on.
+        pub voltage: bool,
+        /// The drives of the group may be switched on.
+        pub drives: bool,
+        /// The chain of normally closed contacts is closed.
+        pub chain: bool,
+        /// A machine key is pressed: the self-test waits.
+        pub keys: bool,
+        /// The test input of the brakes is active.
+        pub brakes: bool,
+        /// The axis may move.
+        pub feed: bool,
+    }
 }
 
-contract! {
+monitor! { heidenhain::general_fields;
     /// An unknown number is a fatal fault, and nothing is permitted by any field.
     unknown_number_is_ss1f ["HFS-FAULT-006", "HFS-MODE-021"]:
         when |s| Som::from_code(s.inputs.som).is_none() || s.inputs.voltage > 1 || s.inputs.drives > 1

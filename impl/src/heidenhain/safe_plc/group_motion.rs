@@ -2,25 +2,31 @@
 
 pub use crate::contract::Stateless as State;
 
-/// The function has no parameters.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Config;
-
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// Bit k is set while axis k of the group moves.
-    pub axes: u8,
+config! {
+    /// The function has no parameters.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Config;
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// At least one axis of the group moves.
-    pub moving: bool,
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// Bit k is set while axis k of the group moves.
+        pub axes: u8,
+    }
 }
 
-contract! {
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// At least one axis of the group moves.
+        pub moving: bool,
+    }
+}
+
+monitor! { heidenhain::group_motion;
     /// One axis is enough.
     one_axis_is_enough ["HFS-ARCH-004/j", "HFS-API-033"]:
         when |s| s.inputs.axes != 0

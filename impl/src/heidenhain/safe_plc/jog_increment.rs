@@ -10,10 +10,12 @@
 use crate::heidenhain::types::Stop;
 use crate::kernel::ConfigError;
 
-/// What the release of the key does.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Config {
-    to_end: bool,
+config! {
+    /// What the release of the key does.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Config {
+        to_end: bool,
+    }
 }
 
 impl Config {
@@ -26,28 +28,27 @@ impl Config {
     }
 }
 
-/// What is known of the increment.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Jog {
-    /// The key is released: the next press begins an increment.
-    Ready,
-    /// The increment runs.
-    Runs,
-    /// It has ended, and the key is still pressed.
-    #[default]
-    Ended,
-}
-
-impl Jog {
-    /// Every state.
-    pub const ALL: [Self; 3] = [Self::Ready, Self::Runs, Self::Ended];
-}
-
-/// The state between two cycles of the safe PLC.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct State {
+fields! {
     /// What is known of the increment.
-    pub jog: Jog,
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub enum Jog {
+        /// The key is released: the next press begins an increment.
+        Ready,
+        /// The increment runs.
+        Runs,
+        /// It has ended, and the key is still pressed.
+        #[default]
+        Ended,
+    }
+}
+
+fields! {
+    /// The state between two cycles of the safe PLC.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct State {
+        /// What is known of the increment.
+        pub jog: Jog,
+    }
 }
 
 impl State {
@@ -61,25 +62,29 @@ impl State {
     }
 }
 
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// The axis-direction key with every other condition: filter, permissive.
-    pub key: bool,
-    /// The NC has ended the increment: the axis stands, and the group is in SOS.
-    pub done: bool,
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// The axis-direction key with every other condition: filter, permissive.
+        pub key: bool,
+        /// The NC has ended the increment: the axis stands, and the group is in SOS.
+        pub done: bool,
+    }
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// `PP_AxFeedEnable` of the axis.
-    pub feed: bool,
-    /// `PP_AxGrpStopReq` of its group.
-    pub stop: Stop,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// `PP_AxFeedEnable` of the axis.
+        pub feed: bool,
+        /// `PP_AxGrpStopReq` of its group.
+        pub stop: Stop,
+    }
 }
 
-contract! {
+monitor! { heidenhain::jog_increment;
     /// A lost condition stops the group, and the axis has no feed any more.
     lost_condition_stops ["HFS-SLI-003", "HFS-SLI-001"]:
         when |s| !s.config.to_end && s.before.jog == Jog::Runs && !s.inputs.key && !s.inputs.done

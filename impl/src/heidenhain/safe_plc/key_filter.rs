@@ -11,26 +11,30 @@ use crate::heidenhain::types::Unit;
 
 pub use crate::contract::Stateless as State;
 
-/// The function has no parameters.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Config;
+config! {
+    /// The function has no parameters.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Config;
+}
 
-/// The keys of one operating unit that start a motion. Statuses, not events: the PLC and the safe PLC run at clocks of their
-/// own (HFS-SPLC-004). Those of the handwheel, but for its permissive, come from the PLC and are not safe: no motion behind an
-/// open door comes of them alone (HFS-SPLC-006).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct Keys {
-    /// The permissive button or key is valid: see [`button`](crate::heidenhain::button).
-    pub permissive: bool,
-    /// Axis-direction keys: bit k is set while a key of axis k of the group is pressed. On the panel both contacts; those of
-    /// the handwheel have one channel.
-    pub axes: u8,
-    /// NC start.
-    pub nc_start: bool,
-    /// Spindle jog.
-    pub jog: bool,
-    /// Spindle start.
-    pub spindle_start: bool,
+fields! {
+    /// The keys of one operating unit that start a motion. Statuses, not events: the PLC and the safe PLC run at clocks of their
+    /// own (HFS-SPLC-004). Those of the handwheel, but for its permissive, come from the PLC and are not safe: no motion behind an
+    /// open door comes of them alone (HFS-SPLC-006).
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct Keys {
+        /// The permissive button or key is valid: see [`button`](crate::heidenhain::button).
+        pub permissive: bool,
+        /// Axis-direction keys: bit k is set while a key of axis k of the group is pressed. On the panel both contacts; those of
+        /// the handwheel have one channel.
+        pub axes: u8,
+        /// NC start.
+        pub nc_start: bool,
+        /// Spindle jog.
+        pub jog: bool,
+        /// Spindle start.
+        pub spindle_start: bool,
+    }
 }
 
 impl Keys {
@@ -58,27 +62,29 @@ impl Keys {
     }
 }
 
-/// The inputs of one cycle of the safe PLC, as the contacts and the PLC give them.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// A guard door of the working space of axes and spindle is open.
-    pub door_open: bool,
-    /// The magazine door is open.
-    pub t_open: bool,
-    /// The machine operating mode.
-    pub unit: Unit,
-    /// Keys of the operating panel.
-    pub panel: Keys,
-    /// Keys of the handwheel.
-    pub wheel: Keys,
-    /// A stop key of any unit is pressed, or an external stop is asked for.
-    pub stop: bool,
-    /// The permissive key of the magazine is valid.
-    pub t_permissive: bool,
-    /// Motion keys of the magazine: bit k is set while a key of its axis k is pressed.
-    pub t_keys: u8,
-    /// The key by which the operator confirms that nobody is in the magazine.
-    pub confirm: bool,
+fields! {
+    /// The inputs of one cycle of the safe PLC, as the contacts and the PLC give them.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// A guard door of the working space of axes and spindle is open.
+        pub door_open: bool,
+        /// The magazine door is open.
+        pub t_open: bool,
+        /// The machine operating mode.
+        pub unit: Unit,
+        /// Keys of the operating panel.
+        pub panel: Keys,
+        /// Keys of the handwheel.
+        pub wheel: Keys,
+        /// A stop key of any unit is pressed, or an external stop is asked for.
+        pub stop: bool,
+        /// The permissive key of the magazine is valid.
+        pub t_permissive: bool,
+        /// Motion keys of the magazine: bit k is set while a key of its axis k is pressed.
+        pub t_keys: u8,
+        /// The key by which the operator confirms that nobody is in the magazine.
+        pub confirm: bool,
+    }
 }
 
 impl Inputs {
@@ -98,24 +104,26 @@ impl Inputs {
     }
 }
 
-/// The outputs of one cycle: what is evaluated further, and what the PLC sees.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// Keys of the operating panel.
-    pub panel: Keys,
-    /// Keys of the handwheel.
-    pub wheel: Keys,
-    /// A stop is asked for.
-    pub stop: bool,
-    /// The permissive key of the magazine.
-    pub t_permissive: bool,
-    /// Motion keys of the magazine.
-    pub t_keys: u8,
-    /// `PP_GenMKG`: a key without stop function is pressed.
-    pub machine_keys: bool,
+fields! {
+    /// The outputs of one cycle: what is evaluated further, and what the PLC sees.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// Keys of the operating panel.
+        pub panel: Keys,
+        /// Keys of the handwheel.
+        pub wheel: Keys,
+        /// A stop is asked for.
+        pub stop: bool,
+        /// The permissive key of the magazine.
+        pub t_permissive: bool,
+        /// Motion keys of the magazine.
+        pub t_keys: u8,
+        /// `PP_GenMKG`: a key without stop function is pressed.
+        pub machine_keys: bool,
+    }
 }
 
-contract! {
+monitor! { heidenhain::key_filter;
     /// The filter sets nothing.
     filter_only_clears ["HFS-P-24", "HFS-FILT-001", "HFS-SPLC-008"]:
         when |s| s.outputs.panel != Keys::NONE || s.outputs.wheel != Keys::NONE || s.outputs.t_permissive || s.outputs.t_keys != 0

@@ -9,19 +9,23 @@
 use crate::heidenhain::axes_logic::ALL_AXES;
 use crate::heidenhain::types::{GroupState, Stop};
 
-/// The function has no parameters.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Config;
+config! {
+    /// The function has no parameters.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Config;
+}
 
-/// The state between two cycles of the safe PLC.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct State {
-    /// The door was open in the cycle before.
-    pub open: bool,
-    /// The confirmation was pressed in the cycle before.
-    pub keyed: bool,
-    /// The operator has confirmed since the door was closed.
-    pub confirmed: bool,
+fields! {
+    /// The state between two cycles of the safe PLC.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    pub struct State {
+        /// The door was open in the cycle before.
+        pub open: bool,
+        /// The confirmation was pressed in the cycle before.
+        pub keyed: bool,
+        /// The operator has confirmed since the door was closed.
+        pub confirmed: bool,
+    }
 }
 
 impl State {
@@ -45,23 +49,25 @@ impl Default for State {
     }
 }
 
-/// The inputs of one cycle of the safe PLC.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// The magazine door is open.
-    pub t_open: bool,
-    /// The permissive key of the magazine is valid.
-    pub permissive: bool,
-    /// Motion keys of the magazine: bit k for axis k.
-    pub keys: u8,
-    /// The key by which the operator confirms that nobody is inside.
-    pub confirm: bool,
-    /// The safe operating mode has changed in this cycle.
-    pub som_changed: bool,
-    /// `NN_AxGrpInMotion`.
-    pub moving: bool,
-    /// `NN_GenSafe`: the self-test has passed and is not overdue; else no motion is started with the door open.
-    pub gen_safe: bool,
+fields! {
+    /// The inputs of one cycle of the safe PLC.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// The magazine door is open.
+        pub t_open: bool,
+        /// The permissive key of the magazine is valid.
+        pub permissive: bool,
+        /// Motion keys of the magazine: bit k for axis k.
+        pub keys: u8,
+        /// The key by which the operator confirms that nobody is inside.
+        pub confirm: bool,
+        /// The safe operating mode has changed in this cycle.
+        pub som_changed: bool,
+        /// `NN_AxGrpInMotion`.
+        pub moving: bool,
+        /// `NN_GenSafe`: the self-test has passed and is not overdue; else no motion is started with the door open.
+        pub gen_safe: bool,
+    }
 }
 
 impl Inputs {
@@ -75,22 +81,24 @@ impl Inputs {
     }
 }
 
-/// The outputs of one cycle: fields of the interface to the kernel.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// `PP_AxGrpStateReq`.
-    pub request: GroupState,
-    /// `PP_AxGrpActivate`.
-    pub activate: bool,
-    /// `PP_AxFeedEnable`: bit k for axis k.
-    pub feed: u8,
-    /// `PP_AxGrpStopReq`.
-    pub stop: Stop,
-    /// `PP_AxGrpPB`.
-    pub permissive: bool,
+fields! {
+    /// The outputs of one cycle: fields of the interface to the kernel.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// `PP_AxGrpStateReq`.
+        pub request: GroupState,
+        /// `PP_AxGrpActivate`.
+        pub activate: bool,
+        /// `PP_AxFeedEnable`: bit k for axis k.
+        pub feed: u8,
+        /// `PP_AxGrpStopReq`.
+        pub stop: Stop,
+        /// `PP_AxGrpPB`.
+        pub permissive: bool,
+    }
 }
 
-contract! {
+monitor! { heidenhain::magazine_logic;
     /// Its door alone decides the monitoring state.
     state_follows_the_door ["HFS-API-004/a", "HFS-MAG-001", "HFS-GRP-006"]:
         when |s| s.inputs.t_open

@@ -70,10 +70,12 @@ pub const fn position(ax_safe: bool, actual: i32) -> Option<i32> {
     if ax_safe { Some(actual) } else { None }
 }
 
-/// The configurations of the blocks.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Config {
-    axes: axes_logic::Config,
+fields! {
+    /// The configurations of the blocks.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Config {
+        axes: axes_logic::Config,
+    }
 }
 
 impl Config {
@@ -88,15 +90,17 @@ impl Config {
     }
 }
 
-/// The states of the blocks.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct State {
-    /// NC axes.
-    pub axes: axes_logic::State,
-    /// Spindle.
-    pub spindle: spindle_logic::State,
-    /// Magazine.
-    pub magazine: magazine_logic::State,
+fields! {
+    /// The states of the blocks.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct State {
+        /// NC axes.
+        pub axes: axes_logic::State,
+        /// Spindle.
+        pub spindle: spindle_logic::State,
+        /// Magazine.
+        pub magazine: magazine_logic::State,
+    }
 }
 
 impl State {
@@ -108,38 +112,42 @@ impl State {
     };
 }
 
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// Doors, operating mode and keys, unfiltered.
-    pub keys: key_filter::Inputs,
-    /// The safe operating mode.
-    pub som: Som,
-    /// It has changed in this cycle.
-    pub som_changed: bool,
-    /// The PLC asks for restricted spindle operation.
-    pub restricted: bool,
-    /// The tool holder is open, or is about to be: no torque.
-    pub holder_open: bool,
-    /// `NN_AxGrpState` of the axes.
-    pub axes_state: GroupState,
-    /// `NN_AxGrpInMotion` of the magazine.
-    pub magazine_moving: bool,
-    /// `NN_GenSafe`.
-    pub gen_safe: bool,
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// Doors, operating mode and keys, unfiltered.
+        pub keys: key_filter::Inputs,
+        /// The safe operating mode.
+        pub som: Som,
+        /// It has changed in this cycle.
+        pub som_changed: bool,
+        /// The PLC asks for restricted spindle operation.
+        pub restricted: bool,
+        /// The tool holder is open, or is about to be: no torque.
+        pub holder_open: bool,
+        /// `NN_AxGrpState` of the axes.
+        pub axes_state: GroupState,
+        /// `NN_AxGrpInMotion` of the magazine.
+        pub magazine_moving: bool,
+        /// `NN_GenSafe`.
+        pub gen_safe: bool,
+    }
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// The keys as everybody else sees them, and `PP_GenMKG`.
-    pub keys: key_filter::Outputs,
-    /// Requests for the NC axes.
-    pub axes: axes_logic::Outputs,
-    /// Requests for the spindle.
-    pub spindle: spindle_logic::Outputs,
-    /// Requests for the magazine.
-    pub magazine: magazine_logic::Outputs,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// The keys as everybody else sees them, and `PP_GenMKG`.
+        pub keys: key_filter::Outputs,
+        /// Requests for the NC axes.
+        pub axes: axes_logic::Outputs,
+        /// Requests for the spindle.
+        pub spindle: spindle_logic::Outputs,
+        /// Requests for the magazine.
+        pub magazine: magazine_logic::Outputs,
+    }
 }
 
 /// The step functions of the blocks: the production ones, or others in a test of the tests.

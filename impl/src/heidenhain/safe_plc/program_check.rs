@@ -6,10 +6,12 @@
 
 use crate::kernel::ConfigError;
 
-/// Whether the check is on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Config {
-    commissioning: bool,
+config! {
+    /// Whether the check is on.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Config {
+        commissioning: bool,
+    }
 }
 
 impl Config {
@@ -22,11 +24,13 @@ impl Config {
     }
 }
 
-/// The state between two cycles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct State {
-    /// The program may run.
-    pub good: bool,
+fields! {
+    /// The state between two cycles.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct State {
+        /// The program may run.
+        pub good: bool,
+    }
 }
 
 impl State {
@@ -40,29 +44,33 @@ impl State {
     }
 }
 
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// The program is translated in this cycle.
-    pub translated: bool,
-    /// Its checksum is that of SMP691.
-    pub crc_equal: bool,
-    /// SMP693 is the version of the interface in the NC software.
-    pub version_equal: bool,
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// The program is translated in this cycle.
+        pub translated: bool,
+        /// Its checksum is that of SMP691.
+        pub crc_equal: bool,
+        /// SMP693 is the version of the interface in the NC software.
+        pub version_equal: bool,
+    }
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// The program may run.
-    pub good: bool,
-    /// Message with the present checksum, to be entered in SMP691 with the password of the machine builder.
-    pub message_crc: bool,
-    /// Message "Changed NC software version".
-    pub message_version: bool,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// The program may run.
+        pub good: bool,
+        /// Message with the present checksum, to be entered in SMP691 with the password of the machine builder.
+        pub message_crc: bool,
+        /// Message "Changed NC software version".
+        pub message_version: bool,
+    }
 }
 
-contract! {
+monitor! { heidenhain::program_check;
     /// A program that differs from the accepted one does not run, and the operator is told why.
     changed_program_does_not_run ["HFS-SPLC-002", "HFS-PARAM-018"]:
         when |s| s.inputs.translated && !s.inputs.crc_equal && !s.config.commissioning

@@ -10,12 +10,14 @@ use crate::kernel::ConfigError;
 
 pub use crate::contract::Stateless as State;
 
-/// How the input is wired.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Config {
-    invert_a: bool,
-    invert_b: bool,
-    missing: bool,
+config! {
+    /// How the input is wired.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Config {
+        invert_a: bool,
+        invert_b: bool,
+        missing: bool,
+    }
 }
 
 impl Config {
@@ -32,23 +34,27 @@ impl Config {
     }
 }
 
-/// The contacts.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// Level at the terminal of channel A.
-    pub contact_a: bool,
-    /// Level at the terminal of channel B.
-    pub contact_b: bool,
+fields! {
+    /// The contacts.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// Level at the terminal of channel A.
+        pub contact_a: bool,
+        /// Level at the terminal of channel B.
+        pub contact_b: bool,
+    }
 }
 
-/// What the safe PLC sees.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// The marker of the input.
-    pub marker: bool,
+fields! {
+    /// What the safe PLC sees.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// The marker of the input.
+        pub marker: bool,
+    }
 }
 
-contract! {
+monitor! { heidenhain::safe_input;
     /// The marker needs both contacts, after their inversion.
     marker_needs_both_contacts ["HFS-IO-001", "HFS-IO-002", "HFS-HW-003", "HFS-PB-007"]:
         when |s| s.outputs.marker

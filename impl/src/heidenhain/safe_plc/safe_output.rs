@@ -7,10 +7,12 @@ use crate::kernel::ConfigError;
 
 pub use crate::contract::Stateless as State;
 
-/// What the output is for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Config {
-    motion: bool,
+config! {
+    /// What the output is for.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Config {
+        motion: bool,
+    }
 }
 
 impl Config {
@@ -23,23 +25,27 @@ impl Config {
     }
 }
 
-/// The inputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// What the program wants.
-    pub wanted: bool,
-    /// `NN_GenOutputEnable`.
-    pub enabled: bool,
+fields! {
+    /// The inputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// What the program wants.
+        pub wanted: bool,
+        /// `NN_GenOutputEnable`.
+        pub enabled: bool,
+    }
 }
 
-/// The outputs of one cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// The output marker: 0 is the safe state.
-    pub on: bool,
+fields! {
+    /// The outputs of one cycle.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// The output marker: 0 is the safe state.
+        pub on: bool,
+    }
 }
 
-contract! {
+monitor! { heidenhain::safe_output;
     /// Without the enable no output for a motion is on.
     motion_needs_the_enable ["HFS-STOP-007", "HFS-IO-005", "HFS-API-032"]:
         when |s| s.config.motion && !s.inputs.enabled

@@ -11,25 +11,29 @@
 use crate::heidenhain::axes_logic::limited;
 use crate::heidenhain::types::{GroupState, Som, Stop, Unit};
 
-/// The function has no parameters.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Config;
+config! {
+    /// The function has no parameters.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Config;
+}
 
-/// The state between two cycles of the safe PLC.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct State {
-    /// The door was open in the cycle before.
-    pub open: bool,
-    /// A key of the spindle was pressed in the cycle before.
-    pub keyed: bool,
-    /// Spindle start was pressed in the cycle before, or the door was closed.
-    pub starts: bool,
-    /// Spindle jog was pressed in the cycle before.
-    pub jogged: bool,
-    /// A key of the spindle was pressed since the door was closed.
-    pub latch: bool,
-    /// Spindle start was accepted and is still held with the permissive.
-    pub started: bool,
+fields! {
+    /// The state between two cycles of the safe PLC.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    pub struct State {
+        /// The door was open in the cycle before.
+        pub open: bool,
+        /// A key of the spindle was pressed in the cycle before.
+        pub keyed: bool,
+        /// Spindle start was pressed in the cycle before, or the door was closed.
+        pub starts: bool,
+        /// Spindle jog was pressed in the cycle before.
+        pub jogged: bool,
+        /// A key of the spindle was pressed since the door was closed.
+        pub latch: bool,
+        /// Spindle start was accepted and is still held with the permissive.
+        pub started: bool,
+    }
 }
 
 impl State {
@@ -56,41 +60,43 @@ impl Default for State {
     }
 }
 
-/// The inputs of one cycle of the safe PLC.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// A guard door of the working space is open.
-    pub door_open: bool,
-    /// The magazine door is open.
-    pub t_open: bool,
-    /// The safe operating mode.
-    pub som: Som,
-    /// It has changed in this cycle.
-    pub som_changed: bool,
-    /// The machine operating mode.
-    pub unit: Unit,
-    /// Valid permissive of the panel, filtered.
-    pub panel: bool,
-    /// Valid permissive of the handwheel, filtered.
-    pub wheel: bool,
-    /// Spindle jog, filtered.
-    pub jog: bool,
-    /// Spindle jog is pressed, filtered or not: its release stops, so the filter has no part in it.
-    pub jog_held: bool,
-    /// Spindle start, filtered.
-    pub spindle_start: bool,
-    /// Spindle start is pressed, filtered or not.
-    pub start_held: bool,
-    /// Spindle jog, spindle start, NC start or permissive of the handwheel is pressed, filtered or not.
-    pub key_held: bool,
-    /// Spindle stop or an external stop.
-    pub stop: bool,
-    /// The PLC asks for restricted spindle operation.
-    pub restricted: bool,
-    /// A tool holder of the group is open, or is about to be: no torque.
-    pub holder_open: bool,
-    /// `NN_GenSafe`: the self-test has passed and is not overdue; else no motion is started with the door open.
-    pub gen_safe: bool,
+fields! {
+    /// The inputs of one cycle of the safe PLC.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// A guard door of the working space is open.
+        pub door_open: bool,
+        /// The magazine door is open.
+        pub t_open: bool,
+        /// The safe operating mode.
+        pub som: Som,
+        /// It has changed in this cycle.
+        pub som_changed: bool,
+        /// The machine operating mode.
+        pub unit: Unit,
+        /// Valid permissive of the panel, filtered.
+        pub panel: bool,
+        /// Valid permissive of the handwheel, filtered.
+        pub wheel: bool,
+        /// Spindle jog, filtered.
+        pub jog: bool,
+        /// Spindle jog is pressed, filtered or not: its release stops, so the filter has no part in it.
+        pub jog_held: bool,
+        /// Spindle start, filtered.
+        pub spindle_start: bool,
+        /// Spindle start is pressed, filtered or not.
+        pub start_held: bool,
+        /// Spindle jog, spindle start, NC start or permissive of the handwheel is pressed, filtered or not.
+        pub key_held: bool,
+        /// Spindle stop or an external stop.
+        pub stop: bool,
+        /// The PLC asks for restricted spindle operation.
+        pub restricted: bool,
+        /// A tool holder of the group is open, or is about to be: no torque.
+        pub holder_open: bool,
+        /// `NN_GenSafe`: the self-test has passed and is not overdue; else no motion is started with the door open.
+        pub gen_safe: bool,
+    }
 }
 
 impl Inputs {
@@ -115,20 +121,22 @@ impl Inputs {
     }
 }
 
-/// The outputs of one cycle: fields of the interface to the kernel.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// `PP_AxGrpStateReq`.
-    pub request: GroupState,
-    /// `PP_AxGrpActivate`.
-    pub activate: bool,
-    /// `PP_AxGrpStopReq`.
-    pub stop: Stop,
-    /// `PP_AxGrpPB`.
-    pub permissive: bool,
+fields! {
+    /// The outputs of one cycle: fields of the interface to the kernel.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// `PP_AxGrpStateReq`.
+        pub request: GroupState,
+        /// `PP_AxGrpActivate`.
+        pub activate: bool,
+        /// `PP_AxGrpStopReq`.
+        pub stop: Stop,
+        /// `PP_AxGrpPB`.
+        pub permissive: bool,
+    }
 }
 
-contract! {
+monitor! { heidenhain::spindle_logic;
     /// A spindle whose tool holder is open has no torque, whatever the doors do.
     open_holder_takes_the_torque ["HFS-API-003", "HFS-TH-004"]:
         when |s| s.inputs.holder_open

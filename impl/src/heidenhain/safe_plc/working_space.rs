@@ -6,10 +6,12 @@ use crate::kernel::ConfigError;
 
 pub use crate::contract::Stateless as State;
 
-/// The doors of the space.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Config {
-    doors: u8,
+config! {
+    /// The doors of the space.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Config {
+        doors: u8,
+    }
 }
 
 impl Config {
@@ -22,21 +24,25 @@ impl Config {
     }
 }
 
-/// The doors of the machine.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inputs {
-    /// Markers of the door switches (-SD): bit k is set while door k is closed, by both contacts.
-    pub closed: u8,
+fields! {
+    /// The doors of the machine.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Inputs {
+        /// Markers of the door switches (-SD): bit k is set while door k is closed, by both contacts.
+        pub closed: u8,
+    }
 }
 
-/// The state of the space.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
-    /// At least one of its doors is not closed.
-    pub open: bool,
+fields! {
+    /// The state of the space.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub struct Outputs {
+        /// At least one of its doors is not closed.
+        pub open: bool,
+    }
 }
 
-contract! {
+monitor! { heidenhain::working_space;
     /// A space is protected only with every one of its doors closed.
     protected_by_all_its_doors ["HFS-DOOR-001", "HFS-DOOR-002"]:
         when |s| !s.outputs.open

@@ -9,7 +9,7 @@ const fn ramp(phase: Phase) -> bool {
     matches!(phase, Phase::EmergencyBrake | Phase::BrakeCloses)
 }
 
-contract! {
+monitor! { heidenhain::stop;
     /// A running stop becomes no lower one: it ends by the main switch, after torque off, or as an SS2 that has come to stand.
     stop_never_weakens ["HFS-P-01", "HFS-STOP-002", "HFS-STOP-003"]:
         when |s| s.before.level != Stop::None && s.after.level < s.before.level

@@ -28,7 +28,7 @@ const fn discrepancy(step: &Step) -> bool {
         || (step.inputs.rx_fault && !step.inputs.power_on)
 }
 
-contract! {
+monitor! { sinumerik::channel;
     /// What any monitor requires is latched in the same cycle, also in a cycle of RESET or power-on.
     every_violation_is_latched_at_once ["S840D-P-20", "S840D-P-47", "S840D-P-49", "S840D-P-52", "S840D-STOP-001",
         "S840D-ACK-002", "S840D-STOP-002/a", "S840D-STOP-002/b", "S840D-STOP-002/c", "S840D-STOP-002/e", "S840D-STOP-025", "S840D-STOP-033", "S840D-STOP-066"]:

@@ -17,114 +17,115 @@ fn told(
     (after, outputs)
 }
 
-pub(super) fn stop_late(state: State, config: &Config, inputs: &Inputs) -> (State, Outputs) {
-    told(state, config, inputs, |after| {
-        after.from_nck.internal = state.nck.channel.stop.internal;
-    })
-}
+variants! { sinumerik::pair:
+    /// The drive is told a latched stop of the NCK a cycle late.
+    "pair-stop-late" |state, config, inputs| {
+        told(state, config, inputs, |after| {
+            after.from_nck.internal = state.nck.channel.stop.internal;
+        })
+    }
 
-pub(super) fn request_late(state: State, config: &Config, inputs: &Inputs) -> (State, Outputs) {
-    told(state, config, inputs, |after| {
-        after.from_drive.external = state.drive.channel.stop.external;
-    })
-}
+    /// The NCK is told an external stop of the drive a cycle late.
+    "pair-request-late" |state, config, inputs| {
+        told(state, config, inputs, |after| {
+            after.from_drive.external = state.drive.channel.stop.external;
+        })
+    }
 
-pub(super) fn request_passed_back(
-    state: State,
-    config: &Config,
-    inputs: &Inputs,
-) -> (State, Outputs) {
-    told(state, config, inputs, |after| {
-        after.from_nck.external = after.from_nck.external.max(state.from_drive.external);
-        after.from_drive.external = after.from_drive.external.max(state.from_nck.external);
-    })
-}
+    /// A channel passes on an external stop that it was told itself.
+    "pair-request-passed-back" |state, config, inputs| {
+        told(state, config, inputs, |after| {
+            after.from_nck.external = after.from_nck.external.max(state.from_drive.external);
+            after.from_drive.external = after.from_drive.external.max(state.from_nck.external);
+        })
+    }
 
-pub(super) fn own_request_read(state: State, config: &Config, inputs: &Inputs) -> (State, Outputs) {
-    told(state, config, inputs, |after| {
-        after.from_nck.external = after.from_drive.external;
-    })
-}
+    /// The drive reads its own external stop instead of that of the NCK.
+    "pair-own-request-read" |state, config, inputs| {
+        told(state, config, inputs, |after| {
+            after.from_nck.external = after.from_drive.external;
+        })
+    }
 
-pub(super) fn test_passed_on(state: State, config: &Config, inputs: &Inputs) -> (State, Outputs) {
-    told(state, config, inputs, |after| {
-        if after.nck.channel.stop.level == Level::Test {
-            after.from_nck.external = ExternalStop::A;
-        }
-    })
-}
+    /// The test stop of the NCK is passed on as an external stop.
+    "pair-test-passed-on" |state, config, inputs| {
+        told(state, config, inputs, |after| {
+            if after.nck.channel.stop.level == Level::Test {
+                after.from_nck.external = ExternalStop::A;
+            }
+        })
+    }
 
-pub(super) fn fault_not_told(state: State, config: &Config, inputs: &Inputs) -> (State, Outputs) {
-    told(state, config, inputs, |after| {
-        after.from_drive.fault = false
-    })
-}
+    /// The NCK is not told a STOP F of the drive.
+    "pair-fault-not-told" |state, config, inputs| {
+        told(state, config, inputs, |after| {
+            after.from_drive.fault = false
+        })
+    }
 
-pub(super) fn fault_late(state: State, config: &Config, inputs: &Inputs) -> (State, Outputs) {
-    told(state, config, inputs, |after| {
-        after.from_nck.fault = state.nck.channel.fault.fault != FaultState::None;
-    })
-}
+    /// The drive is told a STOP F of the NCK a cycle late.
+    "pair-fault-late" |state, config, inputs| {
+        told(state, config, inputs, |after| {
+            after.from_nck.fault = state.nck.channel.fault.fault != FaultState::None;
+        })
+    }
 
-pub(super) fn reset_while_other_brakes(
-    state: State,
-    config: &Config,
-    inputs: &Inputs,
-) -> (State, Outputs) {
-    told(state, config, inputs, |after| {
-        after.from_drive.braking = false
-    })
-}
+    /// The NCK takes RESET while the drive brakes.
+    "pair-reset-while-other-brakes" |state, config, inputs| {
+        told(state, config, inputs, |after| {
+            after.from_drive.braking = false
+        })
+    }
 
-pub(super) fn agreement_stale(state: State, config: &Config, inputs: &Inputs) -> (State, Outputs) {
-    told(state, config, inputs, |after| {
-        after.from_drive.agreed = state.drive.agreement.agreed;
-    })
-}
+    /// The NCK is told the agreement of the drive a cycle late.
+    "pair-agreement-stale" |state, config, inputs| {
+        told(state, config, inputs, |after| {
+            after.from_drive.agreed = state.drive.agreement.agreed;
+        })
+    }
 
-pub(super) fn own_agreement_read(
-    state: State,
-    config: &Config,
-    inputs: &Inputs,
-) -> (State, Outputs) {
-    told(state, config, inputs, |after| {
-        after.from_nck.agreed = after.from_drive.agreed;
-    })
-}
+    /// The drive reads its own agreement instead of that of the NCK.
+    "pair-own-agreement-read" |state, config, inputs| {
+        told(state, config, inputs, |after| {
+            after.from_nck.agreed = after.from_drive.agreed;
+        })
+    }
 
-pub(super) fn history_not_compared_in_drive(
-    mut state: State,
-    config: &Config,
-    inputs: &Inputs,
-) -> (State, Outputs) {
-    state.drive.reference.fresh = false;
-    next(state, config, inputs)
-}
+    /// The drive does not compare its position with the history.
+    "pair-history-not-compared-in-drive" |mut state, config, inputs| {
+        state.drive.reference.fresh = false;
+        next(state, config, inputs)
+    }
 
-pub(super) fn change_not_told(state: State, config: &Config, inputs: &Inputs) -> (State, Outputs) {
-    told(state, config, inputs, |after| {
-        after.from_nck.changing = false;
-    })
-}
+    /// The drive is not told that signals of the NCK change.
+    "pair-change-not-told" |state, config, inputs| {
+        told(state, config, inputs, |after| {
+            after.from_nck.changing = false;
+        })
+    }
 
-pub(super) fn lists_apart(state: State, config: &Config, inputs: &Inputs) -> (State, Outputs) {
-    told(state, config, inputs, |after| {
-        after.from_nck.snapshot.results_1 = state.nck.told.results_1;
-    })
-}
+    /// The drive compares result lists that are a cycle apart.
+    "pair-lists-apart" |state, config, inputs| {
+        told(state, config, inputs, |after| {
+            after.from_nck.snapshot.results_1 = state.nck.told.results_1;
+        })
+    }
 
-pub(super) fn test_result_lost(state: State, config: &Config, inputs: &Inputs) -> (State, Outputs) {
-    told(state, config, inputs, |after| {
-        after.from_drive.test = TestResult::None;
-    })
-}
+    /// The NCK does not hear of a test of the drive.
+    "pair-test-result-lost" |state, config, inputs| {
+        told(state, config, inputs, |after| {
+            after.from_drive.test = TestResult::None;
+        })
+    }
 
-pub(super) fn nothing_told(state: State, config: &Config, inputs: &Inputs) -> (State, Outputs) {
-    told(state, config, inputs, |after| {
-        let snapshot = after.from_drive.snapshot;
-        after.from_drive = Exchange {
-            snapshot,
-            ..Exchange::default()
-        };
-    })
+    /// The NCK is told nothing but what is compared.
+    "pair-nothing-told" |state, config, inputs| {
+        told(state, config, inputs, |after| {
+            let snapshot = after.from_drive.snapshot;
+            after.from_drive = Exchange {
+                snapshot,
+                ..Exchange::default()
+            };
+        })
+    }
 }

@@ -2,24 +2,23 @@
 
 use crate::kernel::{ConfigError, Cycles, Percent, Speed};
 
-/// A speed stage, selected by two signals.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Stage {
-    /// SG1, bits (0,0).
-    #[default]
-    Sg1,
-    /// SG2, bits (0,1).
-    Sg2,
-    /// SG3, bits (1,0).
-    Sg3,
-    /// SG4, bits (1,1).
-    Sg4,
+fields! {
+    /// A speed stage, selected by two signals.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub enum Stage {
+        /// SG1, bits (0,0).
+        #[default]
+        Sg1,
+        /// SG2, bits (0,1).
+        Sg2,
+        /// SG3, bits (1,0).
+        Sg3,
+        /// SG4, bits (1,1).
+        Sg4,
+    }
 }
 
 impl Stage {
-    /// Every stage in order.
-    pub const ALL: [Self; 4] = [Self::Sg1, Self::Sg2, Self::Sg3, Self::Sg4];
-
     /// The stage of the signals "SG selection bit 1, bit 0" (S840D-SG-002).
     pub const fn from_bits(bit1: bool, bit0: bool) -> Self {
         match (bit1, bit0) {
@@ -41,9 +40,11 @@ impl Stage {
     }
 }
 
-/// The index of an override factor as four signals give it: 0 to 15.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct FactorIndex(u8);
+fields! {
+    /// The index of an override factor as four signals give it: 0 to 15.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct FactorIndex(u8) in 0..=15;
+}
 
 impl FactorIndex {
     /// Index 0: no signal set, or no factor in force.
@@ -66,22 +67,31 @@ impl FactorIndex {
     }
 }
 
-/// A stage with the factor in force: what a limit is chosen by.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct Choice {
-    /// The stage.
-    pub stage: Stage,
-    /// The index of its factor; [`FactorIndex::NONE`] where none is in force.
-    pub factor: FactorIndex,
+fields! {
+    /// A stage with the factor in force: what a limit is chosen by.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct Choice {
+        /// The stage.
+        pub stage: Stage,
+        /// The index of its factor; [`FactorIndex::NONE`] where none is in force.
+        pub factor: FactorIndex,
+    }
 }
 
-/// Limits and delay of the changeover.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Config {
-    pub(super) enable: bool,
-    pub(super) t_vel: Cycles,
-    limits: [Speed; 4],
-    pub(super) factors: Option<[Percent; 16]>,
+config! {
+    /// Limits and delay of the changeover.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct Config {
+        pub(super) enable: bool,
+        pub(super) t_vel: Cycles,
+        limits: [Speed; 4],
+        pub(super) factors: Option<[Percent; 16]>,
+    }
+    accepted |config| {
+        let Config { enable, t_vel, limits, factors } = *config;
+        Config::new(enable, t_vel, limits).is_ok()
+            && factors.is_none_or(|factors| factors.iter().all(|factor| factor.get() != 0))
+    }
 }
 
 impl Config {

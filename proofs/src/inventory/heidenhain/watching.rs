@@ -21,26 +21,22 @@ inventory! {
     }]
     [contract hfs_operating_stop_contract on heidenhain::operating_stop {
         property: "every clause of the operating stop's contract: SS1 for motion, SS0 for creeping, path alone in the self-test",
-        domain: NARROW,
-        domain_text: "paths and standstill speeds 0 to 2, positions -4 to 4, speeds 0 to 3, and the ends of 32 bits; every state",
+        tries: "path still: 0..2 max; begin: -2..2 ends; position: -4..4 ends; inputs.speed: 0..3 max",
         caveat: "none",
     }]
     [contract hfs_stop_path_contract on heidenhain::stop_path {
         property: "every clause of the stop path's contract: SS1 beyond it with a limited speed only, counted from the beginning",
-        domain: NARROW,
-        domain_text: "paths 0 to 2, positions -4 to 4, and the ends of 32 bits; every state",
+        tries: "path: 0..2 max; begin: -2..2 ends; position: -4..4 ends",
         caveat: "none",
     }]
     [contract hfs_position_limit_contract on heidenhain::position_limit {
         property: "every clause of the limited position's contract: SS1 beyond it, way back, lock until the limits are changed",
-        domain: NARROW,
-        domain_text: "limits -1 to 1, positions -3 to 3, and the ends of 32 bits; every lock",
+        tries: "minus plus: -1..1 ends; last position: -3..3 ends",
         caveat: "whether the position is right is the referencing's business",
     }]
     [contract hfs_revolutions_contract on heidenhain::revolutions {
         property: "every clause of the two revolutions' contract: signed angle from the activation, SS1 beyond it",
-        domain: NARROW,
-        domain_text: "permitted angles 1 to 3 and the largest, angles -2 to 2 and the largest, steps -5 to 5 and the ends of 32 bits",
+        tries: "turns: 1..3 1073741823; angle: -3..3 -1073741824 1073741823 1073741824; step: -5..5 ends",
         caveat: "reading AMB-32 AT_START",
     }]
     [contract [kani(solver(kissat))] hfs_comparison_contract on heidenhain::comparison {
@@ -51,14 +47,12 @@ inventory! {
     }]
     [contract hfs_deceleration_contract on heidenhain::deceleration {
         property: "every clause of the dv/dt monitoring's contract: waiting time, axes, spindles, coasting",
-        domain: Domain { delays: &[0, 1, 3], highest_speed: 0 },
-        domain_text: "waiting times 0, 1 and 3 cycles; speeds 0 to 3 and the highest; every consistent state and input",
+        tries: "wait: 0 1 3; timer: 0..3; last: 0..2 max; speed: 0..3 max",
         caveat: "the waiting time of spindles is not published",
     }]
     [contract hfs_axis_count_contract on heidenhain::axis_count {
         property: "every clause of the axis count's contract: SOM_2, handwheel, homing",
-        domain: NARROW,
-        domain_text: "every state and mode; 0 to 3 axes and 255",
+        tries: "moving ungrouped: 0..3 max",
         caveat: "which axes count is decided outside",
     }]
 }

@@ -1,13 +1,13 @@
 //! Status bits, forced dynamic sampling, the kernel's own checks.
 
-use stillpoint_monitors::heidenhain::mutant::Mutant;
 use stillpoint_monitors::heidenhain::sampling::Pulse;
 use stillpoint_monitors::heidenhain::start_checks::Start;
 use stillpoint_monitors::heidenhain::{sampling, self_checks, start_checks, status_bits};
+use stillpoint_monitors::mutant::Mutant;
 
 use super::numbers::*;
 use crate::diff::peer::adapter::{Adapter, cells};
-use crate::diff::peer::{Made, Params, Refusable};
+use crate::diff::peer::{Made, Params, Refusable, chosen};
 
 /// The monitor of a machine of this topic.
 pub(super) fn make(machine: &str, p: &Params, mutant: Option<Mutant>) -> Made {
@@ -31,7 +31,7 @@ cells! {
 }
 
 fn status_bits(mutant: Option<Mutant>) -> Adapter {
-    let next = mutant.map_or(status_bits::next as status_bits::Next, Mutant::status_bits);
+    let next = chosen::<status_bits::Monitor>(mutant);
     Adapter::stateless(
         &[
             "es_a",
@@ -100,7 +100,7 @@ fn status_bits(mutant: Option<Mutant>) -> Adapter {
 fn sampling(p: &Params, mutant: Option<Mutant>) -> Refusable {
     // The pair of the table is an emergency stop.
     let config = sampling::Config::new(p.time("t_low"), true)?;
-    let next = mutant.map_or(sampling::next as sampling::Next, Mutant::sampling);
+    let next = chosen::<sampling::Monitor>(mutant);
     Ok(Adapter::new(
         &["due", "contact_a", "contact_b", "stuck_a", "stuck_b"],
         &["reads_a", "reads_b", "opened", "short", "demand", "pulse"],
@@ -130,7 +130,7 @@ fn sampling(p: &Params, mutant: Option<Mutant>) -> Refusable {
 
 fn self_checks(p: &Params, mutant: Option<Mutant>) -> Refusable {
     let config = self_checks::Config::new(p.is("cc"), p.is("safe"))?;
-    let next = mutant.map_or(self_checks::next as self_checks::Next, Mutant::self_checks);
+    let next = chosen::<self_checks::Monitor>(mutant);
     Ok(Adapter::stateless(
         &[
             "amplitude",
@@ -175,10 +175,7 @@ fn self_checks(p: &Params, mutant: Option<Mutant>) -> Refusable {
 
 fn start_checks(p: &Params, mutant: Option<Mutant>) -> Refusable {
     let config = start_checks::Config::new(p.is("cc"))?;
-    let next = mutant.map_or(
-        start_checks::next as start_checks::Next,
-        Mutant::start_checks,
-    );
+    let next = chosen::<start_checks::Monitor>(mutant);
     Ok(Adapter::new(
         &[
             "power_on",

@@ -1,13 +1,13 @@
 //! Stop and monitoring state of an axis group.
 
-use stillpoint_monitors::heidenhain::mutant::Mutant;
 use stillpoint_monitors::heidenhain::{
     axis_release, global_sto, group, judge, neighbour, report, startup, stop as stops,
 };
+use stillpoint_monitors::mutant::Mutant;
 
 use super::numbers::{self, *};
 use crate::diff::peer::adapter::Adapter;
-use crate::diff::peer::{Made, Params, Refusable};
+use crate::diff::peer::{Made, Params, Refusable, chosen};
 use crate::diff::product::Values;
 
 /// The monitor of a machine of this topic.
@@ -28,7 +28,7 @@ pub(super) fn make(machine: &str, p: &Params, mutant: Option<Mutant>) -> Made {
 fn stops(p: &Params, mutant: Option<Mutant>) -> Refusable {
     let (t_ss1, t_ss2, t_brake) = (p.time("t_ss1"), p.time("t_ss2"), p.time("t_brake"));
     let config = stops::Config::new(p.is("cc"), t_ss1, t_ss2, t_brake)?;
-    let next = mutant.map_or(stops::next as stops::Next, Mutant::stop);
+    let next = chosen::<stops::Monitor>(mutant);
     let longest = p.value("t_ss1").max(p.value("t_ss2")).max(1);
     Ok(Adapter::new(
         &[
@@ -94,7 +94,7 @@ fn stops(p: &Params, mutant: Option<Mutant>) -> Refusable {
 
 fn report(mutant: Option<Mutant>) -> Refusable {
     let config = report::Config::new()?;
-    let next = mutant.map_or(report::next as report::Next, Mutant::report);
+    let next = chosen::<report::Monitor>(mutant);
     Ok(Adapter::stateless(
         &["level", "phase", "found"],
         &["told"],
@@ -112,7 +112,7 @@ fn report(mutant: Option<Mutant>) -> Refusable {
 
 fn neighbour(p: &Params, mutant: Option<Mutant>) -> Refusable {
     let config = neighbour::Config::new(p.is("listed"))?;
-    let next = mutant.map_or(neighbour::next as neighbour::Next, Mutant::neighbour);
+    let next = chosen::<neighbour::Monitor>(mutant);
     Ok(Adapter::stateless(
         &["level", "phase", "wide"],
         &["demand"],
@@ -130,7 +130,7 @@ fn neighbour(p: &Params, mutant: Option<Mutant>) -> Refusable {
 
 fn global_sto(p: &Params, mutant: Option<Mutant>) -> Refusable {
     let config = global_sto::Config::new(p.time("t_off"))?;
-    let next = mutant.map_or(global_sto::next as global_sto::Next, Mutant::global_sto);
+    let next = chosen::<global_sto::Monitor>(mutant);
     Ok(Adapter::new(
         &["ss0", "others_off"],
         &["on"],
@@ -150,7 +150,7 @@ fn global_sto(p: &Params, mutant: Option<Mutant>) -> Refusable {
 
 fn judge(p: &Params, mutant: Option<Mutant>) -> Refusable {
     let config = judge::Config::new(kind(p.value("kind")), p.is("som_4"))?;
-    let next = mutant.map_or(judge::next as judge::Next, Mutant::judge);
+    let next = chosen::<judge::Monitor>(mutant);
     Ok(Adapter::new(
         &[
             "main_switch",
@@ -207,7 +207,7 @@ fn judge(p: &Params, mutant: Option<Mutant>) -> Refusable {
 
 fn group(p: &Params, mutant: Option<Mutant>) -> Refusable {
     let config = group::Config::new(kind(p.value("kind")))?;
-    let next = mutant.map_or(group::next as group::Next, Mutant::group);
+    let next = chosen::<group::Monitor>(mutant);
     Ok(Adapter::new(
         &[
             "main_switch",
@@ -254,7 +254,7 @@ fn group(p: &Params, mutant: Option<Mutant>) -> Refusable {
 
 fn startup(p: &Params, mutant: Option<Mutant>) -> Refusable {
     let config = startup::Config::new(p.time("t_idle"))?;
-    let next = mutant.map_or(startup::next as startup::Next, Mutant::startup);
+    let next = chosen::<startup::Monitor>(mutant);
     Ok(Adapter::new(
         &["limited", "moving", "unit", "permissive"],
         &["idle"],
@@ -276,10 +276,7 @@ fn startup(p: &Params, mutant: Option<Mutant>) -> Refusable {
 
 fn axis_release(p: &Params, mutant: Option<Mutant>) -> Refusable {
     let config = axis_release::Config::new(p.time("t_ss2"))?;
-    let next = mutant.map_or(
-        axis_release::next as axis_release::Next,
-        Mutant::axis_release,
-    );
+    let next = chosen::<axis_release::Monitor>(mutant);
     Ok(Adapter::new(
         &["group_released", "feed", "moving"],
         &["mode", "asks_ss1", "stands"],

@@ -1,14 +1,14 @@
 //! What the kernel takes over from the safe PLC.
 
-use stillpoint_monitors::heidenhain::mutant::Mutant;
 use stillpoint_monitors::heidenhain::types::Stop;
 use stillpoint_monitors::heidenhain::{
     both_channels, both_fields, both_status, gate, general_fields,
 };
+use stillpoint_monitors::mutant::Mutant;
 
 use super::numbers::*;
 use crate::diff::peer::adapter::Adapter;
-use crate::diff::peer::{Made, Params, Refusable};
+use crate::diff::peer::{Made, Params, Refusable, chosen};
 
 /// The monitor of a machine of this topic.
 pub(super) fn make(machine: &str, p: &Params, mutant: Option<Mutant>) -> Made {
@@ -23,7 +23,7 @@ pub(super) fn make(machine: &str, p: &Params, mutant: Option<Mutant>) -> Made {
 
 fn gate(p: &Params, mutant: Option<Mutant>) -> Refusable {
     let config = gate::Config::new(kind(p.value("kind")))?;
-    let next = mutant.map_or(gate::next as gate::Next, Mutant::gate);
+    let next = chosen::<gate::Monitor>(mutant);
     Ok(Adapter::stateless(
         &[
             "state_code",
@@ -55,10 +55,7 @@ fn gate(p: &Params, mutant: Option<Mutant>) -> Refusable {
 
 fn both_channels(mutant: Option<Mutant>) -> Refusable {
     let config = both_channels::Config::new()?;
-    let next = mutant.map_or(
-        both_channels::next as both_channels::Next,
-        Mutant::both_channels,
-    );
+    let next = chosen::<both_channels::Monitor>(mutant);
     Ok(Adapter::stateless(
         &[
             "request_mc",
@@ -97,7 +94,7 @@ fn both_channels(mutant: Option<Mutant>) -> Refusable {
 }
 
 fn both_fields(mutant: Option<Mutant>) -> Adapter {
-    let next = mutant.map_or(both_fields::next as both_fields::Next, Mutant::both_fields);
+    let next = chosen::<both_fields::Monitor>(mutant);
     Adapter::stateless(
         &[
             "wrong_mc",
@@ -163,7 +160,7 @@ fn both_fields(mutant: Option<Mutant>) -> Adapter {
 }
 
 fn both_status(mutant: Option<Mutant>) -> Adapter {
-    let next = mutant.map_or(both_status::next as both_status::Next, Mutant::both_status);
+    let next = chosen::<both_status::Monitor>(mutant);
     Adapter::stateless(
         &[
             "runs_mc",

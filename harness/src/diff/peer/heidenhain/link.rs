@@ -1,12 +1,12 @@
 //! Telegrams between controller computers.
 
 use stillpoint_monitors::heidenhain::cc_link;
-use stillpoint_monitors::heidenhain::mutant::Mutant;
 use stillpoint_monitors::kernel::Position;
+use stillpoint_monitors::mutant::Mutant;
 
 use super::numbers::*;
 use crate::diff::peer::adapter::{Adapter, cells};
-use crate::diff::peer::{Made, Params, Refusable};
+use crate::diff::peer::{Made, Params, Refusable, chosen};
 
 /// The monitor of a machine of this topic.
 pub(super) fn make(machine: &str, p: &Params, mutant: Option<Mutant>) -> Made {
@@ -50,7 +50,7 @@ fn bits(drive: cc_link::Drive) -> i32 {
 
 fn cc_link(p: &Params, mutant: Option<Mutant>) -> Refusable {
     let config = cc_link::Config::new(small(p.value("tolerated")))?;
-    let next = mutant.map_or(cc_link::next as cc_link::Next, Mutant::cc_link);
+    let next = chosen::<cc_link::Monitor>(mutant);
     Ok(Adapter::new(
         &[
             "main_switch",

@@ -1,11 +1,11 @@
 //! What concerns the whole machine: modes, permissives, control voltage, outputs.
 
-use stillpoint_monitors::heidenhain::mutant::Mutant;
 use stillpoint_monitors::heidenhain::{button, output_enable, som, switch_on};
+use stillpoint_monitors::mutant::Mutant;
 
 use super::numbers::*;
 use crate::diff::peer::adapter::Adapter;
-use crate::diff::peer::{Made, Params, Refusable};
+use crate::diff::peer::{Made, Params, Refusable, chosen};
 
 /// The monitor of a machine of this topic.
 pub(super) fn make(machine: &str, p: &Params, mutant: Option<Mutant>) -> Made {
@@ -20,7 +20,7 @@ pub(super) fn make(machine: &str, p: &Params, mutant: Option<Mutant>) -> Made {
 
 fn som(p: &Params, mutant: Option<Mutant>) -> Refusable {
     let config = som::Config::new(p.is("som_4"))?;
-    let next = mutant.map_or(som::next as som::Next, Mutant::som);
+    let next = chosen::<som::Monitor>(mutant);
     Ok(Adapter::new(
         &["power_on", "key_2", "key_3", "key_4", "deselected"],
         &["som", "pp_som", "changed"],
@@ -43,7 +43,7 @@ fn som(p: &Params, mutant: Option<Mutant>) -> Refusable {
 
 fn button(p: &Params, mutant: Option<Mutant>) -> Refusable {
     let config = button::Config::new(p.time("t_max"))?;
-    let next = mutant.map_or(button::next as button::Next, Mutant::button);
+    let next = chosen::<button::Monitor>(mutant);
     Ok(Adapter::new(
         &["power_on", "contact_a", "contact_b", "unit_changes"],
         &["button", "valid", "jammed"],
@@ -69,7 +69,7 @@ fn button(p: &Params, mutant: Option<Mutant>) -> Refusable {
 
 fn switch_on(p: &Params, mutant: Option<Mutant>) -> Refusable {
     let config = switch_on::Config::new(p.time("t_chain"))?;
-    let next = mutant.map_or(switch_on::next as switch_on::Next, Mutant::switch_on);
+    let next = chosen::<switch_on::Monitor>(mutant);
     Ok(Adapter::new(
         &[
             "cvo",
@@ -108,10 +108,7 @@ fn switch_on(p: &Params, mutant: Option<Mutant>) -> Refusable {
 
 fn output_enable(p: &Params, mutant: Option<Mutant>) -> Refusable {
     let config = output_enable::Config::new(p.time("t_off"))?;
-    let next = mutant.map_or(
-        output_enable::next as output_enable::Next,
-        Mutant::output_enable,
-    );
+    let next = chosen::<output_enable::Monitor>(mutant);
     Ok(Adapter::new(
         &["ready", "stop", "emergency", "still"],
         &["enabled"],

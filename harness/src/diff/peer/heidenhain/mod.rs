@@ -12,12 +12,13 @@ mod safe_plc;
 mod service;
 mod watching;
 
-use stillpoint_monitors::heidenhain::mutant::Mutant;
+use stillpoint_monitors::mutant::Mutant;
 
 use super::{Family, Made, Params};
 
 pub(super) static FAMILY: Family = Family {
     name: "heidenhain-fs",
+    module: "heidenhain",
     machines: &[
         ("gate", "gate"),
         ("both_channels", "both_channels"),
@@ -76,11 +77,7 @@ pub(super) static FAMILY: Family = Family {
     make,
 };
 
-fn make(machine: &str, params: &Params, mutant: Option<super::Mutant>) -> Made {
-    let mutant: Option<Mutant> = mutant.and_then(|mutant| match mutant {
-        super::Mutant::Heidenhain(mutant) => Some(mutant),
-        super::Mutant::Sinumerik(_) => None,
-    });
+fn make(machine: &str, params: &Params, mutant: Option<Mutant>) -> Made {
     for make in [
         interface::make,
         groups::make,

@@ -1,15 +1,15 @@
 //! Inputs and general fields of the safe PLC, what the operator can do, and what the control checks of the program.
 
-use stillpoint_monitors::heidenhain::mutant::Mutant;
 use stillpoint_monitors::heidenhain::{
     allowed_functions, availability, control_voltage, f_limited, general_fields, group_motion,
     jog_increment, program_check, safe_input, working_space,
 };
 use stillpoint_monitors::kernel::Speed;
+use stillpoint_monitors::mutant::Mutant;
 
 use super::numbers::*;
 use crate::diff::peer::adapter::{Adapter, cells};
-use crate::diff::peer::{Made, Params, Refusable};
+use crate::diff::peer::{Made, Params, Refusable, chosen};
 
 /// The monitor of a machine of this topic.
 pub(super) fn make(machine: &str, p: &Params, mutant: Option<Mutant>) -> Made {
@@ -42,7 +42,7 @@ cells! {
 
 fn safe_input(p: &Params, mutant: Option<Mutant>) -> Refusable {
     let config = safe_input::Config::new(p.is("invert_a"), p.is("invert_b"), p.is("missing"))?;
-    let next = mutant.map_or(safe_input::next as safe_input::Next, Mutant::safe_input);
+    let next = chosen::<safe_input::Monitor>(mutant);
     Ok(Adapter::stateless(
         &["contact_a", "contact_b"],
         &["marker"],
@@ -59,10 +59,7 @@ fn safe_input(p: &Params, mutant: Option<Mutant>) -> Refusable {
 
 fn doors(mutant: Option<Mutant>) -> Refusable {
     let config = working_space::Config::new(0b11)?;
-    let next = mutant.map_or(
-        working_space::next as working_space::Next,
-        Mutant::working_space,
-    );
+    let next = chosen::<working_space::Monitor>(mutant);
     Ok(Adapter::stateless(
         &["door_1", "door_2"],
         &["open"],
@@ -76,10 +73,7 @@ fn doors(mutant: Option<Mutant>) -> Refusable {
 }
 
 fn general(mutant: Option<Mutant>) -> Adapter {
-    let next = mutant.map_or(
-        general_fields::next as general_fields::Next,
-        Mutant::general_fields,
-    );
+    let next = chosen::<general_fields::Monitor>(mutant);
     Adapter::stateless(
         &["som", "cvo", "permit", "chain", "mkg", "t_brk", "feed"],
         &[
@@ -119,10 +113,7 @@ fn general(mutant: Option<Mutant>) -> Adapter {
 }
 
 fn motion(mutant: Option<Mutant>) -> Adapter {
-    let next = mutant.map_or(
-        group_motion::next as group_motion::Next,
-        Mutant::group_motion,
-    );
+    let next = chosen::<group_motion::Monitor>(mutant);
     Adapter::stateless(&["axis_1", "axis_2", "axis_3"], &["moving"], move |i, o| {
         let axes = (0..3).fold(0, |axes, k| axes | u8::from(i[k] != 0) << k);
         let inputs = group_motion::Inputs { axes };
@@ -132,10 +123,7 @@ fn motion(mutant: Option<Mutant>) -> Adapter {
 }
 
 fn available(mutant: Option<Mutant>) -> Adapter {
-    let next = mutant.map_or(
-        availability::next as availability::Next,
-        Mutant::availability,
-    );
+    let next = chosen::<availability::Monitor>(mutant);
     Adapter::stateless(
         &[
             "kind",
@@ -163,10 +151,7 @@ fn available(mutant: Option<Mutant>) -> Adapter {
 
 fn program_check(p: &Params, mutant: Option<Mutant>) -> Refusable {
     let config = program_check::Config::new(p.is("commissioning"))?;
-    let next = mutant.map_or(
-        program_check::next as program_check::Next,
-        Mutant::program_check,
-    );
+    let next = chosen::<program_check::Monitor>(mutant);
     Ok(Adapter::new(
         &["translated", "crc_equal", "version_equal"],
         &["message_crc", "message_version", "good"],
@@ -191,10 +176,7 @@ fn program_check(p: &Params, mutant: Option<Mutant>) -> Refusable {
 
 fn increment(mutant: Option<Mutant>) -> Refusable {
     let config = jog_increment::Config::new(false)?;
-    let next = mutant.map_or(
-        jog_increment::next as jog_increment::Next,
-        Mutant::jog_increment,
-    );
+    let next = chosen::<jog_increment::Monitor>(mutant);
     Ok(Adapter::new(
         &["key", "done"],
         &["feed", "stop", "jog"],
@@ -217,10 +199,7 @@ fn increment(mutant: Option<Mutant>) -> Refusable {
 }
 
 fn functions(mutant: Option<Mutant>) -> Adapter {
-    let next = mutant.map_or(
-        allowed_functions::next as allowed_functions::Next,
-        Mutant::allowed_functions,
-    );
+    let next = chosen::<allowed_functions::Monitor>(mutant);
     Adapter::stateless(
         &["door_open", "permissive", "function"],
         &["allowed"],
@@ -240,10 +219,7 @@ fn functions(mutant: Option<Mutant>) -> Adapter {
 /// The table knows the key only: the latch circuit is not set.
 fn reset_button(p: &Params, mutant: Option<Mutant>) -> Refusable {
     let config = control_voltage::Config::new(p.is("fitted"), false)?;
-    let next = mutant.map_or(
-        control_voltage::next as control_voltage::Next,
-        Mutant::control_voltage,
-    );
+    let next = chosen::<control_voltage::Monitor>(mutant);
     Ok(Adapter::new(
         &["dropped", "reset", "cvo"],
         &["voltage"],
@@ -267,7 +243,7 @@ fn reset_button(p: &Params, mutant: Option<Mutant>) -> Refusable {
 fn nc_speed(p: &Params, mutant: Option<Mutant>) -> Refusable {
     let limits = [p.speed("limit_2"), p.speed("limit_3"), p.speed("limit_4")];
     let config = f_limited::Config::new(limits)?;
-    let next = mutant.map_or(f_limited::next as f_limited::Next, Mutant::f_limited);
+    let next = chosen::<f_limited::Monitor>(mutant);
     Ok(Adapter::stateless(
         &["f_limited", "som", "wanted"],
         &["v"],

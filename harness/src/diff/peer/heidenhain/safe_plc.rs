@@ -2,22 +2,22 @@
 //! then run with the keys of the others at rest, and the self-test in force.
 
 use stillpoint_monitors::heidenhain::key_filter::Keys;
-use stillpoint_monitors::heidenhain::mutant::Mutant;
 use stillpoint_monitors::heidenhain::safe_plc::{Blocks, Config, Inputs, Outputs, State};
 use stillpoint_monitors::heidenhain::{axes_logic, key_filter, magazine_logic, spindle_logic};
+use stillpoint_monitors::mutant::Mutant;
 
 use super::numbers::*;
 use crate::diff::peer::adapter::{Adapter, Cells, cells, put, take};
-use crate::diff::peer::{Made, Params, Refusable};
+use crate::diff::peer::{Made, Params, Refusable, chosen};
 
 /// The monitor of a machine of this topic.
 pub(super) fn make(machine: &str, p: &Params, mutant: Option<Mutant>) -> Made {
-    let blocks = mutant.map_or(Blocks::PRODUCTION, |mutant| Blocks {
-        filter: mutant.key_filter(),
-        axes: mutant.axes_logic(),
-        spindle: mutant.spindle_logic(),
-        magazine: mutant.magazine_logic(),
-    });
+    let blocks = Blocks {
+        filter: chosen::<key_filter::Monitor>(mutant),
+        axes: chosen::<axes_logic::Monitor>(mutant),
+        spindle: chosen::<spindle_logic::Monitor>(mutant),
+        magazine: chosen::<magazine_logic::Monitor>(mutant),
+    };
     Ok(Some(match machine {
         "splc" => program(p, blocks)?,
         "splc_axes" => axes(p, blocks)?,

@@ -1,14 +1,14 @@
 //! Referencing, outputs, self-test.
 
-use stillpoint_monitors::heidenhain::mutant::Mutant;
 use stillpoint_monitors::heidenhain::reference::AxisRef;
 use stillpoint_monitors::heidenhain::{
     acceptance, agreement, brakes, cut_out, holding_brake, reference, self_test, tool_holder,
 };
+use stillpoint_monitors::mutant::Mutant;
 
 use super::numbers::*;
 use crate::diff::peer::adapter::{Adapter, cells};
-use crate::diff::peer::{Made, Params, Refusable};
+use crate::diff::peer::{Made, Params, Refusable, chosen};
 
 /// The monitor of a machine of this topic.
 pub(super) fn make(machine: &str, p: &Params, mutant: Option<Mutant>) -> Made {
@@ -62,7 +62,7 @@ cells! {
 
 fn reference(p: &Params, mutant: Option<Mutant>) -> Refusable {
     let config = reference::Config::new(p.is("safe_axis"))?;
-    let next = mutant.map_or(reference::next as reference::Next, Mutant::reference);
+    let next = chosen::<reference::Monitor>(mutant);
     Ok(Adapter::new(
         &[
             "power_on",
@@ -119,7 +119,7 @@ fn agreement(p: &Params, mutant: Option<Mutant>) -> Refusable {
     } else {
         config
     };
-    let next = mutant.map_or(agreement::next as agreement::Next, Mutant::agreement);
+    let next = chosen::<agreement::Monitor>(mutant);
     Ok(Adapter::new(
         &["differ"],
         &["fault", "demand"],
@@ -135,7 +135,7 @@ fn agreement(p: &Params, mutant: Option<Mutant>) -> Refusable {
 }
 
 fn brakes(mutant: Option<Mutant>) -> Adapter {
-    let next = mutant.map_or(brakes::next as brakes::Next, Mutant::brakes);
+    let next = chosen::<brakes::Monitor>(mutant);
     Adapter::stateless(
         &[
             "test",
@@ -164,7 +164,7 @@ fn brakes(mutant: Option<Mutant>) -> Adapter {
 }
 
 fn tool_holder(mutant: Option<Mutant>) -> Adapter {
-    let next = mutant.map_or(tool_holder::next as tool_holder::Next, Mutant::tool_holder);
+    let next = chosen::<tool_holder::Monitor>(mutant);
     Adapter::new(
         &["request", "door_open", "moving", "state"],
         &["open", "no_torque"],
@@ -186,7 +186,7 @@ fn tool_holder(mutant: Option<Mutant>) -> Adapter {
 
 fn acceptance(p: &Params, mutant: Option<Mutant>) -> Refusable {
     let config = acceptance::Config::new(count(p.value("most")))?;
-    let next = mutant.map_or(acceptance::next as acceptance::Next, Mutant::acceptance);
+    let next = chosen::<acceptance::Monitor>(mutant);
     Ok(Adapter::new(
         &[
             "boot",
@@ -226,7 +226,7 @@ fn self_test(p: &Params, mutant: Option<Mutant>) -> Refusable {
         p.is("no_control"),
         p.is("cc"),
     )?;
-    let next = mutant.map_or(self_test::next as self_test::Next, Mutant::self_test);
+    let next = chosen::<self_test::Monitor>(mutant);
     Ok(Adapter::new(
         &[
             "power_on",
@@ -291,7 +291,7 @@ fn cut_out(p: &Params, mutant: Option<Mutant>) -> Refusable {
         p.is("no_control"),
         p.is("no_outputs"),
     )?;
-    let next = mutant.map_or(cut_out::next as cut_out::Next, Mutant::cut_out);
+    let next = chosen::<cut_out::Monitor>(mutant);
     let longest = p
         .value("t_relay")
         .max(p.value("t_ready"))
@@ -352,10 +352,7 @@ fn cut_out(p: &Params, mutant: Option<Mutant>) -> Refusable {
 
 fn holding_brake(p: &Params, mutant: Option<Mutant>) -> Refusable {
     let config = holding_brake::Config::new(count(p.value("factor")))?;
-    let next = mutant.map_or(
-        holding_brake::next as holding_brake::Next,
-        Mutant::holding_brake,
-    );
+    let next = chosen::<holding_brake::Monitor>(mutant);
     Ok(Adapter::new(
         &["start", "done", "too_far", "current", "safe_now"],
         &["hold", "closed", "controlled", "passed"],

@@ -1,12 +1,12 @@
 //! SBH/SG selection, referencing, user agreement and gear stage.
 
 use stillpoint_monitors::kernel::{ConfigError, Position};
-use stillpoint_monitors::sinumerik::mutant::Mutant;
+use stillpoint_monitors::mutant::Mutant;
 use stillpoint_monitors::sinumerik::{agreement, gear, reference, selection};
 
 use super::numbers::*;
 use crate::diff::peer::adapter::Adapter;
-use crate::diff::peer::{Made, Params, Refusable};
+use crate::diff::peer::{Made, Params, Refusable, chosen};
 
 /// The monitor of a machine of this topic.
 pub(super) fn make(machine: &str, p: &Params, mutant: Option<Mutant>) -> Made {
@@ -30,7 +30,7 @@ pub(super) fn selection_config(p: &Params) -> Result<selection::Config, ConfigEr
 
 fn selection(p: &Params, mutant: Option<Mutant>) -> Refusable {
     let config = selection_config(p)?;
-    let next = mutant.map_or(selection::next as selection::Next, Mutant::selection);
+    let next = chosen::<selection::Monitor>(mutant);
     let over = upto(p.value("over_max"));
     let (time, position) = (upto(p.value("t_vel")), upto(p.value("pos_max")));
     Ok(Adapter::new(
@@ -85,7 +85,7 @@ fn selection(p: &Params, mutant: Option<Mutant>) -> Refusable {
 
 fn reference(p: &Params, mutant: Option<Mutant>) -> Refusable {
     let config = reference::Config::new(p.is("se_sn_enabled"))?;
-    let next = mutant.map_or(reference::next as reference::Next, Mutant::reference);
+    let next = chosen::<reference::Monitor>(mutant);
     Ok(Adapter::new(
         &[
             "power_on",
@@ -132,7 +132,7 @@ fn reference(p: &Params, mutant: Option<Mutant>) -> Refusable {
 
 fn agreement(p: &Params, mutant: Option<Mutant>) -> Refusable {
     let config = agreement::Config::new(p.time("t_differ"), p.is("se_sn_enabled"))?;
-    let next = mutant.map_or(agreement::next as agreement::Next, Mutant::agreement);
+    let next = chosen::<agreement::Monitor>(mutant);
     Ok(Adapter::new(
         &[
             "power_on",
@@ -180,7 +180,7 @@ fn agreement(p: &Params, mutant: Option<Mutant>) -> Refusable {
 
 fn gear(p: &Params, mutant: Option<Mutant>) -> Refusable {
     let config = gear::Config::new(small(p.value("gear_max")), p.is("se_sn_enabled"))?;
-    let next = mutant.map_or(gear::next as gear::Next, Mutant::gear);
+    let next = chosen::<gear::Monitor>(mutant);
     Ok(Adapter::new(
         &["power_on", "index"],
         &["stage", "changed"],

@@ -2,8 +2,8 @@
 
 use stillpoint_monitors::kernel::{ConfigError, Position};
 
+use stillpoint_monitors::mutant::Mutant;
 use stillpoint_monitors::sinumerik::level::{ExternalStop, InternalStop};
-use stillpoint_monitors::sinumerik::mutant::Mutant;
 use stillpoint_monitors::sinumerik::{
     channel, fault, limit_switch, pulses, ramp, speed, standstill, test_stop, threshold,
 };
@@ -12,7 +12,7 @@ use super::axis::selection_config;
 use super::numbers::*;
 use super::stops::{external_config, longest, stop_config};
 use crate::diff::peer::adapter::Adapter;
-use crate::diff::peer::{Made, Params, Refusable, Refusal};
+use crate::diff::peer::{Made, Params, Refusable, Refusal, chosen};
 
 /// The monitors of a system of this topic.
 pub(super) fn make(system: &str, p: &Params, mutant: Option<Mutant>) -> Made {
@@ -59,7 +59,7 @@ fn core(p: &Params, mutant: Option<Mutant>) -> Refusable {
         return Err(Refusal::Table("v_max must be at least pos_max"));
     }
     let config = config(p)?;
-    let next = mutant.map_or(channel::next as channel::Next, Mutant::channel);
+    let next = chosen::<channel::Monitor>(mutant);
     let (use_c, use_d) = (p.is("use_c"), p.is("use_d"));
     let (tested, peer) = (p.is("tested"), p.is("peer"));
     let (factor_cell, position) = (upto(p.value("over_max")), upto(p.value("pos_max")));

@@ -2,14 +2,14 @@
 
 use stillpoint_model::Domain;
 use stillpoint_monitors::kernel::Position;
-use stillpoint_monitors::sinumerik::mutant::Mutant;
+use stillpoint_monitors::mutant::Mutant;
 use stillpoint_monitors::sinumerik::{
     compare, forced_check, history, path_test, pulses, shutdown_test, slip, test_stop,
 };
 
 use super::numbers::{PULSES, bit, distance, ordinal, rank, truth, upto};
 use crate::diff::peer::adapter::Adapter;
-use crate::diff::peer::{Made, Params, Refusable, Refusal};
+use crate::diff::peer::{Made, Params, Refusable, Refusal, chosen};
 use crate::diff::product::Values;
 
 /// The monitor of a machine of this topic.
@@ -41,7 +41,7 @@ fn test_inputs(i: &[i32]) -> path_test::Inputs {
 
 fn test(p: &Params, mutant: Option<Mutant>) -> Refusable {
     let config = test_stop::Config::new(p.time("t_chk"))?;
-    let next = mutant.map_or(test_stop::next as test_stop::Next, Mutant::test_stop);
+    let next = chosen::<test_stop::Monitor>(mutant);
     Ok(Adapter::new(
         &["power_on", "select", "pulses_cancelled", "internal_ab"],
         &["active", "demand", "refused", "code", "passed", "message"],
@@ -65,10 +65,7 @@ fn test(p: &Params, mutant: Option<Mutant>) -> Refusable {
 
 fn shutdown_test(p: &Params, mutant: Option<Mutant>) -> Refusable {
     let config = shutdown_test::Config::new(p.time("t_chk"))?;
-    let next = mutant.map_or(
-        shutdown_test::next as shutdown_test::Next,
-        Mutant::shutdown_test,
-    );
+    let next = chosen::<shutdown_test::Monitor>(mutant);
     Ok(Adapter::new(
         &["power_on", "select", "pulses_cancelled", "internal_ab"],
         &[
@@ -98,7 +95,7 @@ fn shutdown_test(p: &Params, mutant: Option<Mutant>) -> Refusable {
 
 fn pulses(p: &Params, mutant: Option<Mutant>) -> Refusable {
     let config = pulses::Config::new(p.is("internal"), true, p.time("t_chk"))?;
-    let next = mutant.map_or(pulses::next as pulses::Next, Mutant::pulses);
+    let next = chosen::<pulses::Monitor>(mutant);
     Ok(Adapter::new(
         &["power_on", "run_up", "cancel", "external_test", "feedback"],
         &["enable", "enable_external", "phase"],
@@ -125,7 +122,7 @@ fn pulses(p: &Params, mutant: Option<Mutant>) -> Refusable {
 
 fn compare(p: &Params, mutant: Option<Mutant>) -> Refusable {
     let config = compare::Config::new(p.time("t_chg"), &compare::list::CLASSES)?;
-    let next = mutant.map_or(compare::next as compare::Next, Mutant::compare);
+    let next = chosen::<compare::Monitor>(mutant);
     let t_chg = p.value("t_chg");
     Ok(Adapter::new(
         &[
@@ -176,7 +173,7 @@ fn slip(p: &Params, mutant: Option<Mutant>) -> Refusable {
         true,
         false,
     )?;
-    let next = mutant.map_or(slip::next as slip::Next, Mutant::slip);
+    let next = chosen::<slip::Monitor>(mutant);
     let (most, far) = (p.value("off_max"), p.value("pos_max"));
     let offsets = Domain {
         lo: -most,
@@ -209,7 +206,7 @@ fn slip(p: &Params, mutant: Option<Mutant>) -> Refusable {
 
 fn history(p: &Params, mutant: Option<Mutant>) -> Refusable {
     let config = history::Config::new(distance(p.value("tol")))?;
-    let next = mutant.map_or(history::next as history::Next, Mutant::history);
+    let next = chosen::<history::Monitor>(mutant);
     Ok(Adapter::new(
         &[
             "power_on",
@@ -244,10 +241,7 @@ fn history(p: &Params, mutant: Option<Mutant>) -> Refusable {
 
 fn test_interval(p: &Params, mutant: Option<Mutant>) -> Refusable {
     let config = forced_check::Config::new(p.time("interval"))?;
-    let next = mutant.map_or(
-        forced_check::next as forced_check::Next,
-        Mutant::forced_check,
-    );
+    let next = chosen::<forced_check::Monitor>(mutant);
     let rest = upto(p.value("interval"));
     Ok(Adapter::new(
         &["power_on", "passed_drive", "passed_nck", "failed"],

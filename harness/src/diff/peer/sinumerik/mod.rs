@@ -10,10 +10,13 @@ mod pair;
 mod register;
 mod stops;
 
+use stillpoint_monitors::mutant::Mutant;
+
 use super::{Family, Made, Params};
 
 pub(super) static FAMILY: Family = Family {
     name: "sinumerik-840d",
+    module: "sinumerik",
     machines: &[
         ("external", "external"),
         ("fault", "fault"),
@@ -49,11 +52,7 @@ pub(super) static FAMILY: Family = Family {
     make,
 };
 
-fn make(machine: &str, params: &Params, mutant: Option<super::Mutant>) -> Made {
-    let mutant = mutant.and_then(|mutant| match mutant {
-        super::Mutant::Sinumerik(mutant) => Some(mutant),
-        super::Mutant::Heidenhain(_) => None,
-    });
+fn make(machine: &str, params: &Params, mutant: Option<Mutant>) -> Made {
     for make in [
         stops::make,
         axis::make,

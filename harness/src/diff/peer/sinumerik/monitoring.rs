@@ -1,7 +1,7 @@
 //! Actual value and the monitors that compare it with limits.
 
 use stillpoint_monitors::kernel::{Distance, Position};
-use stillpoint_monitors::sinumerik::mutant::Mutant;
+use stillpoint_monitors::mutant::Mutant;
 use stillpoint_monitors::{
     sinumerik::{cam, limit_switch, motion, ramp, results, speed, standstill, threshold},
     units,
@@ -9,7 +9,7 @@ use stillpoint_monitors::{
 
 use super::numbers::{self, bit, distance, monitored, rank, small, stage, truth, upto};
 use crate::diff::peer::adapter::Adapter;
-use crate::diff::peer::{Made, Params, Refusable};
+use crate::diff::peer::{Made, Params, Refusable, chosen};
 
 /// The monitor of a machine of this topic.
 pub(super) fn make(machine: &str, p: &Params, mutant: Option<Mutant>) -> Made {
@@ -27,7 +27,7 @@ pub(super) fn make(machine: &str, p: &Params, mutant: Option<Mutant>) -> Made {
 }
 
 fn motion(p: &Params, mutant: Option<Mutant>) -> Adapter {
-    let next = mutant.map_or(motion::next as motion::Next, Mutant::motion);
+    let next = chosen::<motion::Monitor>(mutant);
     Adapter::new(
         &["power_on", "position", "parking", "set_anew"],
         &["actual", "speed"],
@@ -49,7 +49,7 @@ fn motion(p: &Params, mutant: Option<Mutant>) -> Adapter {
 
 fn standstill(p: &Params, mutant: Option<Mutant>) -> Refusable {
     let config = standstill::Config::new(distance(p.value("tol")))?;
-    let next = mutant.map_or(standstill::next as standstill::Next, Mutant::standstill);
+    let next = chosen::<standstill::Monitor>(mutant);
     Ok(Adapter::stateless(
         &["monitored", "position", "reference"],
         &["upper", "lower", "violated", "demand"],
@@ -78,7 +78,7 @@ fn speed(p: &Params, mutant: Option<Mutant>) -> Refusable {
         p.is("one_encoder").then(|| p.speed("encoder_max")),
         small(p.value("setpoint_percent")),
     )?;
-    let next = mutant.map_or(speed::next as speed::Next, Mutant::speed);
+    let next = chosen::<speed::Monitor>(mutant);
     Ok(Adapter::stateless(
         &["monitored", "speed", "limit", "stage", "encoder_speed"],
         &[
@@ -116,10 +116,7 @@ fn end_stop(p: &Params, mutant: Option<Mutant>) -> Refusable {
         pair(["minus_1", "minus_2"]),
         small(p.value("stop_mode")),
     )?;
-    let next = mutant.map_or(
-        limit_switch::next as limit_switch::Next,
-        Mutant::limit_switch,
-    );
+    let next = chosen::<limit_switch::Monitor>(mutant);
     Ok(Adapter::stateless(
         &["active", "select", "position"],
         &["watched", "upper", "lower", "demand"],
@@ -142,7 +139,7 @@ fn end_stop(p: &Params, mutant: Option<Mutant>) -> Refusable {
 
 fn ramp(p: &Params, mutant: Option<Mutant>) -> Refusable {
     let config = ramp::Config::new(p.speed("velo_x"), p.speed("tol"))?;
-    let next = mutant.map_or(ramp::next as ramp::Next, Mutant::ramp);
+    let next = chosen::<ramp::Monitor>(mutant);
     Ok(Adapter::new(
         &["power_on", "on", "speed"],
         &["violated", "limit", "frozen", "demand"],
@@ -169,7 +166,7 @@ fn ramp(p: &Params, mutant: Option<Mutant>) -> Refusable {
 
 fn threshold(p: &Params, mutant: Option<Mutant>) -> Refusable {
     let config = threshold::Config::new(p.speed("velo_x"))?;
-    let next = mutant.map_or(threshold::next as threshold::Next, Mutant::threshold);
+    let next = chosen::<threshold::Monitor>(mutant);
     Ok(Adapter::stateless(&["speed"], &["below"], move |i, o| {
         let inputs = threshold::Inputs {
             speed: numbers::speed(i[0]),
@@ -189,7 +186,7 @@ fn cam(p: &Params, mutant: Option<Mutant>) -> Refusable {
         range,
         Distance(0),
     )?;
-    let next = mutant.map_or(cam::next as cam::Next, Mutant::cam);
+    let next = chosen::<cam::Monitor>(mutant);
     Ok(Adapter::new(
         &["power_on", "position", "other"],
         &["own", "sga"],
@@ -211,7 +208,7 @@ fn cam(p: &Params, mutant: Option<Mutant>) -> Refusable {
 fn results(mutant: Option<Mutant>) -> Refusable {
     // The table has result list 1 only.
     let config = results::Config::new([false; 8], false, false)?;
-    let next = mutant.map_or(results::next as results::Next, Mutant::results);
+    let next = chosen::<results::Monitor>(mutant);
     Ok(Adapter::stateless(
         &[
             "monitored",

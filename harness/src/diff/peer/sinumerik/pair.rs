@@ -6,12 +6,13 @@
 use std::sync::Arc;
 
 use stillpoint_monitors::kernel::{Cycles, Position};
+use stillpoint_monitors::mutant::Mutant;
 use stillpoint_monitors::sinumerik::alarm::Alarm;
 use stillpoint_monitors::sinumerik::axis::{self, Local};
 use stillpoint_monitors::sinumerik::compare::list::CLASSES;
 use stillpoint_monitors::sinumerik::interface::Sge;
 use stillpoint_monitors::sinumerik::level::Level;
-use stillpoint_monitors::sinumerik::mutant::Mutant;
+use stillpoint_monitors::sinumerik::mutant as wrong;
 use stillpoint_monitors::sinumerik::pair;
 use stillpoint_monitors::sinumerik::parameters::{
     Configuration, ControlModule, Encoders, Installation, Parameters,
@@ -20,7 +21,7 @@ use stillpoint_monitors::sinumerik::parameters::{
 use super::numbers::*;
 use super::register::{NUMBERS, Register, Side};
 use crate::diff::peer::adapter::{Adapter, Cells};
-use crate::diff::peer::{Made, Numbers, Params, Refusal};
+use crate::diff::peer::{Made, Numbers, Params, Refusal, one_of};
 
 /// The systems of this topic.
 pub(super) fn make(system: &str, p: &Params, mutant: Option<Mutant>) -> Made {
@@ -31,7 +32,7 @@ pub(super) fn make(system: &str, p: &Params, mutant: Option<Mutant>) -> Made {
     };
     let gates = Gates::new(p);
     let config = pair::Config::new(configuration(p)?);
-    let next = mutant.map_or(pair::next as pair::Next, Mutant::pair);
+    let next = one_of(pair::next as pair::Next, wrong::pair(), mutant);
     let sides = Arc::new(Register::new());
     // What never changes has had its value before, too.
     let sge = see(&gates, &vec![0; inputs.len()]).nck.sge;

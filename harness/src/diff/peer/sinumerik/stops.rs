@@ -1,11 +1,11 @@
 //! External stops, STOP F, the arbitration of stops and their effect on other axes.
 
-use stillpoint_monitors::sinumerik::mutant::Mutant;
+use stillpoint_monitors::mutant::Mutant;
 use stillpoint_monitors::sinumerik::{external, fault, group, stop};
 
 use super::numbers::*;
 use crate::diff::peer::adapter::Adapter;
-use crate::diff::peer::{Made, Params, Refusable};
+use crate::diff::peer::{Made, Params, Refusable, chosen};
 
 /// The monitor of a machine of this topic.
 pub(super) fn make(machine: &str, p: &Params, mutant: Option<Mutant>) -> Made {
@@ -26,7 +26,7 @@ pub(super) fn external_config(
 
 fn external(p: &Params, mutant: Option<Mutant>) -> Refusable {
     let config = external_config(p)?;
-    let next = mutant.map_or(external::next as external::Next, Mutant::external);
+    let next = chosen::<external::Monitor>(mutant);
     Ok(Adapter::new(
         &[
             "power_on",
@@ -65,7 +65,7 @@ fn external(p: &Params, mutant: Option<Mutant>) -> Refusable {
 
 fn fault(p: &Params, mutant: Option<Mutant>) -> Refusable {
     let config = fault::Config::new(p.time("t_f"))?;
-    let next = mutant.map_or(fault::next as fault::Next, Mutant::fault);
+    let next = chosen::<fault::Monitor>(mutant);
     Ok(Adapter::new(
         &[
             "power_on",
@@ -116,7 +116,7 @@ pub(super) fn stop_config(
 
 fn stop(p: &Params, mutant: Option<Mutant>) -> Refusable {
     let config = stop_config(p)?;
-    let next = mutant.map_or(stop::next as stop::Next, Mutant::stop);
+    let next = chosen::<stop::Monitor>(mutant);
     Ok(Adapter::new(
         &[
             "power_on",
@@ -194,7 +194,7 @@ fn stop(p: &Params, mutant: Option<Mutant>) -> Refusable {
 /// The table asks for one axis what two others do to it; the monitor is asked once for each, the higher answer counts.
 fn group(p: &Params, mutant: Option<Mutant>) -> Adapter {
     let esr = p.is("esr_active");
-    let next = mutant.map_or(group::next as group::Next, Mutant::group);
+    let next = chosen::<group::Monitor>(mutant);
     Adapter::stateless(
         &[
             "stop_1",
