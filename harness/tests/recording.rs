@@ -5,8 +5,9 @@ mod common;
 use std::sync::Arc;
 
 use serde_json::Value as Json;
+use stillpoint::families::sinumerik::vocabulary;
 use stillpoint::recording::csv::{self, Columns};
-use stillpoint::recording::{Recording, Role, Target, ndjson, vocabulary};
+use stillpoint::recording::{Recording, Role, Target, ndjson};
 use stillpoint::simulate::{self, Scenario};
 use stillpoint_spec::machine::{self, Machine};
 
@@ -122,12 +123,15 @@ fn the_functions_have_the_bits_of_the_family() {
             function["name"].as_str().expect("a name"),
             function["bit"].as_integer(),
         );
-        let found = stillpoint::production::FUNCTIONS
+        let found = stillpoint::families::sinumerik::production::FUNCTIONS
             .iter()
             .find(|(n, _)| *n == name);
         assert_eq!(found.map(|(_, bit)| i64::from(*bit)), bit, "{name}");
     }
-    assert_eq!(functions.len(), stillpoint::production::FUNCTIONS.len());
+    assert_eq!(
+        functions.len(),
+        stillpoint::families::sinumerik::production::FUNCTIONS.len()
+    );
 }
 
 fn diff(arguments: &[&str]) -> (i32, String, String) {

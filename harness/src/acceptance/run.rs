@@ -82,8 +82,8 @@ pub fn run(machine: &Machine, tests: &[&Test]) -> (Vec<Ran>, Vec<Unfit>) {
         let judged = simulation.judged.iter();
         let stops = simulation.stops.iter().map(|s| {
             format!(
-                "STOP {} of {} in cycle {} ({}): {}, over-travel {}",
-                s.letter, s.axis, s.cycle, s.channels, s.reason, s.travel_shown
+                "{} of {} in cycle {} ({}): {}, over-travel {}",
+                s.name, s.axis, s.cycle, s.channels, s.reason, s.travel_shown
             )
         });
         all.push(Ran {

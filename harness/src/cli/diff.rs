@@ -5,11 +5,12 @@ use std::time::Instant;
 
 use clap::Args;
 use stillpoint::diff::peer;
-use stillpoint::diff::replay;
 use stillpoint::diff::slices::slices;
 use stillpoint::diff::{Compared, DiffError, Pairing, exhaustive, pairings, sample, text, to_json};
+use stillpoint::families;
 use stillpoint::recording::csv::{self, Columns};
 use stillpoint::recording::{self, Target, ndjson};
+use stillpoint::replay;
 use stillpoint::simulate;
 use stillpoint::subject::{self, Readings};
 use stillpoint_model::{Limits, Options};
@@ -159,6 +160,7 @@ fn explore(
 /// Replays a recording.
 fn replay(arguments: &Arguments, trace: &Path) -> Result<u8, Failure> {
     let machine = machine::load(&arguments.file, &machine::families(&arguments.file))?;
+    families::of(&machine).map_err(Failure::Other)?;
     let signals = simulate::signals(&machine);
     let target = Target {
         machine: &machine.name,

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use stillpoint::families;
 use stillpoint::recording::{csv, ndjson};
 use stillpoint::simulate::{self, Scenario};
 use stillpoint_spec::machine;
@@ -37,7 +38,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let machine = machine::load(&arguments.file, &machine::families(&arguments.file))?;
     tell_data(Some(&machine));
     // Before the scenario: its messages name what this family alone has.
-    stillpoint::production::can_run(&machine).map_err(Failure::Other)?;
+    families::of(&machine).map_err(Failure::Other)?;
     let scenario = Scenario::load(&arguments.scenario, &machine)?;
     let simulation = simulate::run(&machine, &scenario).map_err(Failure::Other)?;
     let diagram = simulation.diagram();

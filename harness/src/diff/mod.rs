@@ -6,7 +6,6 @@ pub mod pairing;
 pub mod peer;
 pub mod product;
 pub mod random;
-pub mod replay;
 pub mod slices;
 
 use std::collections::BTreeMap;

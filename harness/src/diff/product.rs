@@ -227,7 +227,7 @@ impl<'a> Product<'a> {
     }
 
     /// What the table said in the last step, by the names of the monitor's outputs.
-    pub(super) fn said<'w>(&'w self, work: &'w Work) -> impl Iterator<Item = (&'static str, i64)> {
+    pub(crate) fn said<'w>(&'w self, work: &'w Work) -> impl Iterator<Item = (&'static str, i64)> {
         self.peer
             .outputs()
             .iter()

@@ -5,70 +5,34 @@
 //! inputs. The recording therefore does not tell what the tables said along the walk as if it were the machine's, but what
 //! the monitors say to the same signals. Each cycle of the walk is one monitoring cycle.
 
-use stillpoint_monitors::sinumerik::axis::{self, Local};
-use stillpoint_monitors::sinumerik::interface::Sge;
-use stillpoint_monitors::sinumerik::pair::{Config, Inputs, Pair};
 use stillpoint_spec::eval::UNSET;
-use stillpoint_spec::machine::{AxisKind, Machine};
+use stillpoint_spec::machine::Machine;
 
 use super::walk::Walk;
-use crate::production;
+use crate::families::{self, Drive, Feed, Owner, Rig};
 use crate::recording::{Kind, Recording, Role, Signal, Value, vocabulary};
 use crate::subject::Task;
-
-/// The inputs of the tables that are signals of a channel, with these signals, the lowest bit first.
-const KNOWN: [(&str, &[&str]); 21] = [
-    ("power_on", &["power_on"]),
-    ("reset", &["reset"]),
-    ("run_up", &["run_up"]),
-    ("spl_started", &["spl_started"]),
-    ("spl_error", &["spl_error"]),
-    ("a", &["SGE_EXT_STOP_A"]),
-    ("c", &["SGE_EXT_STOP_C"]),
-    ("d", &["SGE_EXT_STOP_D"]),
-    ("e", &["SGE_EXT_STOP_E"]),
-    ("sge_a", &["SGE_EXT_STOP_A"]),
-    ("sge_c", &["SGE_EXT_STOP_C"]),
-    ("sge_d", &["SGE_EXT_STOP_D"]),
-    ("sge_e", &["SGE_EXT_STOP_E"]),
-    ("sge_sbh_sg", &["SGE_SVSS_DISABLE"]),
-    ("sge_sbh", &["SGE_SS_DISABLE"]),
-    ("sg_select", &["SGE_VELO_SELECT_0", "SGE_VELO_SELECT_1"]),
-    (
-        "over",
-        &["SGE_OVR_0", "SGE_OVR_1", "SGE_OVR_2", "SGE_OVR_3"],
-    ),
-    ("se_select", &["SGE_POS_SELECT"]),
-    ("test_select", &["SGE_STOP_REQUEST"]),
-    ("test.select", &["SGE_STOP_REQUEST"]),
-    ("feedback", &["pulses_cancelled"]),
-];
-
-/// Signals that every recording tells.
-const ALWAYS: [&str; 4] = ["power_on", "run_up", "spl_started", vocabulary::POSITION];
 
 /// An input of the system and what it is to the channels.
 struct Fed {
     input: usize,
-    /// In which channels: NCK, drive.
+    /// In which channels.
     sides: [bool; 2],
-    signals: &'static [&'static str],
+    feed: &'static Feed,
 }
 
 /// What the inputs of a system are to the channels of an axis; empty where none is a signal.
-fn feeds(task: &Task) -> Vec<Fed> {
+fn feeds(drive: &dyn Drive, task: &Task) -> Vec<Fed> {
     let inputs = task.bound.system.inputs.iter().enumerate();
     let feeds = inputs.filter_map(|(input, var)| {
         let name = var.name.replace("[1]", "").replace("[2]", "");
         let short = name.rsplit('.').next().unwrap_or(&name);
-        let known = KNOWN
-            .iter()
-            .find(|(known, _)| *known == name || *known == short);
-        let (_, signals) = known?;
+        let mut known = drive.feeds().iter();
+        let feed = known.find(|known| known.table == name || known.table == short)?;
         Some(Fed {
             input,
             sides: [!var.name.contains("[2]"), !var.name.contains("[1]")],
-            signals,
+            feed,
         })
     });
     feeds.collect()
@@ -76,10 +40,10 @@ fn feeds(task: &Task) -> Vec<Fed> {
 
 /// Whether a walk through a system can be recorded: some of its inputs are signals that a user sets.
 pub fn recordable(machine: Option<&Machine>, task: &Task) -> bool {
-    let sets = |fed: &Fed| fed.signals[0].starts_with("SGE_");
-    machine.is_some_and(|m| m.family == production::FAMILY)
-        && !task.axes.is_empty()
-        && feeds(task).iter().any(sets)
+    let drive = machine.and_then(|machine| families::of(machine).ok());
+    drive.is_some_and(|drive| {
+        !task.axes.is_empty() && feeds(drive, task).iter().any(|fed| fed.feed.user)
+    })
 }
 
 /// Records a walk.
@@ -93,81 +57,75 @@ pub fn recording(machine: Option<&Machine>, task: &Task, walk: &Walk) -> Result<
                 .to_owned(),
         );
     };
-    let produced = production::axes(machine)?;
+    let drive = families::of(machine)?;
+    drive.accepts(machine)?;
     let axis = task.axes.first().map_or("", String::as_str);
     let Some(place) = machine.axes.iter().position(|a| a.name == axis) else {
         return Err(format!("the machine has no axis {axis}"));
     };
-    let feeds = feeds(task);
-    let told = |input: &vocabulary::Input| {
-        ALWAYS.contains(&input.name) || feeds.iter().any(|fed| fed.signals.contains(&input.name))
+    let mut owners = drive.owners(machine);
+    let owner = owners.swap_remove(place);
+    let words = drive.words();
+    let feeds = feeds(drive, task);
+    let told = |name: &str| {
+        name == vocabulary::POSITION
+            || words.told.contains(&name)
+            || feeds.iter().any(|fed| fed.feed.signals.contains(&name))
     };
-    let inputs: Vec<vocabulary::Input> = vocabulary::inputs().into_iter().filter(told).collect();
-    let outputs = vocabulary::outputs();
+    let inputs: Vec<usize> = (0..owner.inputs.len())
+        .filter(|k| told(owner.inputs[*k].name))
+        .collect();
     let mut recording = Recording {
         machine: machine.name.clone(),
         cycle_us: u64::try_from(machine.monitoring_cycle).unwrap_or(1).max(1),
         first: 0,
-        signals: signals(machine, place, task, (&inputs, &outputs)),
+        signals: signals(&owner, words.channels, task, &inputs),
         rows: Vec::new(),
     };
-    let mut pair = Pair::new(Config::new(produced[place].configuration));
-    let rest = Local {
-        run_up: true,
-        spl_started: true,
-        sge: Sge::UNUSED,
-        ..Local::default()
-    };
-    let mut seen = Inputs::both(rest);
-    for (row, cycle) in walk.cycles.iter().enumerate() {
-        for local in [&mut seen.nck, &mut seen.drive] {
-            local.reset = false;
-            // Every recording begins with power-on.
-            local.power_on = row == 0;
-        }
-        for fed in &feeds {
-            let value = cycle.frame.inputs.get(fed.input).copied();
-            let Some(value) = value.filter(|v| *v != UNSET) else {
-                continue;
-            };
-            for (side, local) in [&mut seen.nck, &mut seen.drive].into_iter().enumerate() {
-                for (bit, name) in fed.signals.iter().enumerate() {
-                    let on = value >> bit & 1 == 1 || (row == 0 && *name == "power_on");
-                    let input = inputs.iter().find(|i| i.name == *name && fed.sides[side]);
-                    // All of them are flags.
-                    let _ = input.is_none_or(|i| i.set(local, &Value::Bool(on)));
+    drive.play(machine, place, false, &mut |rig| {
+        let mut last: Vec<Option<i32>> = vec![None; feeds.len()];
+        for (row, cycle) in walk.cycles.iter().enumerate() {
+            rig.rest(row == 0);
+            for (fed, last) in feeds.iter().zip(&mut last) {
+                let value = cycle.frame.inputs.get(fed.input).copied();
+                let value = value.filter(|v| *v != UNSET);
+                if !fed.feed.pulse {
+                    *last = value.or(*last);
+                }
+                if let Some(value) = value.or(*last) {
+                    give(rig, &owner, fed, value);
                 }
             }
+            rig.step();
+            let mut values = walked(task, walk, row);
+            for side in 0..2 {
+                values.extend(inputs.iter().map(|k| Some(rig.get(side, *k))));
+                values.extend((0..owner.outputs.len()).map(|k| Some(rig.output(side, k))));
+            }
+            recording.rows.push(values);
         }
-        let said = pair.step(&seen);
-        let mut values: Vec<Option<Value>> = walked(task, walk, row);
-        for (side, local, out) in [(0, &seen.nck, &said.nck), (1, &seen.drive, &said.drive)] {
-            values.extend(inputs.iter().map(|input| Some(input.get(local))));
-            values.extend(told_by(&outputs, side, local, out));
-        }
-        recording.rows.push(values);
-    }
+    })?;
     Ok(recording)
 }
 
-fn told_by<'a>(
-    outputs: &'a [vocabulary::Output],
-    side: usize,
-    local: &'a Local,
-    said: &'a axis::Outputs,
-) -> impl Iterator<Item = Option<Value>> + 'a {
-    outputs
-        .iter()
-        .map(move |output| Some(output.get(side, local, said)))
+/// Gives the value of an input to the signals that it is. A pulse that comes at rest stays: every recording begins with
+/// power-on.
+fn give(rig: &mut dyn Rig, owner: &Owner, fed: &Fed, value: i32) {
+    for side in (0..2).filter(|side| fed.sides[*side]) {
+        for (bit, name) in fed.feed.signals.iter().enumerate() {
+            let Some(input) = owner.inputs.iter().position(|i| i.name == *name) else {
+                continue;
+            };
+            let stays = fed.feed.pulse && rig.get(side, input) == Value::Bool(true);
+            let on = value >> bit & 1 == 1 || stays;
+            // All of them are flags.
+            let _ = rig.set(side, input, &Value::Bool(on));
+        }
+    }
 }
 
 /// The signals: the state of the walk, then of each channel what it sees and says.
-fn signals(
-    machine: &Machine,
-    place: usize,
-    task: &Task,
-    (inputs, outputs): (&[vocabulary::Input], &[vocabulary::Output]),
-) -> Vec<Signal> {
+fn signals(owner: &Owner, channels: [&str; 2], task: &Task, inputs: &[usize]) -> Vec<Signal> {
     let states = task.bound.system.states.iter();
     let mut all: Vec<Signal> = states
         .map(|state| Signal {
@@ -177,25 +135,10 @@ fn signals(
             role: Role::Plant,
         })
         .collect();
-    let axis = &machine.axes[place];
-    let rotary = axis.kind == AxisKind::Rotary;
-    for channel in vocabulary::CHANNELS {
-        let signal = |name: &str, kind, unit: vocabulary::Unit, role| Signal {
-            name: format!("{}.{channel}.{name}", axis.name),
-            kind,
-            unit: unit.text(rotary).to_owned(),
-            role,
-        };
-        all.extend(
-            inputs
-                .iter()
-                .map(|i| signal(i.name, i.kind, i.unit, Role::Input)),
-        );
-        all.extend(
-            outputs
-                .iter()
-                .map(|o| signal(o.name, o.kind, o.unit, Role::Output)),
-        );
+    for channel in channels {
+        let signals = owner.signals(channel).into_iter().enumerate();
+        let told = signals.filter(|(k, s)| s.role == Role::Output || inputs.contains(k));
+        all.extend(told.map(|(_, signal)| signal));
     }
     all
 }

@@ -7,26 +7,20 @@
 //! Everything is an integer; equal files give equal results on every machine. What is simulated is the axis and the
 //! encoders; what answers are the monitors of `stillpoint-monitors` as they would be embedded.
 
-mod axes;
-mod door;
 mod file;
-mod plant;
 mod resolve;
 mod run;
 mod scenario;
 mod show;
 mod summary;
 
-pub use plant::{Drive, Mechanics, Plant, Setpoint};
 pub use run::run;
-pub use scenario::{
-    Condition, DoorChange, Event, Expect, ExternalLetter, Fault, Is, Scenario, Selection, Start,
-    What,
-};
+pub use scenario::{Condition, DoorChange, Event, Expect, Is, Scenario, Start, What};
 pub use summary::{Judged, Simulation, Stop};
 
 use stillpoint_spec::machine::{AxisKind, Machine};
 
+use crate::families;
 use crate::recording::{Kind, Role, Signal, vocabulary};
 
 /// Signals of the axis itself, with what is told of each cycle.
@@ -54,34 +48,20 @@ pub fn signals(machine: &Machine) -> Vec<Signal> {
             })
         })
         .collect();
-    for axis in &machine.axes {
-        let rotary = axis.kind == AxisKind::Rotary;
-        all.extend(OF_AXIS.iter().map(|(name, kind, linear, turning)| Signal {
-            name: format!("{}.{name}", axis.name),
-            kind: *kind,
-            unit: (if rotary { turning } else { linear }).to_string(),
-            role: Role::Plant,
-        }));
-        for channel in vocabulary::CHANNELS {
-            let signal = |name: &str, kind, unit: vocabulary::Unit, role| Signal {
-                name: format!("{}.{channel}.{name}", axis.name),
-                kind,
-                unit: unit.text(rotary).to_owned(),
-                role,
-            };
-            let inputs = vocabulary::inputs();
-            all.extend(
-                inputs
-                    .iter()
-                    .map(|i| signal(i.name, i.kind, i.unit, Role::Input)),
-            );
-            let outputs = vocabulary::outputs();
-            all.extend(
-                outputs
-                    .iter()
-                    .map(|o| signal(o.name, o.kind, o.unit, Role::Output)),
-            );
+    let drive = families::of(machine).ok();
+    let owners = drive.map_or_else(Vec::new, |drive| drive.owners(machine));
+    let channels = drive.map_or(["", ""], |drive| drive.words().channels);
+    for owner in owners {
+        if let Some(kind) = owner.axis {
+            let rotary = kind == AxisKind::Rotary;
+            all.extend(OF_AXIS.iter().map(|(name, kind, linear, turning)| Signal {
+                name: format!("{}.{name}", owner.name),
+                kind: *kind,
+                unit: (if rotary { turning } else { linear }).to_string(),
+                role: Role::Plant,
+            }));
         }
+        all.extend(channels.iter().flat_map(|channel| owner.signals(channel)));
     }
     all
 }

@@ -1,6 +1,6 @@
 //! What a scenario asks for, resolved: cycles instead of times, increments instead of lengths, axes by their place.
 
-use super::plant::Mechanics;
+use crate::plant::{Fault, Mechanics, Setpoint};
 use crate::recording::Value;
 
 /// A scenario for one machine.
@@ -38,7 +38,7 @@ pub struct Start {
 pub struct Event {
     /// When.
     pub cycle: u32,
-    /// To which axes, by their place in the machine; none for what happens to a door.
+    /// To which axes, by their place in the machine, or to which other owners of signals; none for what happens to a door.
     pub axes: Vec<usize>,
     /// In which channels.
     pub sides: [bool; 2],
@@ -46,26 +46,15 @@ pub struct Event {
     pub what: What,
 }
 
-/// What the safety logic selects.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Selection {
-    /// Neither operating stop nor speed stage.
-    Nothing,
-    /// The operating stop.
-    Standstill,
-    /// A speed stage, 0 to 3 for SG1 to SG4.
-    Stage(u8),
-}
-
 /// What happens.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum What {
     /// A new setpoint: thousandths of an increment per cycle, and perhaps a target.
-    Motion(super::plant::Setpoint),
-    /// Operating stop or speed stage.
-    Select(Selection),
-    /// The second pair of limit switches instead of the first one.
-    Limits(bool),
+    Motion(Setpoint),
+    /// The mode selects something else, by the place among the words of the family; none: nothing.
+    Select(Option<usize>),
+    /// Another pair of limit positions, by its place.
+    Limits(usize),
     /// A door, by its place in the machine.
     Door {
         /// Which.
@@ -73,16 +62,16 @@ pub enum What {
         /// What of it.
         change: DoorChange,
     },
-    /// An input keeps a value whatever else happens: the signal by its place in the vocabulary.
+    /// An input keeps a value whatever else happens: the signal by its place among those of its owner.
     Force {
         /// Which input.
         input: usize,
         /// Its value; none: it is released again.
         value: Option<bool>,
     },
-    /// A stop asked for by the safety logic; none: it is withdrawn.
-    Stop(Option<ExternalLetter>),
-    /// NC-RESET.
+    /// A stop asked for by the safety logic, by its place; none: it is withdrawn.
+    Stop(Option<usize>),
+    /// Acknowledgement.
     Reset,
     /// Off and on again; run up so many cycles later.
     Power(u32),
@@ -108,35 +97,6 @@ pub enum DoorChange {
     Asked(bool),
     /// It is opened or closed.
     Open(bool),
-}
-
-/// The stops that the safety logic can ask for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ExternalLetter {
-    /// STOP A.
-    A,
-    /// STOP C.
-    C,
-    /// STOP D.
-    D,
-    /// STOP E.
-    E,
-}
-
-/// What is wrong with the encoder of a channel or with the drive.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Fault {
-    /// Nothing.
-    #[default]
-    None,
-    /// The position of the channel stays what it was.
-    Freeze,
-    /// The position of the channel is too large by that many increments.
-    Offset(i32),
-    /// The encoder of the channel slips: so many thousandths of an increment more in each cycle. What it has slipped stays.
-    Slip(i64),
-    /// The drive goes on following its setpoint, whatever stop is in force, as long as it has torque.
-    NoBraking,
 }
 
 /// What has to come of a scenario.

@@ -10,17 +10,6 @@ use super::summary::{Shown, Simulation, numbers};
 use crate::recording::{Kind, Value, vocabulary};
 use crate::report::counted;
 
-/// What is shown of each channel, where it changes: both channels in one lane while they agree.
-const OF_CHANNEL: [&str; 7] = [
-    "stop",
-    "mode",
-    "Safety.SLS.SelectionState",
-    "Safety.SLP.ActivationState",
-    "axis_state",
-    "user_agreement",
-    "fault",
-];
-
 impl Simulation {
     /// Whether everything expected holds.
     pub fn holds(&self) -> bool {
@@ -51,7 +40,7 @@ impl Simulation {
                 .any(|p: &Panel| p.name == format!("speed of {name}"))
         };
         for stop in self.stops.iter().filter(|stop| shown(&stop.axis)) {
-            let text = format!("{}: STOP {}, {}", stop.axis, stop.letter, stop.reason);
+            let text = format!("{}: {}, {}", stop.axis, stop.name, stop.reason);
             let column = usize::try_from(stop.cycle).unwrap_or(usize::MAX);
             marks.push(Mark {
                 column,
@@ -110,15 +99,20 @@ impl Simulation {
             .collect()
     }
 
-    /// Whether `axis.nck.name` has this value, by cycle.
+    /// Whether a signal of the axis has this value in the first channel, by cycle.
     fn whether(&self, axis: &Shown, name: &str, test: impl Fn(&str) -> bool) -> Vec<bool> {
-        let signal = self.recording.find(&format!("{}.nck.{name}", axis.name));
+        let signal = self.recording.find(&self.first(axis, name));
         let rows = self.recording.rows.iter();
         rows.map(|row| match signal.and_then(|s| row.get(s)) {
             Some(Some(Value::Text(text))) => test(text),
             _ => false,
         })
         .collect()
+    }
+
+    /// The full name of a signal in the first channel.
+    fn first(&self, axis: &Shown, name: &str) -> String {
+        format!("{}.{}.{name}", axis.name, self.words.channels[0])
     }
 
     fn speed(&self, axis: &Shown) -> Panel {
@@ -133,7 +127,8 @@ impl Simulation {
         let backwards = actual.iter().flatten().any(|v| *v < 0.0);
         let forwards = actual.iter().flatten().any(|v| *v > 0.0) || !backwards;
         let watched = self.whether(axis, "Safety.SLS.ActivationState", |s| s != "NONE");
-        let limit = self.curve(axis, "nck.Safety.SLS.Limit", factor * 1e3);
+        let [first, _] = self.words.channels;
+        let limit = self.curve(axis, &format!("{first}.Safety.SLS.Limit"), factor * 1e3);
         let limited = |sign: f64| -> Vec<Option<f64>> {
             let both = limit.iter().zip(&watched);
             both.map(|(v, on)| v.filter(|_| *on).map(|v| v * sign))
@@ -153,10 +148,10 @@ impl Simulation {
         ];
         let mut add = |name, role, values| add(&mut curves, name, role, values);
         if forwards {
-            add("SG limit", Role::Upper, limited(1.0));
+            add(self.words.curves[0], Role::Upper, limited(1.0));
         }
         if backwards {
-            add("SG backwards", Role::Lower, limited(-1.0));
+            add(self.words.curves[1], Role::Lower, limited(-1.0));
         }
         Panel {
             name: format!("speed of {}", axis.name),
@@ -177,7 +172,7 @@ impl Simulation {
             values: actual.clone(),
         }];
         // What a channel sees is shown where it is another position: a fault of an encoder.
-        for channel in vocabulary::CHANNELS {
+        for channel in self.words.channels {
             let seen = self.curve(axis, &format!("{channel}.{}", vocabulary::POSITION), 1e-3);
             let differs = seen.iter().zip(&actual).any(|(a, b)| match (a, b) {
                 (Some(a), Some(b)) => (a - b).abs() > 0.0015,
@@ -192,27 +187,25 @@ impl Simulation {
                 });
             }
         }
+        let [first, _] = self.words.channels;
         let standing = self.whether(axis, "Safety.SOS.ActivationState", |s| s != "NONE");
-        let reference = self.curve(axis, "nck.standstill_reference", 1e-3);
+        let reference = self.curve(axis, &format!("{first}.standstill_reference"), 1e-3);
         let window = |sign: f64| -> Vec<Option<f64>> {
-            let tolerance = axis.standstill_tol as f64 * 1e-3 * sign;
+            let tolerance = axis.windows.standstill as f64 * 1e-3 * sign;
             let both = reference.iter().zip(&standing);
             both.map(|(v, on)| v.filter(|_| *on).map(|v| v + tolerance))
                 .collect()
         };
         let mut add = |name, role, values| add(&mut curves, name, role, values);
-        add("SBH upper end", Role::Upper, window(1.0));
-        add("SBH lower end", Role::Lower, window(-1.0));
-        add(
-            "SE upper end",
-            Role::Upper,
-            self.limit(axis, axis.plus, &actual),
-        );
-        add(
-            "SE lower end",
-            Role::Lower,
-            self.limit(axis, axis.minus, &actual),
-        );
+        let [.., still, limits] = self.words.curves;
+        let ends = |name: &str| ["upper", "lower"].map(|end| format!("{name} {end} end"));
+        let [upper, lower] = ends(still);
+        add(&upper, Role::Upper, window(1.0));
+        add(&lower, Role::Lower, window(-1.0));
+        let [upper, lower] = ends(limits);
+        let limit = |pair| self.limit(axis, pair, &actual);
+        add(&upper, Role::Upper, limit(axis.windows.plus));
+        add(&lower, Role::Lower, limit(axis.windows.minus));
         Panel {
             name: format!("position of {}", axis.name),
             unit: unit.to_owned(),
@@ -246,8 +239,8 @@ impl Simulation {
 
     /// Inputs that the channels see differently, what the channels say where it changes, and what the drive does.
     fn lanes(&self, axis: &Shown, lanes: &mut Vec<Lane>) {
-        for event in ["power_on", "referenced", "set_agreement", "reset"] {
-            let name = format!("{}.nck.{event}", axis.name);
+        for event in self.words.events {
+            let name = self.first(axis, event);
             // Power-on in the first cycle only is where every recording begins.
             let later = self.recording.find(&name).is_some_and(|signal| {
                 let mut values = self.recording.column(signal).skip(1);
@@ -257,24 +250,24 @@ impl Simulation {
                 lanes.extend(self.lane(&axis.name, event, &[&name]));
             }
         }
-        for input in vocabulary::inputs().iter().filter(|i| i.kind == Kind::Bool) {
-            let names = vocabulary::CHANNELS.map(|c| format!("{}.{c}.{}", axis.name, input.name));
-            let [nck, drive] = &names;
-            if self.differ(nck, drive) {
-                for (channel, name) in vocabulary::CHANNELS.iter().zip([nck, drive]) {
-                    let shown = format!("{} {channel}", input.name);
+        let channels = self.words.channels;
+        let both = |name: &str| channels.map(|c| format!("{}.{c}.{name}", axis.name));
+        for input in &axis.flags {
+            let [first, second] = &both(input);
+            if self.differ(first, second) {
+                for (channel, name) in channels.iter().zip([first, second]) {
+                    let shown = format!("{input} {channel}");
                     lanes.extend(self.lane(&axis.name, &shown, &[name]));
                 }
             }
         }
-        for name in OF_CHANNEL {
-            let names = vocabulary::CHANNELS.map(|c| format!("{}.{c}.{name}", axis.name));
-            let [nck, drive] = &names;
+        for name in self.words.lanes {
+            let [first, second] = &both(name);
             let short = name
                 .trim_start_matches("Safety.")
                 .replace(".SelectionState", "")
                 .replace(".ActivationState", "");
-            lanes.extend(self.lane(&axis.name, &short, &[nck, drive]));
+            lanes.extend(self.lane(&axis.name, &short, &[first, second]));
         }
         let name = format!("{}.drive", axis.name);
         lanes.extend(self.lane(&axis.name, "drive does", &[&name]));
@@ -343,9 +336,9 @@ impl Simulation {
             };
             let _ = writeln!(
                 out,
-                "{} STOP {} in cycle {} ({}), {}: {}; {stands}",
+                "{} {} in cycle {} ({}), {}: {}; {stands}",
                 stop.axis,
-                stop.letter,
+                stop.name,
                 stop.cycle,
                 time(stop.cycle * cycle),
                 stop.channels,
@@ -380,7 +373,6 @@ impl Simulation {
     }
 }
 
-/// A value as it stands in a lane.
 /// Adds a curve, where it has any value.
 fn add(curves: &mut Vec<Curve>, name: &str, role: Role, values: Vec<Option<f64>>) {
     if values.iter().any(Option::is_some) {
@@ -392,6 +384,7 @@ fn add(curves: &mut Vec<Curve>, name: &str, role: Role, values: Vec<Option<f64>>
     }
 }
 
+/// A value as it stands in a lane.
 fn short(value: &Value) -> String {
     match value {
         Value::Text(text) => {

@@ -4,11 +4,11 @@ use stillpoint_spec::machine::units::Dimension;
 use stillpoint_spec::machine::{Axis, AxisKind, Machine};
 
 use super::scenario::{Expect, Scenario};
-use crate::production::Produced;
-use crate::recording::{Recording, Value, vocabulary};
+use crate::families::{Drive, Said, Windows, Words};
+use crate::recording::{Kind, Recording, Value, vocabulary};
 
 /// A finished simulation.
-#[derive(Debug, Clone)]
+#[derive(Clone)]
 pub struct Simulation {
     /// What it shows.
     pub title: String,
@@ -22,16 +22,18 @@ pub struct Simulation {
     pub roundings: Vec<String>,
     /// The axes, as the machine has them.
     pub(super) axes: Vec<Shown>,
+    /// What its family calls things.
+    pub(super) words: &'static Words,
 }
 
 /// An axis as it is shown.
-#[derive(Debug, Clone)]
+#[derive(Clone)]
 pub(super) struct Shown {
     pub name: String,
     pub kind: AxisKind,
-    pub standstill_tol: i64,
-    pub plus: [i32; 2],
-    pub minus: [i32; 2],
+    pub windows: Windows,
+    /// Inputs that are true or false.
+    pub flags: Vec<&'static str>,
 }
 
 /// A stop of an axis.
@@ -39,11 +41,11 @@ pub(super) struct Shown {
 pub struct Stop {
     /// The axis.
     pub axis: String,
-    /// `A` to `F`, or `TEST`.
-    pub letter: String,
+    /// Its name: `STOP A`, `SS1`.
+    pub name: String,
     /// The cycle in which it took effect in the first channel.
     pub cycle: u64,
-    /// The channels in which it took effect in that cycle: `nck`, `drive` or `nck and drive`.
+    /// The channels in which it took effect in that cycle: one, or both with `and` between.
     pub channels: String,
     /// Why, in words.
     pub reason: String,
@@ -71,14 +73,14 @@ pub struct Judged {
 
 pub(super) fn summarise(
     machine: &Machine,
+    drive: &'static dyn Drive,
     scenario: &Scenario,
     recording: Recording,
-    produced: &[Produced],
 ) -> Simulation {
     let mut stops: Vec<Stop> = machine
         .axes
         .iter()
-        .flat_map(|axis| stops_of(axis, &recording))
+        .flat_map(|axis| stops_of(drive, axis, &recording))
         .collect();
     stops.sort_by_key(|stop| stop.cycle);
     let judged = scenario
@@ -86,23 +88,23 @@ pub(super) fn summarise(
         .iter()
         .map(|e| judge(e, &recording))
         .collect();
-    let axes = machine
-        .axes
-        .iter()
-        .zip(produced)
-        .map(|(axis, produced)| Shown {
+    let axes = machine.axes.iter().zip(drive.owners(machine));
+    let axes = axes.map(|(axis, owner)| {
+        let flags = owner.inputs.iter().filter(|i| i.kind == Kind::Bool);
+        Shown {
             name: axis.name.clone(),
             kind: axis.kind,
-            standstill_tol: i64::from(produced.parameters.standstill_tol),
-            plus: produced.parameters.pos_limit_plus,
-            minus: produced.parameters.pos_limit_minus,
-        });
+            windows: drive.windows(axis),
+            flags: flags.map(|i| i.name).collect(),
+        }
+    });
     Simulation {
         title: scenario.title.clone(),
         stops,
         judged,
         roundings: scenario.roundings.clone(),
         axes: axes.collect(),
+        words: drive.words(),
         recording,
     }
 }
@@ -131,22 +133,17 @@ pub(super) fn numbers(recording: &Recording, name: &str) -> Vec<i64> {
     recording.column(signal).map(number).collect()
 }
 
-/// Stops in rising order; a position is a rank.
-const LETTERS: [&str; 8] = ["NONE", "F", "E", "D", "C", "TEST", "B", "A"];
-
-fn rank(letter: &str) -> usize {
-    LETTERS.iter().position(|l| *l == letter).unwrap_or(0)
-}
-
-fn stops_of(axis: &Axis, recording: &Recording) -> Vec<Stop> {
+fn stops_of(drive: &dyn Drive, axis: &Axis, recording: &Recording) -> Vec<Stop> {
+    let words = drive.words();
+    let rank = |letter: &str| words.stops.iter().position(|l| *l == letter).unwrap_or(0);
     let channel =
         |channel: &str, name: &str| texts(recording, &format!("{}.{channel}.{name}", axis.name));
-    let [nck, drive] = vocabulary::CHANNELS.map(|c| channel(c, "stop"));
+    let [first, second] = words.channels.map(|c| channel(c, vocabulary::STOP));
     let plant = |name: &str| numbers(recording, &format!("{}.{name}", axis.name));
     let (positions, speeds) = (plant(vocabulary::POSITION), plant(vocabulary::VELOCITY));
-    let higher = |k: usize| match rank(nck[k]) >= rank(drive[k]) {
-        true => nck[k],
-        false => drive[k],
+    let higher = |k: usize| match rank(first[k]) >= rank(second[k]) {
+        true => first[k],
+        false => second[k],
     };
     let changes: Vec<usize> = (0..recording.rows.len())
         .filter(|k| rank(higher(*k)) > 0 && (*k == 0 || higher(*k) != higher(k - 1)))
@@ -173,23 +170,30 @@ fn stops_of(axis: &Axis, recording: &Recording) -> Vec<Stop> {
             .map(|p| (p - positions[row]).abs())
             .max();
         let travel = travel.unwrap_or(0);
-        let told = [nck[row] == letter, drive[row] == letter];
-        let channels: Vec<&str> = vocabulary::CHANNELS
+        let told = [first[row] == letter, second[row] == letter];
+        let channels: Vec<&str> = words
+            .channels
             .into_iter()
             .zip(told)
             .filter_map(|(name, here)| here.then_some(name))
             .collect();
         out.push(Stop {
             axis: axis.name.clone(),
-            letter: letter.to_owned(),
+            name: format!("{}{letter}", words.stop),
             cycle: recording.cycle(row),
             channels: channels.join(" and "),
-            reason: reason(
-                recording,
-                &axis.name,
-                channels.first().unwrap_or(&"nck"),
-                row,
-            ),
+            reason: drive.reason(&Said {
+                side: usize::from(!told[0]),
+                value: &|name, before| {
+                    let side = words.channels[usize::from(!told[0])];
+                    let signal = recording.find(&format!("{}.{side}.{name}", axis.name))?;
+                    recording
+                        .rows
+                        .get(row.checked_sub(before)?)?
+                        .get(signal)?
+                        .clone()
+                },
+            }),
             speed: speeds[row],
             stands: stands.map(|k| recording.cycle(k)),
             travel,
@@ -206,57 +210,6 @@ fn length(thousandths: i64, kind: AxisKind) -> String {
         AxisKind::Linear => Dimension::Length.show(increments),
         AxisKind::Rotary => Dimension::Angle.show(increments),
     }
-}
-
-/// Why a channel stops: the first cause that its outputs name.
-fn reason(recording: &Recording, axis: &str, channel: &str, row: usize) -> String {
-    let value = |name: &str| {
-        let signal = recording.find(&format!("{axis}.{channel}.{name}"))?;
-        recording.rows.get(row)?.get(signal)?.clone()
-    };
-    let text = |name: &str| match value(name) {
-        Some(Value::Text(text)) => text.into_owned(),
-        _ => String::new(),
-    };
-    let stop = text("stop");
-    let alarms = text("alarms");
-    let alarm = |number: &str| alarms.split(' ').any(|a| a == number);
-    let of = |nck: &str, drive: &str, words: &str| {
-        let number = if channel == "nck" { nck } else { drive };
-        alarm(number).then(|| format!("{words} (alarm {number})"))
-    };
-    let code = match value("fault_code") {
-        Some(Value::Int(code)) if code > 0 => format!(", code {code}"),
-        _ => String::new(),
-    };
-    let found = match stop.as_str() {
-        "F" => of("27001", "300911", &format!("cross comparison{code}")),
-        "TEST" => Some("test of the shutdown path".to_owned()),
-        "B" if text("stop_phase") == "B_BRAKING" && !alarm("27010") && !alarm("300907") => {
-            matches!(value("fault"), Some(Value::Bool(true)))
-                .then(|| "the delay after STOP F has passed".to_owned())
-        }
-        _ => None,
-    };
-    found
-        .or_else(|| of("27013", "300906", "braking ramp exceeded"))
-        .or_else(|| of("27010", "300907", "standstill tolerance exceeded"))
-        .or_else(|| of("27011", "300914", "speed limit exceeded"))
-        .or_else(|| of("27012", "300915", "limit position passed"))
-        .or_else(|| of("27001", "300911", &format!("cross comparison{code}")))
-        .or_else(|| {
-            let started = value("spl_started") != Some(Value::Bool(false));
-            (!started && stop == "A").then(|| "the safe logic has not been started".to_owned())
-        })
-        .or_else(|| (text("stop_external") == stop).then(|| "asked for by a signal".to_owned()))
-        .or_else(|| {
-            let before = row.checked_sub(1)?;
-            let signal = recording.find(&format!("{axis}.{channel}.stop"))?;
-            let earlier = recording.rows.get(before)?.get(signal)?.clone()?;
-            (stop == "A" && earlier == Value::Text("B".into()))
-                .then(|| "STOP B has ended".to_owned())
-        })
-        .unwrap_or_else(|| "told by the other channel".to_owned())
 }
 
 fn judge(expect: &Expect, recording: &Recording) -> Judged {

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use stillpoint::production;
+use stillpoint::families::sinumerik::production;
 use stillpoint_monitors::kernel::Cycles;
 use stillpoint_monitors::sinumerik::axis::Local;
 use stillpoint_monitors::sinumerik::level::Level;

@@ -1,10 +1,12 @@
 //! What the machine and its user do.
 
 use super::{BOTH, Resolver, Round};
-use crate::recording::{Kind, vocabulary};
-use crate::simulate::file::{self, File, Text};
-use crate::simulate::plant::Setpoint;
-use crate::simulate::scenario::{DoorChange, Event, ExternalLetter, Selection, What};
+use toml::Spanned;
+
+use crate::plant::Setpoint;
+use crate::recording::Kind;
+use crate::simulate::file::{self, File, Names, Text};
+use crate::simulate::scenario::{DoorChange, Event, What};
 
 impl Resolver<'_> {
     pub(super) fn motions(&mut self, list: &[file::Motion], events: &mut Vec<Event>) {
@@ -34,40 +36,33 @@ impl Resolver<'_> {
         for select in list {
             let cycle = self.at(&select.at);
             let named = select.axis.as_ref();
+            let (selections, selects) = self.drive.words().selections;
+            let (pairs, limited) = self.drive.words().limits;
             let axes = match (&select.function, &select.limits) {
-                (Some(_), None) => self.axes_with(named, "SBH/SG"),
-                (None, Some(_)) => self.axes_with(named, "SE"),
+                (Some(_), None) => self.axes_with(named, selects),
+                (None, Some(_)) => self.axes_with(named, limited),
                 _ => self.axes(named),
             };
             let mut whats = Vec::new();
             if let Some(function) = &select.function {
-                let found = match function.get_ref().as_str() {
-                    "none" => Some(Selection::Nothing),
-                    "SBH" => Some(Selection::Standstill),
-                    "SG1" => Some(Selection::Stage(0)),
-                    "SG2" => Some(Selection::Stage(1)),
-                    "SG3" => Some(Selection::Stage(2)),
-                    "SG4" => Some(Selection::Stage(3)),
-                    _ => None,
-                };
-                match found {
-                    Some(selection) => whats.push(What::Select(selection)),
-                    None => self.no_such(
-                        function,
-                        "function to select",
-                        &["SBH", "SG1", "SG2", "SG3", "SG4", "none"],
-                    ),
-                }
+                let found = self.one_of(function, selections, "function to select");
+                whats.extend(found.map(What::Select));
             }
             if let Some(limits) = &select.limits {
-                match limits.get_ref().as_str() {
-                    "SE1" => whats.push(What::Limits(false)),
-                    "SE2" => whats.push(What::Limits(true)),
-                    _ => self.no_such(limits, "pair of limit switches", &["SE1", "SE2"]),
+                match pairs.iter().position(|name| name == limits.get_ref()) {
+                    Some(pair) => whats.push(What::Limits(pair)),
+                    None => self.no_such(limits, "pair of limit switches", pairs),
                 }
             }
             if select.function.is_none() && select.limits.is_none() {
-                let help = "add function = \"SG1\" or limits = \"SE2\"".to_owned();
+                let last = |list: &[&'static str]| list.last().copied().unwrap_or("");
+                let help = match last(pairs) {
+                    "" => format!("add function = \"{}\"", selections[1]),
+                    pair => format!(
+                        "add function = \"{}\" or limits = \"{pair}\"",
+                        selections[1]
+                    ),
+                };
                 let message = "nothing is selected here".to_owned();
                 self.add(select.at.span(), message, "this selection", help);
             }
@@ -115,33 +110,66 @@ impl Resolver<'_> {
         }
     }
 
-    /// An input of a channel that is true or false.
-    pub(super) fn input(&mut self, text: &Text) -> Option<usize> {
-        let all = vocabulary::inputs();
-        let found = all
-            .iter()
-            .position(|i| i.name == text.get_ref() && i.kind == Kind::Bool);
-        if found.is_none() {
-            let known: Vec<&str> = all
-                .iter()
-                .filter(|i| i.kind == Kind::Bool)
-                .map(|i| i.name)
-                .collect();
-            self.no_such(text, "signal that a channel reads", &known);
+    /// The place of a name in a list, or `none`.
+    fn one_of(&mut self, text: &Text, list: &[&str], noun: &str) -> Option<Option<usize>> {
+        let place = list.iter().position(|name| name == text.get_ref());
+        if place.is_some() || text.get_ref() == "none" {
+            return Some(place);
         }
-        found
+        let known: Vec<&str> = list.iter().copied().chain(["none"]).collect();
+        self.no_such(text, noun, &known);
+        None
+    }
+
+    /// An input of a channel that is true or false, with its owners: the axes named, or what else has it.
+    pub(super) fn input(
+        &mut self,
+        text: &Text,
+        axes: Option<&Spanned<Names>>,
+    ) -> Option<(Vec<usize>, usize)> {
+        let place = |owner: &crate::families::Owner| {
+            let mut inputs = owner.inputs.iter();
+            inputs.position(|i| i.name == text.get_ref() && i.kind == Kind::Bool)
+        };
+        let owner = self.owners.iter().position(|owner| place(owner).is_some());
+        let Some(owner) = owner else {
+            let mut known: Vec<&str> = Vec::new();
+            for owner in &self.owners {
+                let flags = owner.inputs.iter().filter(|i| i.kind == Kind::Bool);
+                let new: Vec<&str> = flags
+                    .map(|i| i.name)
+                    .filter(|n| !known.contains(n))
+                    .collect();
+                known.extend(new);
+            }
+            self.no_such(text, "signal that a channel reads", &known);
+            return None;
+        };
+        let input = place(&self.owners[owner])?;
+        if self.owners[owner].axis.is_some() {
+            return Some((self.axes(axes), input));
+        }
+        if let Some(axes) = axes {
+            let message = format!("{} is no signal of an axis", text.get_ref());
+            self.add(axes.span(), message, "not used", "remove axis".to_owned());
+        }
+        Some((vec![owner], input))
     }
 
     pub(super) fn signals(&mut self, list: &[file::Signal], events: &mut Vec<Event>) {
         for signal in list {
             let cycle = self.at(&signal.at);
             let until = self.until(signal.until.as_ref(), cycle);
-            let (axes, sides) = (
-                self.axes(signal.axis.as_ref()),
-                self.sides(signal.channel.as_ref()),
-            );
-            if let (Some(input), Some(cycle)) = (self.input(&signal.signal), cycle) {
-                force(events, cycle, until, (&axes, sides), (input, signal.value));
+            let sides = self.sides(signal.channel.as_ref());
+            let found = self.input(&signal.signal, signal.axis.as_ref());
+            if let (Some((owners, input)), Some(cycle)) = (found, cycle) {
+                force(
+                    events,
+                    cycle,
+                    until,
+                    (&owners, sides),
+                    (input, signal.value),
+                );
             }
         }
     }
@@ -159,35 +187,21 @@ impl Resolver<'_> {
     }
 
     pub(super) fn stops(&mut self, list: &[file::Stop], events: &mut Vec<Event>) {
+        let known = self.drive.words().asked;
+        let names: Vec<&str> = known.iter().map(|(name, _)| *name).collect();
         for stop in list {
-            let function = match stop.stop.get_ref().as_str() {
-                "E" => "STOP E",
-                _ => "external stops",
-            };
+            let asked = known.iter().find(|(name, _)| name == stop.stop.get_ref());
+            let function = asked.or(known.first()).and_then(|(_, function)| *function);
             let cycle = self.at(&stop.at);
             let axes = self.axes_with(stop.axis.as_ref(), function);
             let sides = self.sides(stop.channel.as_ref());
-            let letter = match stop.stop.get_ref().as_str() {
-                "none" => None,
-                "A" => Some(ExternalLetter::A),
-                "C" => Some(ExternalLetter::C),
-                "D" => Some(ExternalLetter::D),
-                "E" => Some(ExternalLetter::E),
-                _ => {
-                    self.no_such(
-                        &stop.stop,
-                        "stop that the safety logic can ask for",
-                        &["A", "C", "D", "E", "none"],
-                    );
-                    continue;
-                }
-            };
-            if let Some(cycle) = cycle {
+            let found = self.one_of(&stop.stop, &names, "stop that the safety logic can ask for");
+            if let (Some(asked), Some(cycle)) = (found, cycle) {
                 events.push(Event {
                     cycle,
                     axes,
                     sides,
-                    what: What::Stop(letter),
+                    what: What::Stop(asked),
                 });
             }
         }

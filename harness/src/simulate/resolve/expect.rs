@@ -1,6 +1,5 @@
 //! What has to come of a scenario.
 
-use stillpoint_monitors::sinumerik::alarm::Alarm;
 use toml::Spanned;
 
 use super::{Resolver, Round, time};
@@ -77,9 +76,10 @@ impl Resolver<'_> {
         let sides = self.sides(expect.channel.as_ref());
         let axes = self.axes(expect.axis.as_ref());
         let machine = self.machine;
+        let channels = self.drive.words().channels;
         let of_channels = |sides: [bool; 2], signal: &str| -> Vec<String> {
             let names = axes.iter().flat_map(|k| {
-                let channels = vocabulary::CHANNELS.iter().zip(sides);
+                let channels = channels.iter().zip(sides);
                 let used = channels.filter(|(_, used)| *used);
                 used.map(|(channel, _)| format!("{}.{channel}.{signal}", machine.axes[*k].name))
             });
@@ -93,13 +93,13 @@ impl Resolver<'_> {
             &expect.value,
         ) {
             (Some(stop), None, None, None, None) => {
-                let letters = ["A", "B", "C", "D", "E", "F", "TEST", "NONE"];
+                let letters = self.drive.words().stops_listed;
                 let Some(letter) = letters.iter().find(|l| **l == stop.get_ref().as_str()) else {
-                    self.no_such(stop, "stop", &letters);
+                    self.no_such(stop, "stop", letters);
                     return None;
                 };
                 Condition {
-                    names: of_channels(sides, "stop"),
+                    names: of_channels(sides, vocabulary::STOP),
                     is: Is::Value(Value::Text((*letter).into())),
                 }
             }
@@ -115,7 +115,7 @@ impl Resolver<'_> {
             (None, None, Some(alarm), None, None) => {
                 let channel = self.channel_of(alarm)?;
                 Condition {
-                    names: of_channels(channel, "alarms"),
+                    names: of_channels(channel, vocabulary::ALARMS),
                     is: Is::Listing(alarm.get_ref().clone()),
                 }
             }
@@ -152,15 +152,7 @@ impl Resolver<'_> {
 
     /// The channel that an alarm is one of.
     fn channel_of(&mut self, alarm: &Text) -> Option<[bool; 2]> {
-        let numbers = |side: usize| {
-            Alarm::ALL.into_iter().filter_map(move |alarm| match side {
-                0 => Some(alarm.nck().number),
-                _ => alarm.drive().map(|entry| entry.number),
-            })
-        };
-        let known: Vec<(String, usize)> = (0..2)
-            .flat_map(|side| numbers(side).map(move |number| (number.to_string(), side)))
-            .collect();
+        let known = self.drive.alarms();
         if let Some((_, side)) = known.iter().find(|(number, _)| number == alarm.get_ref()) {
             return Some([*side == 0, *side == 1]);
         }

@@ -5,24 +5,22 @@ use toml::Spanned;
 
 use super::Resolver;
 use super::events::force;
+use crate::plant::Fault;
 use crate::simulate::file;
-use crate::simulate::scenario::{Event, Fault, What};
+use crate::simulate::scenario::{Event, What};
 
 impl Resolver<'_> {
     pub(super) fn faults(&mut self, list: &[file::Fault], events: &mut Vec<Event>) {
         for fault in list {
             let cycle = self.at(&fault.at);
             let until = self.until(fault.until.as_ref(), cycle);
-            let (axes, sides) = (
-                self.axes(Some(&fault.axis)),
-                self.sides(fault.channel.as_ref()),
-            );
+            let sides = self.sides(fault.channel.as_ref());
             let kind = fault.kind.get_ref().as_str();
             let stuck = matches!(kind, "stuck" | "lost");
             self.fault_keys(fault, kind);
             if stuck {
                 let Some(signal) = &fault.signal else {
-                    let help = "name it: signal = \"SGE_SS_DISABLE\"".to_owned();
+                    let help = format!("name it: signal = \"{}\"", self.drive.words().example);
                     self.add(
                         fault.kind.span(),
                         format!("which signal is {kind}?"),
@@ -32,12 +30,14 @@ impl Resolver<'_> {
                     continue;
                 };
                 let value = fault.value.as_ref().is_some_and(|v| *v.get_ref());
-                if let (Some(input), Some(cycle)) = (self.input(signal), cycle) {
-                    force(events, cycle, until, (&axes, sides), (input, value));
+                if let (Some((owners, input)), Some(cycle)) =
+                    (self.input(signal, Some(&fault.axis)), cycle)
+                {
+                    force(events, cycle, until, (&owners, sides), (input, value));
                 }
                 continue;
             }
-            for axis in axes {
+            for axis in self.axes(Some(&fault.axis)) {
                 let what = match kind {
                     "encoder freeze" => Some(Fault::Freeze),
                     "no braking" => Some(Fault::NoBraking),
@@ -124,7 +124,7 @@ impl Resolver<'_> {
             return None;
         };
         let thousandths = self.length(offset, self.machine.axes[axis].kind)?;
-        i32::try_from(thousandths / 1_000).ok().map(Fault::Offset)
+        Some(Fault::Offset(thousandths / 1_000 * 1_000))
     }
 
     fn slip(&mut self, fault: &file::Fault, axis: usize) -> Option<Fault> {

@@ -17,13 +17,14 @@ use toml::Spanned;
 
 use super::file::{File, Names, Text};
 use super::scenario::{Event, Scenario};
+use crate::families::{self, Drive, Owner};
 use crate::recording;
 
 impl Scenario {
     /// Reads the scenario file at `path` for this machine.
     ///
     /// # Errors
-    /// Everything that is wrong with the file, each with its place and a fix.
+    /// Everything that is wrong with the file, each with its place and a fix; a family that runs no scenario.
     pub fn load(path: &Path, machine: &Machine) -> Result<Self> {
         let text = read_text(path, "scenario file")?;
         Self::from_text(&path.display().to_string(), &text, machine)
@@ -42,10 +43,14 @@ impl Scenario {
                     .help("the tables of a scenario and their keys stand in `stillpoint simulate --help` and in the book"),
             )
         })?;
+        let drive = families::of(machine)
+            .map_err(|message| Diagnostics::from(Diagnostic::new(name, text, None, message)))?;
         let mut resolver = Resolver {
             name,
             text,
             machine,
+            drive,
+            owners: drive.owners(machine),
             findings: Vec::new(),
             roundings: Vec::new(),
             last: 0,
@@ -67,6 +72,8 @@ struct Resolver<'a> {
     name: &'a str,
     text: &'a Arc<str>,
     machine: &'a Machine,
+    drive: &'static dyn Drive,
+    owners: Vec<Owner>,
     findings: Vec<Diagnostic>,
     roundings: Vec<String>,
     /// The last cycle.
@@ -259,9 +266,12 @@ impl Resolver<'_> {
             .collect()
     }
 
-    /// The axes named, which must have a function enabled; all of the machine where none is named.
-    fn axes_with(&mut self, names: Option<&Spanned<Names>>, function: &str) -> Vec<usize> {
+    /// The axes named, which must have a function enabled if one is needed; all of the machine where none is named.
+    fn axes_with(&mut self, names: Option<&Spanned<Names>>, function: Option<&str>) -> Vec<usize> {
         let axes = self.axes(names);
+        let Some(function) = function else {
+            return axes;
+        };
         let machine = self.machine;
         for axis in axes.iter().map(|k| &machine.axes[*k]) {
             let enabled = axis.functions.iter().any(|f| f == function);
@@ -278,10 +288,10 @@ impl Resolver<'_> {
 
     /// The channels named; both where none is.
     fn sides(&mut self, channel: Option<&Text>) -> [bool; 2] {
+        let known = self.drive.words().channels;
         match channel.map(|c| c.get_ref().as_str()) {
             None | Some("both") => BOTH,
-            Some("nck") => [true, false],
-            Some("drive") => [false, true],
+            Some(one) if known.contains(&one) => known.map(|name| name == one),
             Some(other) => {
                 let message = format!("\"{other}\" is no channel");
                 let at = channel.map(Spanned::span).unwrap_or_default();
@@ -289,7 +299,7 @@ impl Resolver<'_> {
                     at,
                     message,
                     "no such channel",
-                    "write \"nck\", \"drive\" or \"both\"".to_owned(),
+                    format!("write \"{}\", \"{}\" or \"both\"", known[0], known[1]),
                 );
                 BOTH
             }

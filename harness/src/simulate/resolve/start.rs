@@ -1,23 +1,22 @@
 //! Where the axes start and how they move.
 
+use stillpoint_spec::machine::AxisKind;
 use stillpoint_spec::machine::units::{self, Dimension};
-use stillpoint_spec::machine::{Axis, AxisKind};
 
 use super::{Resolver, Round};
+use crate::families::Windows;
+use crate::plant::Mechanics;
 use crate::simulate::file::{self, File, Text};
-use crate::simulate::plant::Mechanics;
 use crate::simulate::scenario::Start;
 
 /// Where an axis stands that no scenario places, in thousandths of an increment: at 0, or in the middle of its safe limit
 /// positions where these exclude 0.
-fn within_limits(axis: &Axis) -> i64 {
-    let cells = |name: &str| axis.values.get(name).map_or(&[][..], |s| &s.cells);
-    let high = cells("POS_LIMIT_PLUS").iter().min();
-    let low = cells("POS_LIMIT_MINUS").iter().max();
-    let enabled = axis.functions.iter().any(|f| f == "SE");
-    match (low, high) {
-        (Some(low), Some(high)) if enabled && !(*low < 0 && 0 < *high) => (low + high) / 2 * 1_000,
-        _ => 0,
+fn within_limits(windows: &Windows) -> i64 {
+    let low = windows.minus.map(i64::from).into_iter().max().unwrap_or(0);
+    let high = windows.plus.map(i64::from).into_iter().min().unwrap_or(0);
+    match windows.limited && !(low < 0 && 0 < high) {
+        true => (low + high) / 2 * 1_000,
+        false => 0,
     }
 }
 
@@ -43,7 +42,7 @@ impl Resolver<'_> {
                 .position
                 .as_ref()
                 .and_then(|t| self.length(t, kind))
-                .unwrap_or_else(|| within_limits(axis));
+                .unwrap_or_else(|| within_limits(&self.drive.windows(axis)));
             let mut rate = |text: &Option<Text>, default: &str| match text {
                 Some(text) => self.acceleration(text, kind).unwrap_or(1),
                 None => rate_of(default, kind, self.cycle_us()).unwrap_or(1),
@@ -157,18 +156,24 @@ impl Resolver<'_> {
         let percent = share.trim().strip_suffix('%');
         let percent = percent.and_then(|number| number.trim().parse::<i64>().ok());
         let percent = percent.filter(|n| n.abs() <= 1_000);
-        let stages = ["SG1", "SG2", "SG3", "SG4"];
+        let stages = self.drive.words().stages;
         let stage = stages.iter().position(|name| *name == stage.trim());
-        let limits = self.machine.axes[axis].values.get("VELO_LIMIT");
-        let limit = stage.and_then(|k| limits?.cells.get(k).copied());
+        let limit = stage.and_then(|k| {
+            let axis = &self.machine.axes[axis];
+            self.drive.stage(self.machine, axis, k)
+        });
         if let (Some(percent), Some(limit)) = (percent, limit) {
             return Some(limit.saturating_mul(percent) / 100);
         }
+        let first = stages.first().unwrap_or(&"");
         self.add(
             text.span(),
             format!("\"{}\" is no share of a speed limit", text.get_ref()),
             "not such a value",
-            "write for example \"120 % of SG1\": -1000 % to 1000 %, SG1 to SG4".to_owned(),
+            format!(
+                "write for example \"120 % of {first}\": -1000 % to 1000 %, {first} to {}",
+                stages.last().unwrap_or(first)
+            ),
         );
         None
     }

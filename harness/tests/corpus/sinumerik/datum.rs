@@ -148,7 +148,7 @@ fn in_file(
     match file(&line) {
         Ok(machine) => {
             // What the file permits the monitors must take.
-            let _ = stillpoint::production::axes(&machine)?;
+            let _ = stillpoint::families::sinumerik::production::axes(&machine)?;
             let default = cells(&machine)? == cells(&file("")?)?;
             Ok((true, default))
         }
@@ -167,7 +167,7 @@ fn in_file(
 pub fn machine(given: &Given<'_>) -> Result<Table, String> {
     let findings = match read(given.text("file")?) {
         // What a file may say the monitors must take.
-        Ok(machine) => stillpoint::production::axes(&machine).map(|_| None)?,
+        Ok(machine) => stillpoint::families::sinumerik::production::axes(&machine).map(|_| None)?,
         Err(text) => Some(text),
     };
     let found = |what: &&str| findings.as_ref().is_some_and(|text| text.contains(what));

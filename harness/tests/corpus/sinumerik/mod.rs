@@ -42,7 +42,7 @@ fn parameters(given: &Given<'_>) -> Result<(Parameters, Configuration), String> 
 
 /// The same of lines.
 fn configured(control: &str, axis: &str) -> Result<(Parameters, Configuration), String> {
-    let mut axes = stillpoint::production::axes(&load(control, axis)?)?;
+    let mut axes = stillpoint::families::sinumerik::production::axes(&load(control, axis)?)?;
     let first = axes.pop().ok_or("no axis")?;
     Ok((first.parameters, first.configuration))
 }

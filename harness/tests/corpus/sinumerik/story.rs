@@ -15,7 +15,8 @@
 
 use super::parameters;
 use crate::case::Given;
-use stillpoint::recording::{Value as Seen, vocabulary};
+use stillpoint::families::sinumerik::vocabulary;
+use stillpoint::recording::Value as Seen;
 use stillpoint_monitors::kernel::Position;
 use stillpoint_monitors::sinumerik::axis::{self, Local};
 use stillpoint_monitors::sinumerik::pair::{Config, Inputs, Pair, State};

@@ -3,6 +3,8 @@
 //!
 //! The sequence of the machine `door` in the family's `application.toml`, for several axes and any monitoring.
 
+use crate::plant::Door;
+
 /// The channels by their place in the vocabulary.
 const NCK: usize = 0;
 const DRIVE: usize = 1;
@@ -23,13 +25,9 @@ enum Phase {
     Free,
 }
 
-/// A guard door.
+/// The logic of a guard door.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Door {
-    /// It is open, whether it was released or not.
-    pub open: bool,
-    /// Somebody asks for it.
-    pub asked: bool,
+pub(super) struct Logic {
     phase: Phase,
 }
 
@@ -48,10 +46,10 @@ pub(super) struct Seen {
     pub testing: [bool; 2],
 }
 
-impl Door {
+impl Logic {
     /// Whether the logic selects what the open door asks for.
-    pub fn selects(&self) -> bool {
-        self.open || self.phase != Phase::Locked
+    pub fn selects(&self, door: &Door) -> bool {
+        door.open || self.phase != Phase::Locked
     }
 
     /// The channel whose test stop is selected.
@@ -73,11 +71,11 @@ impl Door {
     }
 
     /// The end of a cycle.
-    pub fn step(&mut self, axes: &[Seen]) {
+    pub fn step(&mut self, door: &Door, axes: &[Seen]) {
         let all = |test: &dyn Fn(&Seen) -> bool| axes.iter().all(test);
         self.phase = match self.phase {
-            Phase::Locked if self.asked => Phase::Waits,
-            Phase::Waits if !self.asked => Phase::Locked,
+            Phase::Locked if door.asked => Phase::Waits,
+            Phase::Waits if !door.asked => Phase::Locked,
             Phase::Waits if !all(&|a| a.monitored) => Phase::Waits,
             Phase::Waits if all(&|a| !a.due) => Phase::Free,
             Phase::Waits if all(&|a| a.stands && !a.cancelled) => Phase::Tests(DRIVE),
@@ -86,7 +84,7 @@ impl Door {
             Phase::Tests(side) if !all(&|a| a.testing[side]) => Phase::Locked,
             Phase::Ends(DRIVE) if all(&|a| !a.testing[DRIVE] && !a.cancelled) => Phase::Tests(NCK),
             Phase::Ends(NCK) if all(&|a| !a.testing[NCK] && !a.cancelled) => Phase::Waits,
-            Phase::Free if !self.open && !self.asked => Phase::Locked,
+            Phase::Free if !door.open && !door.asked => Phase::Locked,
             same => same,
         };
     }
@@ -104,81 +102,92 @@ mod tests {
         testing: [false; 2],
     };
 
-    fn asked() -> Door {
-        let mut door = Door {
-            asked: true,
-            ..Door::default()
-        };
-        door.step(&[REST]);
-        door
+    const ASKED: Door = Door {
+        open: false,
+        asked: true,
+    };
+
+    fn asked() -> Logic {
+        let mut logic = Logic::default();
+        logic.step(&ASKED, &[REST]);
+        logic
     }
 
     #[test]
     fn released_when_every_axis_is_monitored_and_no_check_is_due() {
-        let mut door = asked();
-        assert!(door.selects() && !door.released());
+        let mut logic = asked();
+        assert!(logic.selects(&ASKED) && !logic.released());
         let unmonitored = Seen {
             monitored: false,
             ..REST
         };
-        door.step(&[REST, unmonitored]);
-        assert!(!door.released());
-        door.step(&[REST, REST]);
-        assert!(door.released());
+        logic.step(&ASKED, &[REST, unmonitored]);
+        assert!(!logic.released());
+        logic.step(&ASKED, &[REST, REST]);
+        assert!(logic.released());
         // Open, nobody asks any more: it stays free until it is closed.
-        (door.open, door.asked) = (true, false);
-        door.step(&[REST]);
-        assert!(door.released());
+        let mut door = Door {
+            open: true,
+            asked: false,
+        };
+        logic.step(&door, &[REST]);
+        assert!(logic.released());
         door.open = false;
-        door.step(&[REST]);
-        assert!(!door.released() && !door.selects());
+        logic.step(&door, &[REST]);
+        assert!(!logic.released() && !logic.selects(&door));
     }
 
     #[test]
     fn a_check_that_is_due_tests_one_path_after_the_other() {
         let due = Seen { due: true, ..REST };
-        let mut door = asked();
-        door.step(&[
-            due,
-            Seen {
-                stands: false,
-                ..due
-            },
-        ]);
-        assert_eq!(door.tests(), None, "an axis moves");
+        let mut logic = asked();
+        logic.step(
+            &ASKED,
+            &[
+                due,
+                Seen {
+                    stands: false,
+                    ..due
+                },
+            ],
+        );
+        assert_eq!(logic.tests(), None, "an axis moves");
         for side in [DRIVE, NCK] {
-            door.step(&[due]);
-            assert_eq!(door.tests(), Some(side));
+            logic.step(&ASKED, &[due]);
+            assert_eq!(logic.tests(), Some(side));
             let mut testing = Seen {
                 cancelled: true,
                 ..due
             };
             testing.testing[side] = true;
-            door.step(&[testing]);
-            assert_eq!(door.tests(), None, "the selection is taken back");
-            door.step(&[testing]);
+            logic.step(&ASKED, &[testing]);
+            assert_eq!(logic.tests(), None, "the selection is taken back");
+            logic.step(&ASKED, &[testing]);
             if side == DRIVE {
                 continue;
             }
-            door.step(&[due]);
+            logic.step(&ASKED, &[due]);
         }
-        door.step(&[REST]);
-        assert!(door.released());
+        logic.step(&ASKED, &[REST]);
+        assert!(logic.released());
     }
 
     #[test]
     fn a_failed_test_leaves_it_locked() {
         let due = Seen { due: true, ..REST };
-        let mut door = asked();
-        door.step(&[due]);
-        assert_eq!(door.tests(), Some(DRIVE));
+        let mut logic = asked();
+        logic.step(&ASKED, &[due]);
+        assert_eq!(logic.tests(), Some(DRIVE));
         // STOP A: no test runs any more, the pulses stay cancelled.
         for _ in 0..10 {
-            door.step(&[Seen {
-                cancelled: true,
-                ..due
-            }]);
-            assert!(!door.released() && door.tests().is_none());
+            logic.step(
+                &ASKED,
+                &[Seen {
+                    cancelled: true,
+                    ..due
+                }],
+            );
+            assert!(!logic.released() && logic.tests().is_none());
         }
     }
 }

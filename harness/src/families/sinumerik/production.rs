@@ -5,9 +5,6 @@ use stillpoint_monitors::sinumerik::parameters::{
 };
 use stillpoint_spec::machine::{Axis, AxisKind, Machine};
 
-/// The family that the production monitors implement.
-pub const FAMILY: &str = "sinumerik-840d";
-
 /// The enable bits of the functions, by their names in a machine file (MD36901 / MD1301).
 pub const FUNCTIONS: [(&str, u32); 15] = [
     ("SBH/SG", 0),
@@ -38,26 +35,11 @@ pub struct Produced {
     pub configuration: Configuration,
 }
 
-/// Whether whole axes of the machine's family can be run.
-///
-/// # Errors
-/// A sentence: they cannot, and what can be done instead.
-pub fn can_run(machine: &Machine) -> Result<(), String> {
-    match machine.family == FAMILY {
-        true => Ok(()),
-        false => Err(format!(
-            "{}: whole axes can be run for the family {FAMILY} only; for {} there are check, diff, reaction, acceptance and explore",
-            machine.name, machine.family
-        )),
-    }
-}
-
 /// The axes of a machine, in the order of the file.
 ///
 /// # Errors
-/// A sentence: the family has no production monitors, or they refuse a value.
+/// A sentence: the monitors refuse a value.
 pub fn axes(machine: &Machine) -> Result<Vec<Produced>, String> {
-    can_run(machine)?;
     machine
         .axes
         .iter()

@@ -6,18 +6,12 @@
 //! side, and the other way round.
 
 mod show;
-mod table;
 
-use stillpoint_monitors::kernel::Position;
-use stillpoint_monitors::sinumerik::axis::{self, Local};
-use stillpoint_monitors::sinumerik::interface::Sge;
-use stillpoint_monitors::sinumerik::pair::{Config, Inputs, Outputs, Pair, State};
 use stillpoint_show::diagram::Diagram;
 use stillpoint_spec::machine::Machine;
 
-use crate::production::{self, Produced};
+use crate::families::{self, Owner, Rig};
 use crate::recording::{Recording, Role, Value, vocabulary};
-use table::{Basis, Tables};
 
 /// What has come of a replay.
 #[derive(Debug, Clone)]
@@ -106,21 +100,23 @@ pub fn replay(
     recording: &Recording,
     tolerance: u32,
 ) -> Result<Replayed, String> {
-    let produced = production::axes(machine)?;
+    let drive = families::of(machine)?;
+    drive.accepts(machine)?;
+    let channels = drive.words().channels;
     let mut axes = Vec::new();
     let mut left_out = Vec::new();
     let mut columns = Vec::new();
-    for (k, produced) in produced.iter().enumerate() {
-        let recorded = Recorded::new(recording, &produced.name);
+    for (k, owner) in drive.owners(machine).iter().enumerate() {
+        let recorded = Recorded::new(recording, owner, channels);
         if !recorded.has_position() || recorded.outputs.is_empty() {
-            left_out.push(produced.name.clone());
+            left_out.push(owner.name.clone());
             continue;
         }
-        let basis = Basis::new(machine, k, produced)?;
-        let tables = Tables::new(basis.as_ref(), produced)?;
-        let (replayed, own) = recorded.replay(produced, tables);
-        axes.push(replayed);
-        columns.extend(own);
+        drive.play(machine, k, true, &mut |rig| {
+            let (replayed, own) = recorded.replay(rig);
+            axes.push(replayed);
+            columns.extend(own);
+        })?;
     }
     if axes.is_empty() {
         return Err(format!(
@@ -174,146 +170,105 @@ fn diverges(recording: &Recording, column: &Column, tolerance: usize) -> Option<
 /// The signals of one axis in a recording.
 struct Recorded<'a> {
     recording: &'a Recording,
-    /// For each input of the vocabulary and each channel, its place in the recording.
-    inputs: Vec<(vocabulary::Input, [Option<usize>; 2])>,
+    owner: &'a Owner,
+    /// For each input and each channel, its place in the recording.
+    inputs: Vec<[Option<usize>; 2]>,
     /// The outputs that the recording has: channel, output, place.
-    outputs: Vec<(usize, vocabulary::Output, usize)>,
-    name: String,
+    outputs: Vec<(usize, usize, usize)>,
 }
 
 impl<'a> Recorded<'a> {
-    fn new(recording: &'a Recording, name: &str) -> Self {
+    fn new(recording: &'a Recording, owner: &'a Owner, channels: [&str; 2]) -> Self {
         let place = |side: usize, signal: &str, role: Role| {
-            let full = format!("{name}.{}.{signal}", vocabulary::CHANNELS[side]);
             recording
-                .find(&full)
+                .find(&owner.signal(channels[side], signal))
                 .filter(|k| recording.signals[*k].role == role)
         };
-        let inputs = vocabulary::inputs().into_iter().map(|input| {
-            (
-                input,
-                [0, 1].map(|side| place(side, input.name, Role::Input)),
-            )
-        });
+        let inputs = owner.inputs.iter();
+        let inputs = inputs.map(|port| [0, 1].map(|side| place(side, port.name, Role::Input)));
         let mut outputs = Vec::new();
         for side in 0..2 {
-            for output in vocabulary::outputs() {
-                if let Some(k) = place(side, output.name, Role::Output) {
-                    outputs.push((side, output, k));
+            for (n, port) in owner.outputs.iter().enumerate() {
+                if let Some(k) = place(side, port.name, Role::Output) {
+                    outputs.push((side, n, k));
                 }
             }
         }
         Self {
             recording,
+            owner,
             inputs: inputs.collect(),
             outputs,
-            name: name.to_owned(),
         }
     }
 
     fn has_position(&self) -> bool {
-        let mut inputs = self.inputs.iter();
-        inputs.any(|(input, places)| {
-            input.name == vocabulary::POSITION && places.iter().any(Option::is_some)
+        let mut inputs = self.owner.inputs.iter().zip(&self.inputs);
+        inputs.any(|(port, places)| {
+            port.name == vocabulary::POSITION && places.iter().any(Option::is_some)
         })
     }
 
     fn missing(&self) -> Vec<String> {
-        let none = self
-            .inputs
-            .iter()
-            .filter(|(_, places)| *places == [None, None]);
-        none.map(|(input, _)| input.name.to_owned()).collect()
+        let inputs = self.owner.inputs.iter().zip(&self.inputs);
+        let none = inputs.filter(|(_, places)| **places == [None, None]);
+        none.map(|(port, _)| port.name.to_owned()).collect()
     }
 
-    /// What a channel saw in a cycle; what is recorded of the other channel only counts for both.
-    fn local(&self, row: usize, side: usize) -> Local {
-        let mut local = Local {
-            power_on: row == 0,
-            run_up: true,
-            spl_started: true,
-            sge: Sge::UNUSED,
-            ..Local::default()
-        };
-        for (input, places) in &self.inputs {
-            let place = places[side].or(places[1 - side]);
-            let values = self.recording.rows[row].as_slice();
-            if let Some(value) = place.and_then(|k| values[k].as_ref()) {
-                // The reader has checked the kind; a number outside its range is left at rest.
-                let _ = input.set(&mut local, value);
+    /// What the channels saw in a cycle; what is recorded of one channel only counts for both.
+    fn see(&self, row: usize, rig: &mut dyn Rig) {
+        rig.rest(row == 0);
+        let values = self.recording.rows[row].as_slice();
+        for side in 0..2 {
+            for (input, places) in self.inputs.iter().enumerate() {
+                let place = places[side].or(places[1 - side]);
+                if let Some(value) = place.and_then(|k| values[k].as_ref()) {
+                    // The reader has checked the kind; a number outside its range is left at rest.
+                    let _ = rig.set(side, input, value);
+                }
             }
         }
-        local
     }
 
-    /// What was kept through power-off: the agreement that the first cycle shows, and the first position.
-    fn kept(&self) -> State {
-        let agreed = |side: usize| {
-            let mut outputs = self.outputs.iter();
-            let found = outputs.find(|(s, o, _)| *s == side && o.name == "user_agreement");
-            let value = found.and_then(|(_, _, k)| self.recording.rows.first()?[*k].clone());
-            value == Some(Value::Bool(true))
-        };
-        let channel = |side: usize| {
-            let Position(at) = self.local(0, side).position;
-            let kept = agreed(side).then_some(Position(at));
-            axis::State::restored(agreed(side), kept)
-        };
-        State::restored(channel(0), channel(1))
+    /// What a channel says in the first cycle.
+    fn first(&self, side: usize, output: &str) -> Option<Value> {
+        let mut outputs = self.outputs.iter();
+        let (_, _, k) =
+            outputs.find(|(s, n, _)| *s == side && self.owner.outputs[*n].name == output)?;
+        self.recording.rows.first()?[*k].clone()
     }
 
-    fn replay(&self, produced: &Produced, mut tables: Tables<'_>) -> (AxisReplayed, Vec<Column>) {
-        let config = Config::new(produced.configuration);
-        // The state is made here, and consistent; an initial one would be, too.
-        let mut pair = Pair::resume(config, self.kept()).unwrap_or_else(|_| Pair::new(config));
-        let column = |signal, against| Column {
-            signal,
-            against,
-            values: Vec::new(),
+    fn replay(&self, rig: &mut dyn Rig) -> (AxisReplayed, Vec<Column>) {
+        let columns = |against| -> Vec<Column> {
+            let outputs = self.outputs.iter();
+            let columns = outputs.map(|(.., k)| Column {
+                signal: *k,
+                against,
+                values: Vec::new(),
+            });
+            columns.collect()
         };
-        let monitors = self
-            .outputs
-            .iter()
-            .map(|(.., k)| column(*k, Against::Monitors));
-        let specified = self
-            .outputs
-            .iter()
-            .map(|(.., k)| column(*k, Against::Specification));
-        let (mut monitors, mut specified): (Vec<Column>, Vec<Column>) =
-            (monitors.collect(), specified.collect());
+        let mut monitors = columns(Against::Monitors);
+        let mut specified = columns(Against::Specification);
         for row in 0..self.recording.rows.len() {
-            let before = *pair.state();
-            let inputs = Inputs {
-                nck: self.local(row, 0),
-                drive: self.local(row, 1),
-            };
-            let outputs = pair.step(&inputs);
-            tables.step(&before, pair.state(), &inputs, &outputs);
+            self.see(row, rig);
+            if row == 0 {
+                rig.resume(&|side, output| self.first(side, output));
+            }
+            rig.step();
             for (n, (side, output, _)) in self.outputs.iter().enumerate() {
-                let (local, own) = side_of(&inputs, &outputs, *side);
-                monitors[n].values.push(Some(output.get(*side, local, own)));
-                specified[n].values.push(tables.output(*side, output.name));
+                monitors[n].values.push(Some(rig.output(*side, *output)));
+                specified[n].values.push(rig.specified(*side, *output));
             }
         }
         let replayed = AxisReplayed {
-            name: self.name.clone(),
+            name: self.owner.name.clone(),
             outputs: self.outputs.len(),
-            table_cycles: tables.cycles(),
+            table_cycles: rig.table_cycles(),
             missing: self.missing(),
         };
         specified.retain(|column| column.values.iter().any(Option::is_some));
         monitors.extend(specified);
         (replayed, monitors)
-    }
-}
-
-fn side_of<'a>(
-    inputs: &'a Inputs,
-    outputs: &'a Outputs,
-    side: usize,
-) -> (&'a Local, &'a axis::Outputs) {
-    match side {
-        0 => (&inputs.nck, &outputs.nck),
-        _ => (&inputs.drive, &outputs.drive),
     }
 }

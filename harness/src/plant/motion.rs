@@ -42,7 +42,7 @@ pub struct Setpoint {
 
 /// What moves the axis in a cycle, in rising order of precedence.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Drive {
+pub enum Actuation {
     /// It follows its setpoint.
     Follow,
     /// It brakes along its path.
@@ -53,7 +53,7 @@ pub enum Drive {
     Coast,
 }
 
-impl Drive {
+impl Actuation {
     /// The word for it.
     pub const fn keyword(self) -> &'static str {
         match self {
@@ -68,7 +68,7 @@ impl Drive {
 /// What the drive was asked for in a cycle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Command {
-    drive: Drive,
+    drive: Actuation,
     setpoint: Setpoint,
     limit: Option<i64>,
 }
@@ -134,7 +134,7 @@ impl Plant {
     }
 
     /// One cycle.
-    pub fn advance(&mut self, drive: Drive) {
+    pub fn advance(&mut self, drive: Actuation) {
         let m = self.mechanics;
         let Command {
             drive,
@@ -142,10 +142,10 @@ impl Plant {
             limit,
         } = self.acting(drive);
         self.without_torque = match drive {
-            Drive::Coast => self.without_torque.saturating_add(1),
+            Actuation::Coast => self.without_torque.saturating_add(1),
             _ => 0,
         };
-        if drive == Drive::Follow {
+        if drive == Actuation::Follow {
             self.follow(self.asked(setpoint, limit));
             return;
         }
@@ -154,33 +154,33 @@ impl Plant {
         let towards =
             |speed: i64, wanted: i64, rate: i64| speed + (wanted - speed).clamp(-rate, rate);
         self.speed = match drive {
-            Drive::Follow => self.speed,
-            Drive::Path => towards(self.speed, 0, m.path_braking),
-            Drive::CurrentLimit => towards(self.speed, 0, m.braking),
-            Drive::Coast if closed => towards(self.speed, 0, m.braking),
-            Drive::Coast if m.sag > 0 => {
+            Actuation::Follow => self.speed,
+            Actuation::Path => towards(self.speed, 0, m.path_braking),
+            Actuation::CurrentLimit => towards(self.speed, 0, m.braking),
+            Actuation::Coast if closed => towards(self.speed, 0, m.braking),
+            Actuation::Coast if m.sag > 0 => {
                 self.speed - m.sag + friction(self.speed, m.friction.min(m.sag))
             }
-            Drive::Coast => towards(self.speed, 0, m.friction),
+            Actuation::Coast => towards(self.speed, 0, m.friction),
         };
         self.position += match drive {
-            Drive::Follow => 0,
-            Drive::Path => way(before, self.speed, m.path_braking),
-            Drive::CurrentLimit => way(before, self.speed, m.braking),
-            Drive::Coast if closed => way(before, self.speed, m.braking),
-            Drive::Coast => way(before, self.speed, m.friction),
+            Actuation::Follow => 0,
+            Actuation::Path => way(before, self.speed, m.path_braking),
+            Actuation::CurrentLimit => way(before, self.speed, m.braking),
+            Actuation::Coast if closed => way(before, self.speed, m.braking),
+            Actuation::Coast => way(before, self.speed, m.friction),
         };
         self.ideal = (self.position, self.speed);
     }
 
     /// What the drive does in this cycle.
-    fn acting(&mut self, drive: Drive) -> Command {
+    fn acting(&mut self, drive: Actuation) -> Command {
         let now = Command {
             drive,
             setpoint: self.setpoint,
             limit: self.limit,
         };
-        if drive == Drive::Coast {
+        if drive == Actuation::Coast {
             self.underway.clear();
             return now;
         }
@@ -190,7 +190,7 @@ impl Plant {
             true => self.underway.pop_front().unwrap_or(now),
             // At first nothing was asked for: the axis does what it did, with torque.
             false => Command {
-                drive: Drive::Follow,
+                drive: Actuation::Follow,
                 setpoint: Setpoint::default(),
                 limit: None,
             },
@@ -269,7 +269,7 @@ mod tests {
         let mut plant = Plant::new(M, 0);
         plant.setpoint.speed = 250;
         for (speed, position) in [(100, 100), (200, 300), (250, 550), (250, 800)] {
-            plant.advance(Drive::Follow);
+            plant.advance(Actuation::Follow);
             assert_eq!((plant.speed, plant.position), (speed, position));
         }
     }
@@ -284,7 +284,7 @@ mod tests {
                     target: Some(target),
                 };
                 for _ in 0..200_000 {
-                    plant.advance(Drive::Follow);
+                    plant.advance(Actuation::Follow);
                     assert!(plant.position.abs() <= target.abs(), "{target} at {speed}");
                     if plant.stands() && plant.position == target {
                         break;
@@ -302,9 +302,9 @@ mod tests {
     #[test]
     fn each_drive_has_its_ramp() {
         for (drive, speed) in [
-            (Drive::Path, 950),
-            (Drive::CurrentLimit, 700),
-            (Drive::Coast, 990),
+            (Actuation::Path, 950),
+            (Actuation::CurrentLimit, 700),
+            (Actuation::Coast, 990),
         ] {
             let mut plant = moving(M, 1_000);
             plant.advance(drive);
@@ -314,7 +314,7 @@ mod tests {
             assert_eq!(back.speed, -speed);
         }
         let mut slow = moving(M, 7);
-        slow.advance(Drive::Coast);
+        slow.advance(Actuation::Coast);
         assert!(slow.stands());
     }
 
@@ -329,7 +329,7 @@ mod tests {
         ] {
             let mut plant = moving(M, speed);
             while !plant.stands() {
-                plant.advance(Drive::CurrentLimit);
+                plant.advance(Actuation::CurrentLimit);
             }
             let exact = speed * speed.abs() / 600;
             assert!(plant.position.abs() >= exact.abs(), "{speed}");
@@ -341,10 +341,10 @@ mod tests {
     #[test]
     fn a_dead_time_delays_everything_but_the_pulses() {
         let slow = Mechanics { dead_time: 3, ..M };
-        let way = |mechanics: Mechanics, drive: Drive| {
+        let way = |mechanics: Mechanics, drive: Actuation| {
             let mut plant = Plant::new(mechanics, 0);
             plant.setpoint.speed = 900;
-            (0..20).for_each(|_| plant.advance(Drive::Follow));
+            (0..20).for_each(|_| plant.advance(Actuation::Follow));
             assert_eq!(plant.speed, 900);
             let from = plant.position;
             plant.setpoint = Setpoint::default();
@@ -354,9 +354,9 @@ mod tests {
             assert!(plant.stands());
             plant.position - from
         };
-        assert_eq!(way(M, Drive::CurrentLimit), 1_350);
-        assert_eq!(way(slow, Drive::CurrentLimit), 1_350 + 3 * 900);
-        assert_eq!(way(slow, Drive::Coast), way(M, Drive::Coast));
+        assert_eq!(way(M, Actuation::CurrentLimit), 1_350);
+        assert_eq!(way(slow, Actuation::CurrentLimit), 1_350 + 3 * 900);
+        assert_eq!(way(slow, Actuation::Coast), way(M, Actuation::Coast));
     }
 
     /// At a steady speed it lags by the following time, and reaches its target all the same without passing it.
@@ -365,7 +365,7 @@ mod tests {
         let lagging = Mechanics { following: 4, ..M };
         let mut plant = Plant::new(lagging, 0);
         plant.setpoint.speed = 500;
-        (0..100).for_each(|_| plant.advance(Drive::Follow));
+        (0..100).for_each(|_| plant.advance(Actuation::Follow));
         assert_eq!(
             (plant.speed, plant.ideal.0 - plant.position),
             (500, 4 * 500)
@@ -376,7 +376,7 @@ mod tests {
         };
         let target = plant.position + 20_000;
         for _ in 0..1_000 {
-            plant.advance(Drive::Follow);
+            plant.advance(Actuation::Follow);
             assert!(plant.position <= target);
         }
         assert_eq!((plant.position, plant.speed), (target, 0));
@@ -394,7 +394,7 @@ mod tests {
         );
         let mut speeds = Vec::new();
         for _ in 0..5 {
-            plant.advance(Drive::Coast);
+            plant.advance(Actuation::Coast);
             speeds.push(plant.speed);
         }
         assert_eq!(speeds, [-40, -70, 0, 0, 0]);

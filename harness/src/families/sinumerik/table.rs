@@ -10,10 +10,10 @@ use stillpoint_spec::Spec;
 use stillpoint_spec::bind::Bound;
 use stillpoint_spec::machine::Machine;
 
-use super::side_of;
+use super::production::Produced;
+use super::rig::side_of;
 use crate::diff::peer::{self, Peer};
 use crate::diff::product::{Product, Work};
-use crate::production::Produced;
 use crate::recording::Value;
 
 /// The tables count positions from 0: this one is their 0 increments.
