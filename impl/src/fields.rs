@@ -2,7 +2,8 @@
 //! drawing of arbitrary steps for the proofs, the pages.
 //!
 //! `fields!` declares a type of a monitor and makes it known. What a number means is the business of its type: a
-//! choice is the place of the variant in its list, a duration its cycles, a position its increments.
+//! choice is the number of the variant (its place, unless the declaration gives another one), a duration its cycles, a
+//! position its increments.
 
 use crate::kernel::{Cycles, Distance, Percent, Position, Speed};
 
@@ -11,8 +12,8 @@ use crate::kernel::{Cycles, Distance, Percent, Position, Speed};
 pub enum Kind {
     /// 0 and 1.
     Truth,
-    /// The places of variants with these names, from 0.
-    Choice(&'static [&'static str]),
+    /// The numbers of these variants, ascending.
+    Choice(&'static [(&'static str, i64)]),
     /// Whole numbers, both ends included.
     Whole(i64, i64),
 }
@@ -22,7 +23,8 @@ impl Kind {
     pub const fn ends(self) -> (i64, i64) {
         match self {
             Self::Truth => (0, 1),
-            Self::Choice(names) => (0, names.len() as i64 - 1),
+            Self::Choice([(_, low), .., (_, high)]) => (*low, *high),
+            Self::Choice(_) => (0, 0),
             Self::Whole(low, high) => (low, high),
         }
     }
@@ -209,11 +211,11 @@ macro_rules! fields {
         }
     };
     ($(#[$meta:meta])* $vis:vis enum $name:ident {$(
-        $(#[$about:meta])* $variant:ident,
+        $(#[$about:meta])* $variant:ident $(= $number:literal)?,
     )+}) => {
         $(#[$meta])*
         $vis enum $name {$(
-            $(#[$about])* $variant,
+            $(#[$about])* $variant $(= $number)?,
         )+}
 
         impl $name {
@@ -225,9 +227,15 @@ macro_rules! fields {
             const ANY: Self = Self::ALL[0];
 
             fn visit<V: $crate::fields::Visitor + ?Sized>(&mut self, name: &'static str, visitor: &mut V) {
-                let kind = $crate::fields::Kind::Choice(&[$(stringify!($variant)),+]);
-                let place = visitor.number(name, kind, *self as i64).max(0) as usize;
-                *self = *Self::ALL.get(place).unwrap_or(&Self::ALL[Self::ALL.len() - 1]);
+                let kind = $crate::fields::Kind::Choice(&[$((stringify!($variant), Self::$variant as i64)),+]);
+                let number = visitor.number(name, kind, *self as i64);
+                // Of a number between two variants the higher one.
+                *self = Self::ALL[Self::ALL.len() - 1];
+                for variant in Self::ALL.into_iter().rev() {
+                    if number <= variant as i64 {
+                        *self = variant;
+                    }
+                }
             }
         }
     };

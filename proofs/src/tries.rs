@@ -82,10 +82,11 @@ impl Visitor for Finder<'_, '_> {
                 list.used = true;
                 list.values((low, high))
             }
-            None if high - low < NARROW || matches!(kind, Kind::Choice(_)) => {
-                Ok((low..=high).collect())
-            }
-            None => Err("no list says what is tried".to_owned()),
+            None => match kind {
+                Kind::Choice(variants) => Ok(variants.iter().map(|(_, number)| *number).collect()),
+                _ if high - low < NARROW => Ok((low..=high).collect()),
+                _ => Err("no list says what is tried".to_owned()),
+            },
         };
         match values {
             Ok(values) if !values.is_empty() => self.found.push(values),

@@ -83,7 +83,7 @@ fn explore(pairing: &Pairing) -> Compared {
 /// The machine that a mutant is one of; none where no table states what its monitor does, so that only its contract finds it.
 fn machine(mutant: Mutant) -> Option<Name> {
     let family = peer::family_of(mutant);
-    let mut names = family.machines.iter().chain(family.systems);
+    let mut names = family.machines().chain(family.systems.iter().copied());
     let found = names.find(|(_, module)| *module == mutant.monitor);
     // Both channels are compared in parts of their own: see the test `pair`.
     if mutant.monitor == "pair" {
@@ -95,7 +95,7 @@ fn machine(mutant: Mutant) -> Option<Name> {
         found.is_some() != (family.name == "heidenhain-fs" && uncompared.contains(&mutant.monitor)),
         "{mutant:?} is one of no machine that is compared"
     );
-    found.map(|(machine, _)| (family.name, (*machine).to_owned()))
+    found.map(|(machine, _)| (family.name, machine.to_owned()))
 }
 
 /// The wrong monitors that are compared with a table, and its name.
@@ -108,10 +108,10 @@ fn no_reachable_pair_differs() {
     let pieces = pieces();
     let compared: Vec<Compared> = pieces.iter().map(explore).collect();
     let known = peer::FAMILIES.iter().flat_map(|family| {
-        let names = family.machines.iter().chain(family.systems);
+        let names = family.machines().chain(family.systems.iter().copied());
         names
             .filter(|(machine, _)| !both_channels(machine))
-            .map(|(machine, _)| (family.name, (*machine).to_owned()))
+            .map(|(machine, _)| (family.name, machine.to_owned()))
     });
     assert_eq!(
         pieces.iter().map(name).collect::<BTreeSet<_>>(),
@@ -212,12 +212,19 @@ fn random_runs_find_no_difference_and_repeat() {
 }
 
 /// Parameters that a table has for itself.
-const OF_THE_TABLE: [(&str, &str, &[&str]); 11] = [
+const OF_THE_TABLE: [(&str, &str, &[&str]); 18] = [
     // Widths of its cells and ports.
+    ("heidenhain-fs", "deceleration", &["v_max"]),
+    ("heidenhain-fs", "operating_stop", &["pos_max"]),
+    ("heidenhain-fs", "position_limit", &["pos_max"]),
     ("heidenhain-fs", "speed", &["v_max"]),
+    ("heidenhain-fs", "stop_path", &["pos_max"]),
     ("sinumerik-840d", "axis_core", &["stages"]),
     ("sinumerik-840d", "cam", &["pos_min", "pos_max"]),
     ("sinumerik-840d", "end_stop", &["pos_max"]),
+    ("sinumerik-840d", "history", &["pos_max"]),
+    ("sinumerik-840d", "motion", &["pos_max"]),
+    ("sinumerik-840d", "selection", &["pos_max", "over_max"]),
     ("sinumerik-840d", "speed", &["v_max", "limit_max"]),
     ("sinumerik-840d", "standstill", &["pos_max"]),
     ("sinumerik-840d", "threshold", &["v_max"]),

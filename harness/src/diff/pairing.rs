@@ -57,7 +57,7 @@ pub fn pairings(subject: &Subject) -> Result<Vec<Pairing>, DiffError> {
             continue;
         };
         let spec = files.get(&file)?;
-        for &(name, _) in family.machines {
+        for (name, _) in family.machines() {
             let mut instances = task.bound.system.instances.iter();
             if instances.any(|i| i.machine == name) {
                 let system = spec.open_machine(name)?;
@@ -145,7 +145,8 @@ fn add_unused(out: &mut Vec<Pairing>, files: &mut Files, folder: &Path) -> Resul
     let Some(family) = peer::family(&name) else {
         return Ok(());
     };
-    let kinds = [("machine", family.machines), ("system", family.systems)];
+    let machines: Vec<_> = family.machines().collect();
+    let kinds = [("machine", &machines[..]), ("system", family.systems)];
     for path in paths {
         let text = files::read_to_string(&path).map_err(fault)?;
         for (kind, names) in kinds {

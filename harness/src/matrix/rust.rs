@@ -35,7 +35,7 @@ pub(super) struct Harness {
 pub(super) struct Source {
     /// Documented functions, types, fields, variants and constants, test modules left out.
     pub(super) items: Vec<Found>,
-    /// The clauses of a `contract!`.
+    /// The clauses of a `monitor!` or `contract!`.
     pub(super) clauses: Vec<Found>,
     /// The entries of an `inventory!`.
     pub(super) harnesses: Vec<Harness>,
@@ -161,14 +161,18 @@ impl Reader<'_> {
     fn invocation(&mut self, mac: &syn::Macro, inside: &str, test: bool) {
         let name = mac.path.segments.last().map(|s| s.ident.to_string());
         match name.as_deref() {
-            Some("contract") if !test => self.contract(mac.tokens.clone()),
+            Some("contract" | "monitor") if !test => self.contract(mac.tokens.clone()),
+            Some("fields" | "config") => match declared(mac.tokens.clone()) {
+                Some(item) => self.item(&item, inside, test),
+                None => self.described(mac.tokens.clone(), inside, test),
+            },
             Some("inventory") => self.inventory(mac.tokens.clone()),
             Some("macro_rules") => {}
             _ => self.described(mac.tokens.clone(), inside, test),
         }
     }
 
-    /// `/// text` `name ["ID", ...]: when ... => ...;`, any number of times.
+    /// `/// text` `name ["ID", ...]: when ... => ...;`, any number of times, perhaps after the name of the monitor.
     fn contract(&mut self, tokens: TokenStream) {
         let mut tokens = tokens.into_iter().peekable();
         while let Some(token) = tokens.next() {
@@ -275,6 +279,19 @@ impl Reader<'_> {
             }
         }
     }
+}
+
+/// The type that `fields!` or `config!` declares, up to its closing brace; none for one in a form of theirs alone.
+fn declared(tokens: TokenStream) -> Option<Item> {
+    let mut item: Vec<TokenTree> = Vec::new();
+    for token in tokens {
+        let last = matches!(&token, TokenTree::Group(g) if g.delimiter() == Delimiter::Brace);
+        item.push(token);
+        if last {
+            break;
+        }
+    }
+    syn::parse2(item.into_iter().collect()).ok()
 }
 
 fn path(inside: &str, name: &syn::Ident) -> String {

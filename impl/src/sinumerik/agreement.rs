@@ -103,25 +103,20 @@ fields! {
     pub enum Code {
         /// No code.
         #[default]
-        None,
+        None = 0,
         /// 1002: the agreements of the channels differ too long.
-        Differs,
+        Differs = 1002,
         /// 1003: the position is not the stored one.
-        Position,
+        Position = 1003,
         /// 1004: given again, or given on an axis that is not referenced.
-        Plausibility,
+        Plausibility = 1004,
     }
 }
 
 impl Code {
     /// The printed number: 0, 1002, 1003 or 1004.
     pub const fn number(self) -> u16 {
-        match self {
-            Self::None => 0,
-            Self::Differs => 1002,
-            Self::Position => 1003,
-            Self::Plausibility => 1004,
-        }
+        self as u16
     }
 }
 

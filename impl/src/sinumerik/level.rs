@@ -73,17 +73,17 @@ fields! {
     pub enum InternalStop {
         /// No stop.
         #[default]
-        None,
+        None = 0,
         /// STOP E.
-        E,
+        E = 2,
         /// STOP D.
-        D,
+        D = 3,
         /// STOP C.
-        C,
+        C = 4,
         /// STOP B.
-        B,
+        B = 6,
         /// STOP A.
-        A,
+        A = 7,
     }
 }
 
@@ -129,15 +129,15 @@ fields! {
     pub enum ExternalStop {
         /// No stop.
         #[default]
-        None,
+        None = 0,
         /// STOP E.
-        E,
+        E = 2,
         /// STOP D.
-        D,
+        D = 3,
         /// STOP C.
-        C,
+        C = 4,
         /// STOP A.
-        A,
+        A = 7,
     }
 }
 

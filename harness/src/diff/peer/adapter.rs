@@ -1,19 +1,11 @@
 //! A peer made of a step function and the way its state lies in cells.
 
 use stillpoint_model::Domain;
+use stillpoint_monitors::fields::Fields;
 
+use super::cells::{load, store, stored};
 use super::{Numbers, Peer};
 use crate::diff::product::Values;
-
-/// A state as numbers.
-pub(super) trait Cells: Copy + Send + Sync + 'static {
-    /// How many.
-    const COUNT: usize;
-    /// The state in cells.
-    fn load(cells: &[i32]) -> Self;
-    /// Writes the state to cells.
-    fn store(self, cells: &mut [i32]);
-}
 
 /// A monitor with its configuration.
 pub(super) struct Adapter {
@@ -32,18 +24,17 @@ type Step = dyn Fn(&mut [i32], &[i32], &mut Numbers) + Send + Sync;
 
 impl Adapter {
     /// A monitor with these ports, as the table calls them, and a state of these cells.
-    pub(super) fn new<S: Cells>(
+    pub(super) fn new<S: Fields>(
         inputs: &'static [&'static str],
         outputs: &'static [&'static str],
         domains: Vec<Domain>,
         initial: S,
         step: impl Fn(S, &[i32], &mut Numbers) -> S + Send + Sync + 'static,
     ) -> Self {
-        let mut cells = vec![0; S::COUNT];
-        initial.store(&mut cells);
         let step = move |cells: &mut [i32], i: &[i32], o: &mut Numbers| {
-            step(S::load(cells), i, o).store(cells);
+            store(step(load(cells), i, o), cells);
         };
+        let cells = stored(initial);
         Self::of(inputs.to_vec(), outputs.to_vec(), domains, cells, step)
     }
 
@@ -73,7 +64,9 @@ impl Adapter {
         outputs: &'static [&'static str],
         step: impl Fn(&[i32], &mut Numbers) + Send + Sync + 'static,
     ) -> Self {
-        Self::new(inputs, outputs, Vec::new(), (), move |(), i, o| step(i, o))
+        let step = move |_: &mut [i32], i: &[i32], o: &mut Numbers| step(i, o);
+        let (inputs, outputs) = (inputs.to_vec(), outputs.to_vec());
+        Self::of(inputs, outputs, Vec::new(), Vec::new(), step)
     }
 
     /// Names the inputs that only the table has, for other readings than the recommended ones.
@@ -107,51 +100,6 @@ impl Adapter {
         self.kept.push((cell, state, condition));
         self
     }
-}
-
-/// Implements [`Cells`]: the fields of a state in their order, each with its way from a number and back.
-macro_rules! cells {
-    ($($state:ty, $count:literal { $($field:ident = $load:expr, $store:expr;)+ })+) => {$(
-        impl $crate::diff::peer::adapter::Cells for $state {
-            const COUNT: usize = $count;
-
-            fn load(cells: &[i32]) -> Self {
-                let mut cells = cells.iter().copied();
-                let mut next = || cells.next().unwrap_or(0);
-                Self { $($field: ($load)(next()),)+ }
-            }
-
-            fn store(self, cells: &mut [i32]) {
-                for (cell, value) in cells.iter_mut().zip([$(($store)(self.$field)),+]) {
-                    *cell = value;
-                }
-            }
-        }
-    )+};
-}
-
-pub(super) use cells;
-
-/// The state in the first of the cells; they are then the others.
-pub(super) fn take<S: Cells>(rest: &mut &[i32]) -> S {
-    let (own, others) = rest.split_at(S::COUNT.min(rest.len()));
-    *rest = others;
-    S::load(own)
-}
-
-/// Writes the state to the first of the cells; the others.
-pub(super) fn put<S: Cells>(state: S, cells: &mut [i32]) -> &mut [i32] {
-    let (own, others) = cells.split_at_mut(S::COUNT.min(cells.len()));
-    state.store(own);
-    others
-}
-
-impl Cells for () {
-    const COUNT: usize = 0;
-
-    fn load(_: &[i32]) -> Self {}
-
-    fn store(self, _: &mut [i32]) {}
 }
 
 impl Peer for Adapter {

@@ -1,6 +1,7 @@
 //! The production monitors as peers of the tables: the same ports, in the numbers of the specification.
 
 mod adapter;
+mod cells;
 mod heidenhain;
 mod numbers;
 mod same;
@@ -45,13 +46,20 @@ pub struct Family {
     pub name: &'static str,
     /// The module of its monitors.
     pub module: &'static str,
-    /// The machines that have a monitor, each with the name of its module.
-    pub machines: &'static [(&'static str, &'static str)],
+    /// The machines that have a monitor, each with the name of its module; list by list.
+    machines: &'static [&'static [(&'static str, &'static str)]],
     /// The systems that have a monitor: several machines together.
     pub systems: &'static [(&'static str, &'static str)],
     /// Parameters of the tables with the only value for which a comparison means something.
     pub fixed: &'static [(&'static str, &'static str, i64)],
     make: fn(&str, &Params, Option<Mutant>) -> Made,
+}
+
+impl Family {
+    /// The machines that have a monitor, each with the name of its module.
+    pub fn machines(&self) -> impl Iterator<Item = (&'static str, &'static str)> + use<> {
+        self.machines.iter().flat_map(|list| list.iter().copied())
+    }
 }
 
 /// The families with monitors.

@@ -1,7 +1,7 @@
 //! What the monitors of every family are made of as the numbers of the tables, and back.
 
 use stillpoint_model::Domain;
-use stillpoint_monitors::kernel::{Cycles, Distance, Position, Speed};
+use stillpoint_monitors::kernel::{Cycles, Distance, Speed};
 
 /// The value with this number; the first one for a number that none has.
 pub(in crate::diff::peer) fn value<T: Copy>(all: &[T], ordinal: i32) -> T {
@@ -18,16 +18,8 @@ pub(in crate::diff::peer) fn cycles(cell: i32) -> Cycles {
     Cycles::new(u32::try_from(cell).unwrap_or(0))
 }
 
-pub(in crate::diff::peer) fn cell(cycles: Cycles) -> i32 {
-    i32::try_from(cycles.count()).unwrap_or(i32::MAX)
-}
-
 pub(in crate::diff::peer) fn speed(value: i32) -> Speed {
     Speed(u32::try_from(value).unwrap_or(0))
-}
-
-pub(in crate::diff::peer) fn increments(speed: Speed) -> i32 {
-    i32::try_from(speed.0).unwrap_or(i32::MAX)
 }
 
 pub(in crate::diff::peer) fn distance(value: i32) -> Distance {
@@ -48,12 +40,4 @@ pub(in crate::diff::peer) fn truth() -> Domain {
 
 pub(in crate::diff::peer) fn upto(hi: i32) -> Domain {
     Domain { lo: 0, hi }
-}
-
-pub(in crate::diff::peer) const fn truthy(cell: i32) -> bool {
-    cell != 0
-}
-
-pub(in crate::diff::peer) fn position(position: Position) -> i32 {
-    position.0
 }

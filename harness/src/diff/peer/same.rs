@@ -3,87 +3,26 @@
 
 use stillpoint_model::Domain;
 use stillpoint_monitors::contract::{Contract, Next};
-use stillpoint_monitors::fields::{Fields, Kind, Visitor};
+use stillpoint_monitors::fields::Kind;
 use stillpoint_monitors::mutant::Mutant;
 use stillpoint_spec::ir::LazyKind;
 
 use super::adapter::Adapter;
+use super::cells::{Number, cell, get, load, numbers, set, stored};
 use super::{Params, Refusable, Refusal, chosen};
 use crate::diff::product::{Values, is};
-
-/// A number of a type: its name, that with the names of the fields it is in, and its values.
-struct Number {
-    short: &'static str,
-    name: String,
-    kind: Kind,
-}
-
-/// Collects the numbers of a type.
-#[derive(Default)]
-struct Numbers {
-    path: Vec<&'static str>,
-    all: Vec<Number>,
-}
-
-impl Visitor for Numbers {
-    fn number(&mut self, name: &'static str, kind: Kind, value: i64) -> i64 {
-        self.path.push(name);
-        let name = self.path[1..].join(".");
-        let short = self.path.pop().unwrap_or_default();
-        self.all.push(Number { short, name, kind });
-        value
-    }
-
-    fn open(&mut self, name: &'static str) {
-        self.path.push(name);
-    }
-
-    fn close(&mut self) {
-        self.path.pop();
-    }
-}
-
-fn numbers<T: Fields>() -> Vec<Number> {
-    let mut numbers = Numbers::default();
-    T::ANY.clone().visit("", &mut numbers);
-    numbers.all
-}
-
-/// Sets each number to the next one of a list.
-struct Set<I>(I);
-
-impl<I: Iterator<Item = i64>> Visitor for Set<I> {
-    fn number(&mut self, _: &'static str, _: Kind, value: i64) -> i64 {
-        self.0.next().unwrap_or(value)
-    }
-}
-
-fn set<T: Fields>(numbers: impl Iterator<Item = i64>) -> T {
-    let mut value = T::ANY;
-    value.visit("", &mut Set(numbers));
-    value
-}
-
-/// Hands each number on.
-struct Get<F>(F);
-
-impl<F: FnMut(i64)> Visitor for Get<F> {
-    fn number(&mut self, _: &'static str, _: Kind, value: i64) -> i64 {
-        (self.0)(value);
-        value
-    }
-}
-
-fn get<T: Fields>(mut value: T, each: impl FnMut(i64)) {
-    value.visit("", &mut Get(each));
-}
 
 /// Where the number of an input comes from.
 #[derive(Clone, Copy)]
 enum Feed {
     Port(usize),
     Constant(i64),
+    /// From several ports, the first of which is this one.
+    Made(usize, Make),
 }
+
+/// A number from the values of ports.
+type Make = fn(&[i32]) -> i64;
 
 /// An output that the table has and the monitor does not: what it is made of.
 type Told<M> = fn(&<M as Contract>::State, &<M as Contract>::Outputs) -> i64;
@@ -97,7 +36,12 @@ pub(super) struct Same<'a, M: Contract> {
     constants: &'static [(&'static str, i64)],
     hidden: &'static [&'static str],
     unused: &'static [&'static str],
+    /// Why the table is too small.
+    lacks: Option<&'static str>,
+    /// Where it is not made of the parameters by their names.
+    config: Option<M::Config>,
     told: Vec<(&'static str, Told<M>)>,
+    made: Vec<(&'static str, &'static [&'static str], Make)>,
     cells: Vec<(&'static str, Domain)>,
     kept: Vec<(&'static str, &'static str, &'static str)>,
     only: Vec<(&'static [&'static str], Values)>,
@@ -113,7 +57,10 @@ impl<'a, M: Contract> Same<'a, M> {
             constants: &[],
             hidden: &[],
             unused: &[],
+            lacks: None,
+            config: None,
             told: Vec::new(),
+            made: Vec::new(),
             cells: Vec::new(),
             kept: Vec::new(),
             only: Vec::new(),
@@ -132,6 +79,18 @@ impl<'a, M: Contract> Same<'a, M> {
         self
     }
 
+    /// The configuration, where its parameters are not those of the table.
+    pub(super) fn config(mut self, config: M::Config) -> Self {
+        self.config = Some(config);
+        self
+    }
+
+    /// What the parameters of the table must be, because it is smaller than the monitor.
+    pub(super) fn needs(mut self, holds: bool, text: &'static str) -> Self {
+        self.lacks = self.lacks.or((!holds).then_some(text));
+        self
+    }
+
     /// Outputs of the monitor that the table does not have, and states that are not to be compared.
     pub(super) fn hidden(mut self, hidden: &'static [&'static str]) -> Self {
         self.hidden = hidden;
@@ -147,6 +106,17 @@ impl<'a, M: Contract> Same<'a, M> {
     /// An output that the table has in other words.
     pub(super) fn told(mut self, name: &'static str, told: Told<M>) -> Self {
         self.told.push((name, told));
+        self
+    }
+
+    /// An input that the table has in other words: the ports it is made of.
+    pub(super) fn made(
+        mut self,
+        name: &'static str,
+        ports: &'static [&'static str],
+        make: Make,
+    ) -> Self {
+        self.made.push((name, ports, make));
         self
     }
 
@@ -185,18 +155,21 @@ impl<'a, M: Contract> Same<'a, M> {
     }
 
     fn constant(&self, own: &str) -> Option<i64> {
-        let found = self.constants.iter().find(|(name, _)| ends(own, name));
+        let found = self.constants.iter().find(|(name, _)| has(own, name));
         found.map(|(_, value)| *value)
     }
 
     fn is_hidden(&self, own: &str) -> bool {
-        self.hidden.iter().any(|name| ends(own, name))
+        self.hidden.iter().any(|name| has(own, name))
     }
 
     /// The configuration, from the parameters of the table.
-    fn config(&self) -> Result<M::Config, Refusal> {
+    fn configuration(&self) -> Result<M::Config, Refusal> {
+        if let Some(config) = self.config {
+            return Ok(config);
+        }
         let mut values = Vec::new();
-        for number in &numbers::<M::Config>() {
+        for number in &numbers::<M::Config>("config") {
             values.push(match self.constant(&number.name) {
                 Some(value) => value,
                 None => i64::from(self.params.known(self.table_name(number))?),
@@ -223,7 +196,7 @@ impl<'a, M: Contract> Same<'a, M> {
             return Ok(*domain);
         }
         let (low, high) = number.kind.ends();
-        if !matches!(number.kind, Kind::Whole(..)) || high - low < 256 {
+        if !matches!(number.kind, Kind::Whole(..)) || high.saturating_sub(low) < 256 {
             let (lo, hi) = (low as i32, high as i32);
             return Ok(Domain { lo, hi });
         }
@@ -240,13 +213,22 @@ impl<'a, M: Contract> Same<'a, M> {
 
     /// The peer.
     pub(super) fn peer(self) -> Refusable {
-        let config = self.config()?;
+        if let Some(text) = self.lacks {
+            return Err(Refusal::Table(text));
+        }
+        let config = self.configuration()?;
         let mut ports = Vec::new();
         let mut feeds = Vec::new();
-        for number in &numbers::<M::Inputs>() {
-            feeds.push(match self.constant(&number.name) {
-                Some(value) => Feed::Constant(value),
-                None => {
+        for number in &numbers::<M::Inputs>("inputs") {
+            let made = self.made.iter().find(|(n, ..)| ends(&number.name, n));
+            feeds.push(match (self.constant(&number.name), made) {
+                (Some(value), _) => Feed::Constant(value),
+                (None, Some((_, parts, make))) => {
+                    let first = ports.len();
+                    ports.extend(*parts);
+                    Feed::Made(first, *make)
+                }
+                (None, None) => {
                     ports.push(self.table_name(number));
                     Feed::Port(ports.len() - 1)
                 }
@@ -255,7 +237,7 @@ impl<'a, M: Contract> Same<'a, M> {
         // Which of the numbers are compared, outputs first.
         let mut outputs = Vec::new();
         let mut from_outputs = Vec::new();
-        for number in &numbers::<M::Outputs>() {
+        for number in &numbers::<M::Outputs>("outputs") {
             let compared = !self.is_hidden(&number.name);
             from_outputs.push(compared);
             if compared {
@@ -265,7 +247,7 @@ impl<'a, M: Contract> Same<'a, M> {
         let mut from_state = Vec::new();
         let mut domains = Vec::new();
         let mut kept = Vec::new();
-        for (cell, number) in numbers::<M::State>().iter().enumerate() {
+        for (cell, number) in numbers::<M::State>("state").iter().enumerate() {
             domains.push(self.domain(number)?);
             let name = self.table_name(number);
             let known = outputs.contains(&name);
@@ -279,14 +261,13 @@ impl<'a, M: Contract> Same<'a, M> {
         }
         let told: Vec<Told<M>> = self.told.iter().map(|(_, told)| *told).collect();
         outputs.extend(self.told.iter().map(|(name, _)| *name));
-        let mut initial = Vec::new();
-        get(M::INITIAL, |number| initial.push(number as i32));
         let next = self.next;
         let step = move |cells: &mut [i32], ports: &[i32], said: &mut super::Numbers| {
-            let state = set(cells.iter().map(|cell| i64::from(*cell)));
+            let state = load(cells);
             let inputs = set(feeds.iter().map(|feed| match feed {
                 Feed::Port(k) => i64::from(ports[*k]),
                 Feed::Constant(value) => *value,
+                Feed::Made(first, make) => make(&ports[*first..]),
             }));
             let (after, outputs) = next(state, &config, &inputs);
             let mut compared = from_outputs.iter();
@@ -296,13 +277,14 @@ impl<'a, M: Contract> Same<'a, M> {
             let (mut compared, mut own) = (from_state.iter(), cells.iter_mut());
             get(after, |number| {
                 said.extend(compared.next().filter(|c| **c).map(|_| number));
-                if let Some(cell) = own.next() {
-                    *cell = i32::try_from(number).unwrap_or(i32::MAX);
+                if let Some(place) = own.next() {
+                    *place = cell(number);
                 }
             });
             said.extend(told.iter().map(|told| told(&after, &outputs)));
         };
-        let mut adapter = Adapter::of(ports, outputs, domains, initial, step).without(self.unused);
+        let mut adapter =
+            Adapter::of(ports, outputs, domains, stored(M::INITIAL), step).without(self.unused);
         for (inputs, values) in self.only {
             adapter = adapter.only(inputs, values);
         }
@@ -311,6 +293,33 @@ impl<'a, M: Contract> Same<'a, M> {
         }
         Ok(adapter)
     }
+}
+
+/// The monitors of a family that its tables describe in the same words: the machine of the table, the module of the monitor, and
+/// what is not the same.
+macro_rules! peers {
+    ($family:ident |$params:ident| $($machine:literal => $monitor:ident $(.$what:ident($($how:expr),* $(,)?))*;)+) => {
+        /// The machines of these tables, each with the module of its monitor.
+        pub(super) const MACHINES: &[(&str, &str)] = &[$(($machine, stringify!($monitor))),+];
+
+        /// The monitor of a machine.
+        pub(super) fn make(machine: &str, $params: &Params, mutant: Option<Mutant>) -> Made {
+            Ok(Some(match machine {
+                $($machine => Same::<stillpoint_monitors::$family::$monitor::Monitor>::new($params, mutant)
+                    $(.$what($($how),*))*
+                    .peer()?,)+
+                _ => return Ok(None),
+            }))
+        }
+    };
+}
+
+pub(super) use peers;
+
+/// Whether a number is this one, or one of those below it.
+fn has(path: &str, name: &str) -> bool {
+    let (path, name) = (format!(".{path}."), format!(".{name}."));
+    path.contains(&name)
 }
 
 /// Whether a name with the names of the fields it is in ends in this one.

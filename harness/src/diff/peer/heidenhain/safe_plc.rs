@@ -7,8 +7,17 @@ use stillpoint_monitors::heidenhain::{axes_logic, key_filter, magazine_logic, sp
 use stillpoint_monitors::mutant::Mutant;
 
 use super::numbers::*;
-use crate::diff::peer::adapter::{Adapter, Cells, cells, put, take};
+use crate::diff::peer::adapter::Adapter;
+use crate::diff::peer::cells::stored;
 use crate::diff::peer::{Made, Params, Refusable, chosen};
+
+/// The machines of these tables, each with the block that its mutants are variants of.
+pub(super) const MACHINES: &[(&str, &str)] = &[
+    ("splc", "safe_plc"),
+    ("splc_axes", "axes_logic"),
+    ("splc_spindle", "spindle_logic"),
+    ("splc_magazine", "magazine_logic"),
+];
 
 /// The monitor of a machine of this topic.
 pub(super) fn make(machine: &str, p: &Params, mutant: Option<Mutant>) -> Made {
@@ -27,50 +36,6 @@ pub(super) fn make(machine: &str, p: &Params, mutant: Option<Mutant>) -> Made {
     }))
 }
 
-cells! {
-    axes_logic::State, 7 {
-        open = truthy, i32::from;
-        keyed = truthy, i32::from;
-        starts = truthy, i32::from;
-        latch = truthy, i32::from;
-        started = truthy, i32::from;
-        program = truthy, i32::from;
-        rest = cycles, cell;
-    }
-    spindle_logic::State, 6 {
-        open = truthy, i32::from;
-        keyed = truthy, i32::from;
-        starts = truthy, i32::from;
-        jogged = truthy, i32::from;
-        latch = truthy, i32::from;
-        started = truthy, i32::from;
-    }
-    magazine_logic::State, 3 {
-        open = truthy, i32::from;
-        keyed = truthy, i32::from;
-        confirmed = truthy, i32::from;
-    }
-}
-
-impl Cells for State {
-    const COUNT: usize =
-        axes_logic::State::COUNT + spindle_logic::State::COUNT + magazine_logic::State::COUNT;
-
-    fn load(mut cells: &[i32]) -> Self {
-        Self {
-            axes: take(&mut cells),
-            spindle: take(&mut cells),
-            magazine: take(&mut cells),
-        }
-    }
-
-    fn store(self, cells: &mut [i32]) {
-        let rest = put(self.axes, cells);
-        let rest = put(self.spindle, rest);
-        put(self.magazine, rest);
-    }
-}
-
 /// The EN 12417 variant, axis-direction keys without permissive: the recommended readings.
 fn config(p: &Params) -> Result<Config, crate::diff::peer::Refusal> {
     Ok(Config::new(p.time("t_clear"), true, false)?)
@@ -82,7 +47,7 @@ fn timeless() -> Result<Config, crate::diff::peer::Refusal> {
 }
 
 fn domains(p: &Params) -> Vec<stillpoint_model::Domain> {
-    let mut all = vec![truth(); State::COUNT];
+    let mut all = vec![truth(); stored(State::INITIAL).len()];
     all[6] = upto(p.value("t_clear").max(1));
     all
 }

@@ -5,12 +5,11 @@ use stillpoint_monitors::kernel::{ConfigError, Position};
 use stillpoint_monitors::mutant::Mutant;
 use stillpoint_monitors::sinumerik::level::{ExternalStop, InternalStop};
 use stillpoint_monitors::sinumerik::{
-    channel, fault, limit_switch, pulses, ramp, speed, standstill, test_stop, threshold,
+    channel, external, fault, pulses, ramp, standstill, stop, test_stop, threshold,
 };
 
-use super::axis::selection_config;
 use super::numbers::*;
-use super::stops::{external_config, longest, stop_config};
+use super::same::{limit_switch_config, selection_config, speed_config};
 use crate::diff::peer::adapter::Adapter;
 use crate::diff::peer::{Made, Params, Refusable, Refusal, chosen};
 
@@ -23,29 +22,17 @@ pub(super) fn make(system: &str, p: &Params, mutant: Option<Mutant>) -> Made {
 }
 
 fn config(p: &Params) -> Result<channel::Config, ConfigError> {
-    let reactions = ["reaction_1", "reaction_2", "reaction_3", "reaction_4"];
-    let pair = |names: [&str; 2]| names.map(|name| Position(p.value(name)));
     Ok(channel::Config {
-        external: external_config(p)?,
+        external: external::Config::new(p.is("enable_ext"), p.is("enable_e"), p.is("spl_stop_e"))?,
         test: test_stop::Config::new(p.time("t_chk"))?,
         selection: selection_config(p)?,
         standstill: standstill::Config::new(distance(p.value("sbh_tol")))?,
-        speed: speed::Config::new(
-            small(p.value("sg_mode")),
-            reactions.map(|name| small(p.value(name))),
-            p.is("one_encoder").then(|| p.speed("encoder_max")),
-            small(p.value("setpoint_percent")),
-        )?,
-        limit_switch: limit_switch::Config::new(
-            p.is("se"),
-            pair(["plus_1", "plus_2"]),
-            pair(["minus_1", "minus_2"]),
-            small(p.value("se_mode")),
-        )?,
+        speed: speed_config(p, "sg_mode")?,
+        limit_switch: limit_switch_config(p, "se", "se_mode")?,
         ramp: ramp::Config::new(p.speed("velo_x"), p.speed("ramp_tol"))?,
         threshold: threshold::Config::new(p.speed("velo_x"))?,
         fault: fault::Config::new(p.time("t_f"))?,
-        stop: stop_config(p)?,
+        stop: stop::Config::new(p.time("t_b"), p.time("t_c"), p.time("t_d"), p.time("t_e"))?,
         pulses: pulses::Config::new(p.is("internal"), true, p.time("t_chk"))?,
         standstill_speed: p.speed("velo_tol"),
         se_sn_enabled: p.is("se") || p.is("sn"),
@@ -60,6 +47,8 @@ fn core(p: &Params, mutant: Option<Mutant>) -> Refusable {
     }
     let config = config(p)?;
     let next = chosen::<channel::Monitor>(mutant);
+    let times = ["t_b", "t_c", "t_d", "t_e"].map(|name| p.value(name));
+    let longest = times.into_iter().max().unwrap_or(0);
     let (use_c, use_d) = (p.is("use_c"), p.is("use_d"));
     let (tested, peer) = (p.is("tested"), p.is("peer"));
     let (factor_cell, position) = (upto(p.value("over_max")), upto(p.value("pos_max")));
@@ -79,7 +68,7 @@ fn core(p: &Params, mutant: Option<Mutant>) -> Refusable {
         ],
         vec![upto(p.value("v_max"))],
         vec![upto(3), upto(p.value("t_f"))],
-        vec![upto(7), upto(7), upto(7), upto(5), upto(longest(p))],
+        vec![upto(7), upto(7), upto(7), upto(5), upto(longest)],
         vec![upto(3), t_chk],
     ];
     Ok(Adapter::new(

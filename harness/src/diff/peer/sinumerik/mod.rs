@@ -1,14 +1,11 @@
 //! The monitors of the SINUMERIK 840D as peers of its tables.
 
-mod axis;
-mod cells;
+mod apart;
 mod channel;
-mod checking;
-mod monitoring;
 mod numbers;
 mod pair;
 mod register;
-mod stops;
+mod same;
 
 use stillpoint_monitors::mutant::Mutant;
 
@@ -17,31 +14,7 @@ use super::{Family, Made, Params};
 pub(super) static FAMILY: Family = Family {
     name: "sinumerik-840d",
     module: "sinumerik",
-    machines: &[
-        ("external", "external"),
-        ("fault", "fault"),
-        ("stop", "stop"),
-        ("group", "group"),
-        ("selection", "selection"),
-        ("reference", "reference"),
-        ("agreement", "agreement"),
-        ("gear", "gear"),
-        ("motion", "motion"),
-        ("standstill", "standstill"),
-        ("speed", "speed"),
-        ("end_stop", "limit_switch"),
-        ("ramp", "ramp"),
-        ("threshold", "threshold"),
-        ("cam", "cam"),
-        ("results", "results"),
-        ("test", "test_stop"),
-        ("shutdown_test", "shutdown_test"),
-        ("pulses", "pulses"),
-        ("compare", "compare"),
-        ("slip", "slip"),
-        ("history", "history"),
-        ("test_interval", "forced_check"),
-    ],
+    machines: &[same::MACHINES, apart::MACHINES],
     systems: &[
         ("axis_core", "channel"),
         ("pair_stops", "pair"),
@@ -53,14 +26,7 @@ pub(super) static FAMILY: Family = Family {
 };
 
 fn make(machine: &str, params: &Params, mutant: Option<Mutant>) -> Made {
-    for make in [
-        stops::make,
-        axis::make,
-        monitoring::make,
-        checking::make,
-        channel::make,
-        pair::make,
-    ] {
+    for make in [same::make, apart::make, channel::make, pair::make] {
         if let Some(adapter) = make(machine, params, mutant)? {
             return Ok(Some(adapter));
         }

@@ -2,7 +2,7 @@
 
 use stillpoint_monitors::sinumerik::level::{ExternalStop, InternalStop, Level};
 use stillpoint_monitors::sinumerik::selection::{FactorIndex, Mode, Monitored, Stage};
-use stillpoint_monitors::sinumerik::{fault, path_test, pulses, reference, stop};
+use stillpoint_monitors::sinumerik::{fault, reference, stop};
 
 pub(super) use crate::diff::peer::numbers::*;
 use crate::diff::product::Values;
@@ -40,17 +40,6 @@ pub(super) const AXES: [reference::AxisState; 4] = [
     reference::AxisState::Ref,
     reference::AxisState::SafeRef,
 ];
-pub(super) const TESTS: [path_test::Phase; 3] = [
-    path_test::Phase::Idle,
-    path_test::Phase::Run,
-    path_test::Phase::RunOk,
-];
-pub(super) const PULSES: [pulses::Phase; 4] = [
-    pulses::Phase::Enabled,
-    pulses::Phase::CancelInt,
-    pulses::Phase::Cancelled,
-    pulses::Phase::CancelExt,
-];
 const LEVELS: [Level; 8] = [
     Level::None,
     Level::F,
@@ -85,13 +74,6 @@ pub(super) fn stage(ordinal: i32) -> Stage {
 pub(super) fn factor(index: i32) -> FactorIndex {
     let index = u8::try_from(index).ok();
     index.and_then(FactorIndex::new).unwrap_or_default()
-}
-
-pub(super) fn monitored(ordinal: i32) -> Monitored {
-    value(
-        &[Monitored::Nothing, Monitored::Speed, Monitored::Standstill],
-        ordinal,
-    )
 }
 
 pub(super) fn watched(monitored: Monitored) -> i64 {

@@ -20,7 +20,7 @@ use stillpoint_monitors::sinumerik::parameters::{
 
 use super::numbers::*;
 use super::register::{NUMBERS, Register, Side};
-use crate::diff::peer::adapter::{Adapter, Cells};
+use crate::diff::peer::adapter::Adapter;
 use crate::diff::peer::{Made, Numbers, Params, Refusal, one_of};
 
 /// The systems of this topic.
@@ -41,7 +41,8 @@ pub(super) fn make(system: &str, p: &Params, mutant: Option<Mutant>) -> Made {
         sides: [number(axis::State::INITIAL); 2],
         kept: [[0; 3]; 2],
     };
-    let mut adapter = Adapter::new(inputs, outputs, domains(p), first, move |known, i, o| {
+    let step = move |cells: &mut [i32], i: &[i32], o: &mut Numbers| {
+        let known = Known::load(cells);
         let [nck, drive] = [0, 1].map(|k| {
             let mut side = sides.side(known.sides[k]);
             // Only before the first cycle is there anything kept beside the number.
@@ -65,7 +66,7 @@ pub(super) fn make(system: &str, p: &Params, mutant: Option<Mutant>) -> Made {
         };
         let (after, out) = next(before, &config, &see(&gates, i));
         show(&out, o);
-        Known {
+        let known = Known {
             sides: [
                 sides.number(Side {
                     state: after.nck,
@@ -77,8 +78,14 @@ pub(super) fn make(system: &str, p: &Params, mutant: Option<Mutant>) -> Made {
                 }),
             ],
             kept: [[0; 3]; 2],
-        }
-    });
+        };
+        cells
+            .iter_mut()
+            .zip(known.cells())
+            .for_each(|(cell, value)| *cell = value);
+    };
+    let first = first.cells().collect();
+    let mut adapter = Adapter::of(inputs.to_vec(), outputs.to_vec(), domains(p), first, step);
     if system == "pair_reference" {
         for (channel, [agreed, stored, standstill]) in KEPT.into_iter().enumerate() {
             let cell = 2 + 3 * channel;
@@ -118,9 +125,7 @@ struct Known {
     kept: [[i32; 3]; 2],
 }
 
-impl Cells for Known {
-    const COUNT: usize = 8;
-
+impl Known {
     fn load(cells: &[i32]) -> Self {
         let cell = |k: usize| cells.get(k).copied().unwrap_or(0);
         Self {
@@ -129,14 +134,9 @@ impl Cells for Known {
         }
     }
 
-    fn store(self, cells: &mut [i32]) {
-        let all = self
-            .sides
-            .into_iter()
-            .chain(self.kept.into_iter().flatten());
-        for (cell, value) in cells.iter_mut().zip(all) {
-            *cell = value;
-        }
+    fn cells(self) -> impl Iterator<Item = i32> {
+        let kept = self.kept.into_iter().flatten();
+        self.sides.into_iter().chain(kept)
     }
 }
 
