@@ -4,7 +4,7 @@
 
 use crate::bind::Bound;
 use crate::diag::{Diagnostic, Diagnostics, Result};
-use crate::eval::{Cells, Frame, UNSET, value};
+use crate::eval::{Cells, Driven, Frame, UNSET, value};
 use crate::ir::{Lazy, LazyKind, Node, Space, Stmt};
 use crate::spec::Spec;
 
@@ -187,7 +187,11 @@ impl<'a> Guards<'a> {
                 if hit.is_some() && !exclusive {
                     break;
                 }
-                if value(when, cells, &mut frame, &mut read) == 0 {
+                let memory = &mut Driven {
+                    frame: &mut frame,
+                    read: &mut read,
+                };
+                if value(when, cells, memory) == 0 {
                     continue;
                 }
                 match hit {

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::diag::nearest;
+use crate::eval::{self, Cells, Driven, Frame};
 use crate::ir::{Node, Space, System, Var};
 
 /// Inclusive range of a cell.
@@ -227,15 +228,17 @@ fn range(var: &Var, values: &[i32]) -> (i64, i64) {
 
 /// Evaluates an expression of parameters; anything else cannot occur in one.
 fn evaluate(node: &Node, values: &[i32]) -> i64 {
-    let mut never = |_: usize| 0;
-    let mut frame = crate::eval::Frame::empty();
-    let cells = crate::eval::Cells {
+    let memory = &mut Driven {
+        frame: &mut Frame::empty(),
+        read: &mut |_| 0,
+    };
+    let cells = Cells {
         params: values,
         lazies: &[],
     };
     match node {
         Node::Const(v) => *v,
         Node::Cell(Space::Param, k) => values.get(*k as usize).copied().map_or(0, i64::from),
-        other => crate::eval::value(other, cells, &mut frame, &mut never),
+        other => eval::value(other, cells, memory),
     }
 }

@@ -1,4 +1,4 @@
-//! The interpreter: one step of a system over a frame of cells.
+//! The interpreter: one step of a system over the cells of a cycle.
 
 use crate::bind::Bound;
 use crate::ir::{BinaryOp, Lazy, Node, Space, Stmt};
@@ -86,6 +86,65 @@ pub(crate) struct Cells<'a> {
 pub trait Read: FnMut(usize) -> i32 {}
 impl<F: FnMut(usize) -> i32> Read for F {}
 
+/// The cells of one cycle as the interpreter meets them: it reads and writes nothing else. So what it does is a function of what
+/// it has read here.
+pub trait Memory {
+    /// State variable `k` at the start of the cycle.
+    fn before(&mut self, k: usize) -> i32;
+    /// State variable `k` as the rules have changed it.
+    fn now(&mut self, k: usize) -> i32;
+    /// Input `k`, the same in the whole cycle.
+    fn input(&mut self, k: usize) -> i32;
+    /// Named expression `k`, if it has been evaluated in this cycle.
+    fn named(&mut self, k: usize) -> Option<i32>;
+    /// Assigns to state variable `k`.
+    fn assign(&mut self, k: usize, value: i32);
+    /// Named expression `k` has been evaluated.
+    fn name(&mut self, k: usize, value: i32);
+    /// In the step of an instance the rule of this number fired, from 1; 0 for none.
+    fn fired(&mut self, _instance: usize, _rule: usize) {}
+}
+
+/// A frame whose inputs are read from the environment when they are first needed.
+pub(crate) struct Driven<'a, R> {
+    pub frame: &'a mut Frame,
+    pub read: &'a mut R,
+}
+
+impl<R: Read> Memory for Driven<'_, R> {
+    fn before(&mut self, k: usize) -> i32 {
+        self.frame.before[k]
+    }
+
+    fn now(&mut self, k: usize) -> i32 {
+        self.frame.now[k]
+    }
+
+    fn input(&mut self, k: usize) -> i32 {
+        let cell = &mut self.frame.inputs[k];
+        if *cell == UNSET {
+            *cell = (self.read)(k);
+        }
+        *cell
+    }
+
+    fn named(&mut self, k: usize) -> Option<i32> {
+        Some(self.frame.lazies[k]).filter(|v| *v != UNSET)
+    }
+
+    fn assign(&mut self, k: usize, value: i32) {
+        self.frame.now[k] = value;
+    }
+
+    fn name(&mut self, k: usize, value: i32) {
+        self.frame.lazies[k] = value;
+    }
+
+    fn fired(&mut self, instance: usize, rule: usize) {
+        self.frame.fired[instance] = rule as i32;
+    }
+}
+
 impl Bound {
     fn cells(&self) -> Cells<'_> {
         Cells {
@@ -107,23 +166,31 @@ impl Bound {
     /// # Errors
     /// As [`Bound::step`].
     pub fn step_instance(&self, k: usize, f: &mut Frame, read: &mut impl Read) -> Result<(), u32> {
+        self.step_over(k, &mut Driven { frame: f, read })
+    }
+
+    /// The step of instance `k` over any memory.
+    ///
+    /// # Errors
+    /// As [`Bound::step`].
+    pub fn step_over(&self, k: usize, m: &mut impl Memory) -> Result<(), u32> {
         let cells = self.cells();
         let rules = &self.system.instances[k].rules;
         let mut fired = 0;
         for (n, rule) in rules.iter().enumerate() {
-            if value(&rule.when, cells, f, read) != 0 {
+            if value(&rule.when, cells, m) != 0 {
                 fired = n + 1;
                 break;
             }
         }
-        f.fired[k] = fired as i32;
+        m.fired(k, fired);
         match fired {
             0 => Ok(()),
-            _ => self.run(&rules[fired - 1].then, f, read),
+            _ => self.run(&rules[fired - 1].then, m),
         }
     }
 
-    fn run(&self, list: &[Stmt], f: &mut Frame, read: &mut impl Read) -> Result<(), u32> {
+    fn run(&self, list: &[Stmt], m: &mut impl Memory) -> Result<(), u32> {
         let cells = self.cells();
         for s in list {
             match s {
@@ -135,26 +202,26 @@ impl Bound {
                     site,
                 } => {
                     let offset = match index {
-                        Some((k, lo, _)) => (value(k, cells, f, read) - lo) as usize,
+                        Some((k, lo, _)) => (value(k, cells, m) - lo) as usize,
                         None => 0,
                     };
-                    let v = value(node, cells, f, read);
+                    let v = value(node, cells, m);
                     let cell = *base as usize + offset;
                     let (lo, hi) = self.states[cell];
                     if *checked && (v < i64::from(lo) || v > i64::from(hi)) {
                         return Err(*site);
                     }
-                    f.now[cell] = v as i32;
+                    m.assign(cell, v as i32);
                 }
                 Stmt::If(branches, rest) => {
                     let mut body = rest;
                     for (g, then) in branches {
-                        if value(g, cells, f, read) != 0 {
+                        if value(g, cells, m) != 0 {
                             body = then;
                             break;
                         }
                     }
-                    self.run(body, f, read)?;
+                    self.run(body, m)?;
                 }
             }
         }
@@ -163,51 +230,52 @@ impl Bound {
 
     /// Atom `k` over the cycle just made.
     pub fn atom(&self, k: usize, f: &mut Frame, read: &mut impl Read) -> bool {
-        value(&self.system.atoms[k], self.cells(), f, read) != 0
+        self.value(&self.system.atoms[k], f, read) != 0
     }
 
     /// Observed expression `k` over the cycle just made.
     pub fn observe(&self, k: usize, f: &mut Frame, read: &mut impl Read) -> i64 {
-        value(&self.system.observed[k], self.cells(), f, read)
+        self.value(&self.system.observed[k], f, read)
     }
 
     /// Named expression `k` over the cycle just made.
     pub fn lazy(&self, k: usize, f: &mut Frame, read: &mut impl Read) -> i64 {
-        value(&Node::Lazy(k as u32), self.cells(), f, read)
+        self.value(&Node::Lazy(k as u32), f, read)
     }
 
     /// Any expression of this system over the cycle just made.
     pub fn value(&self, node: &Node, f: &mut Frame, read: &mut impl Read) -> i64 {
-        value(node, self.cells(), f, read)
+        self.value_over(node, &mut Driven { frame: f, read })
+    }
+
+    /// Any expression of this system over any memory.
+    pub fn value_over(&self, node: &Node, m: &mut impl Memory) -> i64 {
+        value(node, self.cells(), m)
     }
 }
 
-fn load(space: Space, k: usize, cells: Cells, f: &mut Frame, read: &mut impl Read) -> i64 {
+fn load(space: Space, k: usize, cells: Cells, m: &mut impl Memory) -> i64 {
     i64::from(match space {
         Space::Param => cells.params[k],
-        Space::Before => f.before[k],
-        Space::Now => f.now[k],
-        Space::Input => {
-            if f.inputs[k] == UNSET {
-                f.inputs[k] = read(k);
-            }
-            f.inputs[k]
-        }
+        Space::Before => m.before(k),
+        Space::Now => m.now(k),
+        Space::Input => m.input(k),
     })
 }
 
 /// Value of an expression. Truth values are 0 and 1.
-pub(crate) fn value(node: &Node, cells: Cells, f: &mut Frame, read: &mut impl Read) -> i64 {
+pub(crate) fn value(node: &Node, cells: Cells, m: &mut impl Memory) -> i64 {
     match node {
         Node::Const(v) => *v,
-        Node::Cell(space, k) => load(*space, *k as usize, cells, f, read),
+        Node::Cell(space, k) => load(*space, *k as usize, cells, m),
         Node::Lazy(k) => {
             let k = *k as usize;
-            if f.lazies[k] == UNSET {
-                let v = value(&cells.lazies[k].value, cells, f, read);
-                f.lazies[k] = v as i32;
-            }
-            i64::from(f.lazies[k])
+            let known = m.named(k).unwrap_or_else(|| {
+                let v = value(&cells.lazies[k].value, cells, m) as i32;
+                m.name(k, v);
+                v
+            });
+            i64::from(known)
         }
         Node::Element {
             space,
@@ -216,53 +284,46 @@ pub(crate) fn value(node: &Node, cells: Cells, f: &mut Frame, read: &mut impl Re
             index,
             ..
         } => {
-            let offset = value(index, cells, f, read) - lo;
-            load(*space, *base as usize + offset as usize, cells, f, read)
+            let offset = value(index, cells, m) - lo;
+            load(*space, *base as usize + offset as usize, cells, m)
         }
-        Node::Not(a) => i64::from(value(a, cells, f, read) == 0),
-        Node::Neg(a) => -value(a, cells, f, read),
-        Node::Abs(a) => value(a, cells, f, read).abs(),
-        Node::Binary(op, a, b) => binary(*op, a, b, cells, f, read),
+        Node::Not(a) => i64::from(value(a, cells, m) == 0),
+        Node::Neg(a) => -value(a, cells, m),
+        Node::Abs(a) => value(a, cells, m).abs(),
+        Node::Binary(op, a, b) => binary(*op, a, b, cells, m),
         Node::Sel(g, a, b) => {
-            let chosen = if value(g, cells, f, read) == 0 { a } else { b };
-            value(chosen, cells, f, read)
+            let chosen = if value(g, cells, m) == 0 { a } else { b };
+            value(chosen, cells, m)
         }
         Node::Mux(k, values) => {
-            let k = value(k, cells, f, read) as usize;
-            value(&values[k], cells, f, read)
+            let k = value(k, cells, m) as usize;
+            value(&values[k], cells, m)
         }
         Node::Min(values) => {
             let mut least = i64::MAX;
             for v in values {
-                least = least.min(value(v, cells, f, read));
+                least = least.min(value(v, cells, m));
             }
             least
         }
         Node::Max(values) => {
             let mut most = i64::MIN;
             for v in values {
-                most = most.max(value(v, cells, f, read));
+                most = most.max(value(v, cells, m));
             }
             most
         }
     }
 }
 
-fn binary(
-    op: BinaryOp,
-    a: &Node,
-    b: &Node,
-    cells: Cells,
-    f: &mut Frame,
-    read: &mut impl Read,
-) -> i64 {
-    let x = value(a, cells, f, read);
+fn binary(op: BinaryOp, a: &Node, b: &Node, cells: Cells, m: &mut impl Memory) -> i64 {
+    let x = value(a, cells, m);
     match op {
         BinaryOp::And if x == 0 => return 0,
         BinaryOp::Or if x != 0 => return 1,
         _ => {}
     }
-    let y = value(b, cells, f, read);
+    let y = value(b, cells, m);
     match op {
         BinaryOp::And | BinaryOp::Or => i64::from(y != 0),
         BinaryOp::Xor | BinaryOp::Ne => i64::from(x != y),

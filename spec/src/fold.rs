@@ -1,7 +1,7 @@
 //! Constants folded: what is left of expressions and effects when the parameters have their values.
 
 use crate::bind::Bound;
-use crate::eval::{Cells, Frame, value};
+use crate::eval::{Cells, Driven, Frame, value};
 use crate::ir::{BinaryOp, Node, Rule, Space, Stmt};
 
 /// Puts the parameter values of a system into its expressions.
@@ -116,7 +116,11 @@ impl<'a> Folder<'a> {
                     params: &[],
                     lazies: &[],
                 };
-                Node::Const(value(&node, cells, &mut Frame::empty(), &mut |_| 0))
+                let memory = &mut Driven {
+                    frame: &mut Frame::empty(),
+                    read: &mut |_| 0,
+                };
+                Node::Const(value(&node, cells, memory))
             }
             None => node,
         }
