@@ -6,15 +6,16 @@
 //! down to that, with the help of numbers that the certificate gives to the states; see [`Duty`].
 
 use std::ops::Range;
-use std::sync::Mutex;
+use std::panic::resume_unwind;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::thread::ScopedJoinHandle;
 
 use stillpoint_spec::bind::Bound;
 use stillpoint_spec::ir::Form;
 
-use crate::cycle::{Cycle, PairCycle, Pairing, View};
+use crate::cycle::{Cycle, PairCycle, Pairing};
 use crate::format::{Body, Task, Verdict};
-use crate::states::{Radix, place};
+use crate::states::{Places, Radix};
 
 /// What each cycle from a state of R to a state of R has to satisfy for one property.
 pub(crate) enum Duty<'a> {
@@ -101,8 +102,11 @@ pub(crate) struct Checker<'a> {
     pub(crate) task: &'a Task,
     pub(crate) body: &'a Body,
     pub(crate) radix: Radix,
+    pub(crate) places: Places<'a>,
     pub(crate) threads: usize,
 }
+
+const TOO_MANY: &str = "there are 2^32 states or pairs of states, or more";
 
 /// Checks all claims about one task. For each property the greatest number of cycles after which a response has come,
 /// where it shows one.
@@ -121,6 +125,7 @@ pub fn check(
         task,
         body,
         radix,
+        places: Places::new(&body.states).ok_or(TOO_MANY)?,
         threads,
     };
     checker.faults()?;
@@ -180,7 +185,8 @@ impl<'a> Checker<'a> {
             .map(|(init, (lo, _))| init.unwrap_or(*lo))
             .collect();
         loop {
-            self.find(&state, &mut 0)
+            (self.radix.index(&state))
+                .and_then(|state| self.places.find(state))
                 .ok_or("an initial state is missing in the set of states")?;
             let free = |k: &usize| initial[*k].is_none() && state[*k] < ranges[*k].1;
             let Some(k) = (0..state.len()).rev().find(free) else {
@@ -193,65 +199,70 @@ impl<'a> Checker<'a> {
         }
     }
 
-    fn find(&self, state: &[i32], near: &mut usize) -> Option<usize> {
-        place(&self.body.states, self.radix.index(state)?, near)
-    }
-
     /// Each cycle from a state of the set leads into the set and does its duties. For each duty the greatest rank with
     /// which a response begins.
     fn closed(&self, duties: &[Duty]) -> Result<Vec<u32>, String> {
-        let views: Vec<(View, bool)> = (duties.iter().map(Duty::reads))
-            .map(|(atoms, leads)| (View::of(self.bound, atoms), leads))
-            .collect();
-        let parts = self.share(self.body.states.len(), |range| {
-            let mut cycles = Cycle::new(self.bound);
-            let mut state = vec![0; self.bound.states.len()];
-            let (mut near, mut most) = (0, vec![0; duties.len()]);
-            let mut moves = vec![false; duties.len()];
-            for from in range {
-                self.radix.state(self.body.states[from], &mut state);
-                moves.fill(false);
-                let mut last = None;
-                cycles.each(&state, |cycle, made| {
-                    if let Err(site) = made {
-                        return self.claimed(site);
-                    }
-                    let to = self.find(cycle.after(), &mut near).ok_or_else(|| {
-                        format!(
-                            "a successor of state {} is missing in the set of states",
-                            self.body.states[from]
-                        )
+        // Duties whose numbers agree in the last 7 bits share a mark.
+        let mark = |number: usize| 1_u128 << (number % 128);
+        let reads = duties.iter().map(Duty::reads).enumerate();
+        let (atoms, leads): (Vec<_>, Vec<_>) = reads
+            .map(|(number, (atoms, leads))| {
+                ((mark(number), atoms), u128::from(leads) * mark(number))
+            })
+            .unzip();
+        let leading = leads.iter().fold(0, |all, one| all | one);
+        let begin = || {
+            let cycles = Cycle::new(self.bound, &self.radix, &atoms);
+            (cycles, vec![0; duties.len()], vec![false; duties.len()])
+        };
+        let parts = self.share(
+            self.body.states.len(),
+            begin,
+            |(cycles, most, moves), range| {
+                for from in range {
+                    moves.fill(false);
+                    let mut last = None;
+                    cycles.each(self.body.states[from], |cycle, made| {
+                        if let Err(site) = made {
+                            return self.claimed(site);
+                        }
+                        let to = self.places.find(cycle.after()).ok_or_else(|| {
+                            format!(
+                                "a successor of state {} is missing in the set of states",
+                                self.body.states[from]
+                            )
+                        })?;
+                        let mut due = cycle.marked();
+                        if last.replace(to) != Some(to) {
+                            due |= leading;
+                        }
+                        // What a duty depends on does not differ from the cycle before, in which it was done, if it has no mark.
+                        for (number, duty) in duties.iter().enumerate() {
+                            if due & mark(number) != 0
+                                && !done(
+                                    duty,
+                                    cycle,
+                                    (from, to),
+                                    &mut moves[number],
+                                    &mut most[number],
+                                )
+                            {
+                                return Err(self.breaks(number, from));
+                            }
+                        }
+                        Ok(())
                     })?;
-                    let elsewhere = last.replace(to) != Some(to);
-                    let changed = cycle.changed();
-                    for (number, (duty, (view, leads))) in duties.iter().zip(&views).enumerate() {
-                        // Nothing it depends on differs from the cycle before, in which it was done.
-                        let same = changed.is_some_and(|changed| !view.meets(changed));
-                        if same && !(*leads && elsewhere) {
-                            continue;
-                        }
-                        if !done(
-                            duty,
-                            cycle,
-                            (from, to),
-                            &mut moves[number],
-                            &mut most[number],
-                        ) {
-                            return Err(self.breaks(number, from));
-                        }
+                    let still =
+                        |(duty, moves): (&Duty, &bool)| matches!(duty, Duty::Near(..)) && !moves;
+                    if let Some(number) = duties.iter().zip(moves.iter()).position(still) {
+                        return Err(self.breaks(number, from));
                     }
-                    Ok(())
-                })?;
-                let still =
-                    |(duty, moves): (&Duty, &bool)| matches!(duty, Duty::Near(..)) && !moves;
-                if let Some(number) = duties.iter().zip(&moves).position(still) {
-                    return Err(self.breaks(number, from));
                 }
-            }
-            Ok(most)
-        })?;
+                Ok(())
+            },
+        )?;
         let mut most = vec![0; duties.len()];
-        for part in parts {
+        for (_, part, _) in parts {
             most.iter_mut().zip(part).for_each(|(m, p)| *m = p.max(*m));
         }
         Ok(most)
@@ -279,41 +290,26 @@ impl<'a> Checker<'a> {
         if pairs.last().is_some_and(|pair| *pair >= count * count) {
             return Err("a pair is outside the set of states".to_owned());
         }
-        let pair = |states: [&[i32]; 2], near: &mut [usize; 3]| {
-            let [first, second, last] = near;
-            let first = self.find(states[0], first)? as u128;
-            place(
-                pairs,
-                first * count + self.find(states[1], second)? as u128,
-                last,
-            )
-        };
+        let places = Places::new(pairs).ok_or(TOO_MANY)?;
         let mut initial = vec![0; self.bound.states.len()];
         for (number, index) in self.body.states.iter().enumerate() {
             self.radix.state(*index, &mut initial);
             let starts =
                 (initial.iter().zip(&self.bound.initial)).all(|(v, i)| i.is_none_or(|i| i == *v));
-            if starts
-                && pairs
-                    .binary_search(&(number as u128 * (count + 1)))
-                    .is_err()
-            {
+            if starts && places.find(number as u128 * (count + 1)).is_none() {
                 return Err("a pair of initial states is missing".to_owned());
             }
         }
-        self.share(pairs.len(), |range| {
-            let mut cycles = PairCycle::new(self.bound, pairing);
-            let mut before = [initial.clone(), initial.clone()];
-            let mut near = [0; 3];
-            for number in range {
-                for (side, place) in before
-                    .iter_mut()
-                    .zip([pairs[number] / count, pairs[number] % count])
-                {
-                    self.radix.state(self.body.states[place as usize], side);
-                }
-                cycles.each([&before[0], &before[1]], |after, agree| {
-                    match (agree, pair(after, &mut near)) {
+        let place = |state| Some(self.places.find(state)? as u128);
+        let begin = || PairCycle::new(self.bound, &self.radix, pairing);
+        self.share(pairs.len(), begin, |cycles, range| {
+            for pair in &pairs[range] {
+                let before = [pair / count, pair % count];
+                let before = before.map(|place| self.body.states[place as usize]);
+                cycles.each(before, |[first, second], agree| {
+                    let pair = (place(first).zip(place(second)))
+                        .and_then(|(first, second)| places.find(first * count + second));
+                    match (agree, pair) {
                         (false, _) => {
                             Err("an observed expression depends on the inputs".to_owned())
                         }
@@ -327,37 +323,42 @@ impl<'a> Checker<'a> {
         Ok(())
     }
 
-    /// Shares the numbers below `count` among the threads. Of several errors that of the lowest numbers is told.
-    fn share<T: Send>(
+    /// Shares the numbers below `count` among the threads, each with a work area of its own, and gives these areas back. Of several
+    /// errors that of the lowest numbers is told.
+    fn share<W: Send>(
         &self,
         count: usize,
-        work: impl Fn(Range<usize>) -> Result<T, String> + Sync,
-    ) -> Result<Vec<T>, String> {
+        begin: impl Fn() -> W + Sync,
+        work: impl Fn(&mut W, Range<usize>) -> Result<(), String> + Sync,
+    ) -> Result<Vec<W>, String> {
         const PIECE: usize = 512;
         let (next, failed) = (AtomicUsize::new(0), AtomicBool::new(false));
-        let done = Mutex::new(Vec::new());
         let worker = || {
+            let mut area = begin();
             while !failed.load(Ordering::Relaxed) {
                 let start = next.fetch_add(PIECE, Ordering::Relaxed);
                 if start >= count {
                     break;
                 }
-                let result = work(start..count.min(start + PIECE));
-                failed.fetch_or(result.is_err(), Ordering::Relaxed);
-                if let Ok(mut done) = done.lock() {
-                    done.push((start, result));
-                }
+                work(&mut area, start..count.min(start + PIECE)).map_err(|what| {
+                    failed.store(true, Ordering::Relaxed);
+                    (start, what)
+                })?;
             }
+            Ok(area)
         };
-        std::thread::scope(|scope| {
-            for _ in 1..self.threads {
-                scope.spawn(worker);
-            }
-            worker();
+        let done: Vec<Result<W, (usize, String)>> = std::thread::scope(|scope| {
+            let others: Vec<_> = (1..self.threads).map(|_| scope.spawn(worker)).collect();
+            let own = worker();
+            let join =
+                |other: ScopedJoinHandle<_>| other.join().unwrap_or_else(|p| resume_unwind(p));
+            others.into_iter().map(join).chain([own]).collect()
         });
-        let mut done = done.into_inner().map_err(|_| "a thread failed")?;
-        done.sort_by_key(|(start, _)| *start);
-        done.into_iter().map(|(_, result)| result).collect()
+        let (areas, errors): (Vec<_>, Vec<_>) = done.into_iter().partition(Result::is_ok);
+        match errors.into_iter().filter_map(Result::err).min() {
+            Some((_, what)) => Err(what),
+            None => Ok(areas.into_iter().flatten().collect()),
+        }
     }
 }
 

@@ -1,261 +1,186 @@
 //! The cycles of a system, made by the interpreter: all of those a state has, and those of a given run.
 
-use stillpoint_spec::bind::{Bound, Bounds};
-use stillpoint_spec::eval::{Frame, UNSET};
-use stillpoint_spec::ir::{Node, Space};
+use stillpoint_spec::bind::Bound;
+use stillpoint_spec::eval::Frame;
 
+use crate::cells::{Cells, Layout};
 use crate::format::Run;
+use crate::later::Later;
+use crate::memo::{Memo, Watched};
 use crate::states::Radix;
 
-/// Goes through the values of the inputs that are read, the last one read turning fastest. An input that nobody reads
-/// has any value; it is not enumerated.
+/// The effects with which an enumeration has gone on from the same cells.
 #[derive(Debug, Default)]
-struct Odometer {
-    reads: Vec<(usize, i32)>,
-    at: usize,
+struct Followed {
+    /// How often it was started, and when each effect was last added.
+    starts: u64,
+    added: Vec<u64>,
 }
 
-impl Odometer {
-    /// The value of input `k`, which is read in the same order again as long as the values before it are the same.
-    fn read(&mut self, k: usize, least: i32) -> i32 {
-        if self.at == self.reads.len() {
-            self.reads.push((k, least));
-        }
-        self.at += 1;
-        self.reads[self.at - 1].1
+impl Followed {
+    /// The cells are others now.
+    fn start(&mut self) {
+        self.starts += 1;
     }
 
-    /// Like `read`, for inputs that may be asked for twice.
-    fn again(&mut self, k: usize, least: i32) -> i32 {
-        match self.reads[..self.at].iter().find(|(known, _)| *known == k) {
-            Some((_, value)) => *value,
-            None => self.read(k, least),
+    /// Adds an effect; whether it is new.
+    fn add(&mut self, effect: usize) -> bool {
+        if self.added.len() <= effect {
+            self.added.resize(effect + 1, 0);
         }
+        std::mem::replace(&mut self.added[effect], self.starts) != self.starts
     }
+}
 
-    /// Sets the next combination; false when there is none.
-    fn advance(&mut self, greatest: impl Fn(usize) -> i32) -> bool {
-        self.at = 0;
-        while let Some((k, value)) = self.reads.pop() {
-            if value < greatest(k) {
-                self.reads.push((k, value + 1));
-                return true;
+/// The steps of the instances on one side, then the atoms and the observed expressions.
+struct Parts<'a> {
+    bound: &'a Bound,
+    side: usize,
+    steps: Vec<Memo>,
+    atoms: Vec<Memo>,
+    observed: Vec<Memo>,
+    /// What matters after each step.
+    later: Vec<Later>,
+    /// For each step the effects with which the enumeration has gone on since the steps before it.
+    followed: Vec<Followed>,
+}
+
+impl<'a> Parts<'a> {
+    /// What matters after the steps are the state, and what `last` has in it.
+    fn new(bound: &'a Bound, layout: &Layout, side: usize, mut last: Later) -> Self {
+        (0..bound.states.len()).for_each(|k| last.cell(layout.now(k)));
+        let mut later = Vec::new();
+        for instance in bound.system.instances.iter().rev() {
+            later.push(last.clone());
+            for rule in &instance.rules {
+                last.node(&rule.when, layout);
+                let mut node = |node| last.node(node, layout);
+                rule.then.iter().for_each(|s| s.expressions(&mut node));
             }
         }
-        false
+        later.reverse();
+        let memos = |count| (0..count).map(|_| Memo::new()).collect();
+        Self {
+            bound,
+            side,
+            steps: memos(bound.system.instances.len()),
+            atoms: memos(bound.system.atoms.len()),
+            observed: memos(bound.system.observed.len()),
+            followed: later.iter().map(|_| Followed::default()).collect(),
+            later,
+        }
     }
 
-    fn clear(&mut self) {
-        self.reads.clear();
-        self.at = 0;
-    }
-}
-
-/// A frame as it was at the start of an instance's step.
-#[derive(Debug, Default)]
-struct Mark {
-    /// The inputs read until then.
-    reads: usize,
-    now: Vec<i32>,
-    inputs: Vec<i32>,
-    lazies: Vec<i32>,
-}
-
-/// Steps that differ in the last input read: what lies before the instance that reads it is not made again.
-#[derive(Debug, Default)]
-struct Steps {
-    /// One for each instance whose step was begun, and others left over.
-    marks: Vec<Mark>,
-    begun: usize,
-}
-
-impl Steps {
-    /// The next step is one from another state, or with other inputs from the first one on.
-    fn clear(&mut self) {
-        self.begun = 0;
+    /// The enumeration begins, for other cells.
+    fn start(&mut self) {
+        self.followed.iter_mut().take(1).for_each(Followed::start);
     }
 
-    /// The step from `state` with the inputs that `read` takes from the odometer.
-    fn step(
-        &mut self,
-        bound: &Bound,
-        (frame, state): (&mut Frame, &[i32]),
-        odometer: &mut Odometer,
-        read: impl Fn(&mut Odometer, usize) -> i32,
-    ) -> Result<(), u32> {
-        let changed = odometer.reads.len().saturating_sub(1);
-        let same = |mark: &Mark| mark.reads <= changed;
-        let from = self.marks[..self.begun].iter().rposition(same);
-        match from.map(|k| &self.marks[k]) {
-            Some(mark) => {
-                frame.now.copy_from_slice(&mark.now);
-                frame.inputs.copy_from_slice(&mark.inputs);
-                frame.lazies.copy_from_slice(&mark.lazies);
-                odometer.at = mark.reads;
+    /// The steps of the instances from instance `from` on, which are the parts of the enumeration from `part` on. None if they have
+    /// the effect of others: what would come now has been there.
+    fn step(&mut self, cells: &mut Cells, part: usize, from: usize) -> Option<Result<(), u32>> {
+        for k in from..self.steps.len() {
+            cells.begin(part + k);
+            let run = |m: &mut Watched| self.bound.step_over(k, m).map(|()| 0);
+            let later = Some(&self.later[k]);
+            let (step, number) = self.steps[k].effect(cells, self.side, later, run);
+            if number.is_some_and(|number| !self.followed[k].add(number)) {
+                return None;
             }
-            None => frame.start(state),
-        }
-        for k in from.unwrap_or(0)..bound.system.instances.len() {
-            if self.marks.len() == k {
-                self.marks.push(Mark::default());
+            if let Err(site) = step.result {
+                return Some(Err(site));
             }
-            let mark = &mut self.marks[k];
-            mark.reads = odometer.at;
-            mark.now.clone_from(&frame.now);
-            mark.inputs.clone_from(&frame.inputs);
-            mark.lazies.clone_from(&frame.lazies);
-            self.begun = k + 1;
-            bound.step_instance(k, frame, &mut |input| read(odometer, input))?;
-        }
-        Ok(())
-    }
-}
-
-/// A set of variables of a cycle: state after it, inputs, named expressions as the step has left them. Those whose numbers
-/// agree in the last 7 bits are in it together.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct View {
-    now: u128,
-    inputs: u128,
-    lazies: u128,
-}
-
-impl View {
-    /// What the value of these atoms can depend on, besides the state before the cycle.
-    pub fn of(bound: &Bound, atoms: impl IntoIterator<Item = usize>) -> Self {
-        let mut view = Self::default();
-        for atom in atoms {
-            view.add(bound, &bound.system.atoms[atom]);
-        }
-        view
-    }
-
-    fn add(&mut self, bound: &Bound, node: &Node) {
-        node.visit(&mut |node| match node {
-            Node::Cell(space, k) => self.cell(*space, *k),
-            Node::Element {
-                space, base, len, ..
-            } => (*base..base + len).for_each(|k| self.cell(*space, k)),
-            // Where the step has not evaluated it, it is evaluated now.
-            Node::Lazy(k) => {
-                self.lazies |= bit(*k as usize);
-                self.add(bound, &bound.system.lazies[*k as usize].value);
+            for (cell, digit) in &step.writes {
+                cells.write(self.side, *cell, *digit);
             }
-            _ => {}
-        });
-    }
-
-    fn cell(&mut self, space: Space, k: u32) {
-        match space {
-            Space::Now => self.now |= bit(k as usize),
-            Space::Input => self.inputs |= bit(k as usize),
-            Space::Before | Space::Param => {}
+            if let Some(next) = self.followed.get_mut(k + 1) {
+                next.start();
+            }
         }
+        Some(Ok(()))
     }
 
-    /// Whether the sets have a variable in common.
-    pub fn meets(self, other: Self) -> bool {
-        self.now & other.now | self.inputs & other.inputs | self.lazies & other.lazies != 0
+    /// Atom `k` after the step. It has this value whenever it is asked for, so named expressions need not be kept.
+    fn atom(&mut self, cells: &mut Cells, k: usize) -> bool {
+        let bound = self.bound;
+        let run = |m: &mut Watched| Ok(bound.value_over(&bound.system.atoms[k], m));
+        let (value, _) = self.atoms[k].effect(cells, self.side, None, run);
+        value.result != Ok(0)
     }
-}
 
-fn bit(k: usize) -> u128 {
-    1 << (k % 128)
-}
-
-/// Brings a copy up to date; the set of the places that differed.
-fn update(copy: &mut [i32], from: &[i32]) -> u128 {
-    let mut changed = 0;
-    for (k, (old, new)) in copy.iter_mut().zip(from).enumerate() {
-        if old != new {
-            *old = *new;
-            changed |= bit(k);
-        }
+    /// Observed expression `k` after the step.
+    fn observed(&mut self, cells: &mut Cells, k: usize) -> Result<i64, u32> {
+        let bound = self.bound;
+        let run = |m: &mut Watched| Ok(bound.value_over(&bound.system.observed[k], m));
+        let (value, _) = self.observed[k].effect(cells, self.side, None, run);
+        value.result
     }
-    changed
 }
 
 /// The cycles of one state after the other.
 pub struct Cycle<'a> {
-    bound: &'a Bound,
-    frame: Frame,
-    steps: Steps,
-    step: Odometer,
-    extra: Odometer,
-    /// The state after the step, the inputs and the named expressions as the step has left them.
-    now: Vec<i32>,
-    inputs: Vec<i32>,
-    lazies: Vec<i32>,
-    changed: Option<View>,
+    parts: Parts<'a>,
+    cells: Cells,
 }
 
 impl<'a> Cycle<'a> {
-    /// Work area for `bound`.
-    pub fn new(bound: &'a Bound) -> Self {
+    /// Work area for `bound`. Each list of atoms has a mark: a set of bits.
+    pub fn new(bound: &'a Bound, radix: &Radix, atoms: &[(u128, Vec<usize>)]) -> Self {
+        let mut cells = Cells::new(bound, radix, 1);
+        let mut last = Later::new(bound, &cells.layout);
+        for (mark, atoms) in atoms {
+            let mut these = Later::new(bound, &cells.layout);
+            for atom in atoms {
+                last.node(&bound.system.atoms[*atom], &cells.layout);
+                these.node(&bound.system.atoms[*atom], &cells.layout);
+            }
+            cells.mark(&these.all(|_| false), *mark);
+        }
         Self {
-            bound,
-            frame: Frame::new(bound),
-            steps: Steps::default(),
-            step: Odometer::default(),
-            extra: Odometer::default(),
-            now: vec![UNSET; bound.states.len()],
-            inputs: vec![UNSET; bound.inputs.len()],
-            lazies: vec![UNSET; bound.system.lazies.len()],
-            changed: None,
+            parts: Parts::new(bound, &cells.layout, 0, last),
+            cells,
         }
     }
 
-    /// Makes every cycle from `state`; `visit` is told whether the step succeeded, or at which site it left a range.
+    /// Makes every cycle from the state of this number; `visit` is told whether the step succeeded, or at which site it left a
+    /// range.
     ///
     /// # Errors
     /// The first one of `visit`, which ends the enumeration.
     pub fn each<E>(
         &mut self,
-        state: &[i32],
+        state: u128,
         mut visit: impl FnMut(&mut Self, Result<(), u32>) -> Result<(), E>,
     ) -> Result<(), E> {
-        let inputs: &[Bounds] = &self.bound.inputs;
-        self.step.clear();
-        self.steps.clear();
-        let mut first = true;
-        loop {
-            let from = (&mut self.frame, state);
-            let read = |odometer: &mut Odometer, k: usize| odometer.read(k, inputs[k].0);
-            let made = self.steps.step(self.bound, from, &mut self.step, read);
-            if made.is_ok() {
-                let changed = View {
-                    now: update(&mut self.now, &self.frame.now),
-                    inputs: update(&mut self.inputs, &self.frame.inputs),
-                    lazies: update(&mut self.lazies, &self.frame.lazies),
-                };
-                self.changed = (!std::mem::take(&mut first)).then_some(changed);
+        self.cells.start(self.parts.bound, &[state]);
+        self.parts.start();
+        let mut from = Some(0);
+        while let Some(k) = from {
+            if let Some(made) = self.parts.step(&mut self.cells, 0, k) {
+                visit(self, made)?;
             }
-            visit(self, made)?;
-            if !self.step.advance(|k| inputs[k].1) {
-                return Ok(());
-            }
+            from = self.cells.advance(0);
         }
+        Ok(())
     }
 
-    /// In what this cycle differs from the last one without a range fault before it, which started in the same state; none if
-    /// there is none.
-    pub fn changed(&self) -> Option<View> {
-        self.changed
+    /// The marks of the cells in which this cycle differs from the one in which this was last asked, among those from the same state;
+    /// all if there is none.
+    pub fn marked(&mut self) -> u128 {
+        self.cells.marked()
     }
 
     /// Whether `judge` is true for every combination of the inputs that it reads and the step did not.
     pub fn all(&mut self, mut judge: impl FnMut(&mut Self) -> bool) -> bool {
-        self.extra.clear();
+        let kept = self.cells.choices();
+        self.cells.begin(0);
         loop {
             let fine = judge(self);
-            // The next combination, and the next property, must not see what this one read.
-            for (k, _) in &self.extra.reads {
-                self.frame.inputs[*k] = UNSET;
+            if !fine {
+                self.cells.forget(kept);
             }
-            if !self.extra.reads.is_empty() {
-                self.frame.lazies.copy_from_slice(&self.lazies);
-            }
-            if !fine || !self.extra.advance(|k| self.bound.inputs[k].1) {
+            // The next property must not see what this one read.
+            if self.cells.advance(kept).is_none() {
                 return fine;
             }
         }
@@ -263,21 +188,19 @@ impl<'a> Cycle<'a> {
 
     /// Atom `k` in this cycle, under the present combination of inputs.
     pub fn atom(&mut self, k: usize) -> bool {
-        let (inputs, extra) = (&self.bound.inputs, &mut self.extra);
-        self.bound
-            .atom(k, &mut self.frame, &mut |i| extra.read(i, inputs[i].0))
+        self.parts.atom(&mut self.cells, k)
     }
 
-    /// The state after the cycle.
-    pub fn after(&self) -> &[i32] {
-        &self.frame.now
+    /// The number of the state after the cycle.
+    pub fn after(&self) -> u128 {
+        self.cells.number(0)
     }
 
     /// The inputs read so far, as a step of a [`Run`].
     pub fn inputs(&self) -> Vec<(u32, u32)> {
-        let read = self.frame.inputs.iter().zip(&self.bound.inputs).enumerate();
-        read.filter(|(_, (value, _))| **value != UNSET)
-            .map(|(k, (value, (lo, _)))| (k as u32, value.abs_diff(*lo)))
+        let digits = (0..self.parts.bound.inputs.len()).map(|k| self.cells.input(0, k));
+        (digits.enumerate())
+            .filter_map(|(k, digit)| Some((k as u32, digit.checked_sub(1)?)))
             .collect()
     }
 }
@@ -295,94 +218,99 @@ pub struct Pairing<'a> {
 
 /// The cycles of two runs side by side.
 pub struct PairCycle<'a> {
-    bound: &'a Bound,
     pairing: Pairing<'a>,
-    frames: [Frame; 2],
-    steps: [Steps; 2],
-    inputs: Odometer,
+    one: Parts<'a>,
+    other: Parts<'a>,
+    cells: Cells,
+    /// Whether the condition holds in the first run.
+    free: bool,
 }
 
 impl<'a> PairCycle<'a> {
     /// Work area for pairs of runs of `bound`.
-    pub fn new(bound: &'a Bound, pairing: Pairing<'a>) -> Self {
+    pub fn new(bound: &'a Bound, radix: &Radix, pairing: Pairing<'a>) -> Self {
+        let cells = Cells::new(bound, radix, 2);
+        let mut last = Later::new(bound, &cells.layout);
+        let condition = pairing.condition.iter().map(|c| &bound.system.atoms[*c]);
+        let observed = pairing.observe.iter().map(|k| &bound.system.observed[*k]);
+        condition
+            .chain(observed)
+            .for_each(|node| last.node(node, &cells.layout));
+        let mut first = last.clone();
+        // The second step may read any input that the first one has read; at the end the listed ones are compared.
+        (0..bound.inputs.len()).for_each(|k| first.cell(cells.layout.input(k)));
+        (pairing.of.iter()).for_each(|k| last.cell(cells.layout.input(*k)));
+        // What the second step has named may still have to be evaluated in the first run, with the inputs that they share.
+        let all = last.all(|_| false);
+        let inputs = (0..bound.inputs.len()).map(|k| cells.layout.input(k));
+        inputs.filter(|k| all[*k]).for_each(|k| last.cell(k));
         Self {
-            bound,
             pairing,
-            frames: [Frame::new(bound), Frame::new(bound)],
-            steps: Default::default(),
-            inputs: Odometer::default(),
+            one: Parts::new(bound, &cells.layout, 0, first),
+            other: Parts::new(bound, &cells.layout, 1, last),
+            cells,
+            free: true,
         }
     }
 
-    /// Makes every pair of cycles that may stand side by side from the states `before`. `visit` gets the states after them, and
-    /// whether the observed expressions agree (where the condition does not hold in both, they need not). A pair in
-    /// which one step leaves a range does not go on.
+    /// Makes every pair of cycles that may stand side by side from the states of these numbers. `visit` gets the numbers of the
+    /// states after them, and whether the observed expressions agree (where the condition does not hold in both, they need not). A
+    /// pair in which one step leaves a range does not go on.
     ///
     /// # Errors
     /// The first one of `visit`, which ends the enumeration.
     pub fn each<E>(
         &mut self,
-        before: [&[i32]; 2],
-        mut visit: impl FnMut([&[i32]; 2], bool) -> Result<(), E>,
+        before: [u128; 2],
+        mut visit: impl FnMut([u128; 2], bool) -> Result<(), E>,
     ) -> Result<(), E> {
-        let bounds = &self.bound.inputs;
-        let of = |k: usize| bounds[k % bounds.len()];
-        self.inputs.clear();
-        self.steps.iter_mut().for_each(Steps::clear);
-        loop {
-            if let Some(agree) = self.pair(before) {
-                visit([&self.frames[0].now, &self.frames[1].now], agree)?;
+        self.cells.start(self.one.bound, &before);
+        self.one.start();
+        let mut from = Some(0);
+        while let Some(part) = from {
+            if let Some(agree) = self.pair(part) {
+                visit([self.cells.number(0), self.cells.number(1)], agree)?;
             }
-            if !self.inputs.advance(|k| of(k).1) {
-                return Ok(());
-            }
+            from = self.cells.advance(0);
         }
+        Ok(())
     }
 
-    /// One pair of cycles; none if there is no such pair.
-    fn pair(&mut self, before: [&[i32]; 2]) -> Option<bool> {
+    /// One pair of cycles, made from a part on; none if there is no such pair. The parts are the first step, its condition, the
+    /// second step, and what comes then.
+    fn pair(&mut self, part: usize) -> Option<bool> {
         let Pairing {
             observe,
             of,
             condition,
         } = self.pairing;
-        let (bound, odometer) = (self.bound, &mut self.inputs);
-        let [first, second] = &mut self.frames;
-        let [steps, others] = &mut self.steps;
-        let own = |odometer: &mut Odometer, k: usize| odometer.again(k, bound.inputs[k].0);
-        let changed = odometer.reads.len().saturating_sub(1);
-        let made = steps.step(bound, (first, before[0]), odometer, own);
-        if others.marks.first().is_none_or(|mark| mark.reads > changed) {
-            others.clear();
+        let (one, other, cells) = (&mut self.one, &mut self.other, &mut self.cells);
+        let steps = one.steps.len();
+        if part < steps {
+            one.step(cells, 0, part)?.ok()?;
         }
-        made.ok()?;
-        let mut both = condition.is_none_or(|c| bound.atom(c, first, &mut |k| own(odometer, k)));
-        // A listed input has a number of its own in the second run, where it may differ.
-        let free = both;
-        let other = |odometer: &mut Odometer, k: usize| {
-            let number = k + bound.inputs.len() * usize::from(free && of.contains(&k));
-            odometer.again(number, bound.inputs[k].0)
-        };
-        let made = others.step(bound, (second, before[1]), odometer, other);
-        made.ok()?;
-        both = both && condition.is_none_or(|c| bound.atom(c, second, &mut |k| other(odometer, k)));
+        if part <= steps {
+            cells.begin(steps);
+            self.free = condition.is_none_or(|c| one.atom(cells, c));
+            // Only where the condition holds a listed input has a value of its own in the second run.
+            cells.keep_apart(if self.free { of } else { &[] });
+            other.start();
+        }
+        let second = part.saturating_sub(steps + 1);
+        other.step(cells, steps + 1, second)?.ok()?;
+        cells.begin(2 * steps + 1);
+        let both = self.free && condition.is_none_or(|c| other.atom(cells, c));
         if !both {
-            let read = |f: &Frame, k: usize| Some(f.inputs[k]).filter(|v| *v != UNSET);
-            let differ = |k: &usize| match (read(first, *k), read(second, *k)) {
-                (Some(a), Some(b)) => a != b,
-                // What one run does not read may be taken to be the same in both.
-                _ => false,
+            // What one run does not read may be taken to be the same in both.
+            let differ = |k: &usize| {
+                let (one, other) = (cells.input(0, *k), cells.input(1, *k));
+                one > 0 && other > 0 && one != other
             };
             return (!of.iter().any(differ)).then_some(true);
         }
         let mut agree = true;
         for k in observe {
-            let number = |i: usize| i + bound.inputs.len() * usize::from(of.contains(&i));
-            let left = bound.observe(*k, first, &mut |i| odometer.again(i, bound.inputs[i].0));
-            let right = bound.observe(*k, second, &mut |i| {
-                odometer.again(number(i), bound.inputs[i].0)
-            });
-            agree &= left == right;
+            agree &= one.observed(cells, *k) == other.observed(cells, *k);
         }
         Some(agree)
     }

@@ -4,14 +4,18 @@
 //! this project: its `Cargo.toml` shows it. What a property means is taken from the specification, which is loaded
 //! again; a certificate only adds sets, ranks and runs, and every one of them is checked.
 //!
-//! To be read in this order: [`format`] (the file), [`subject`] (the specification), [`states`], [`cycle`] (all cycles of a
-//! state, and the cycles of a run), `claim` (what each verdict needs), `check` (what has to be true in every cycle).
+//! To be read in this order: [`format`] (the file), [`subject`] (the specification), [`states`], `cells` (the values of a
+//! cycle, and backtracking over its inputs), `later` and `memo` (what is not evaluated again), [`cycle`] (all cycles of a state, and
+//! the cycles of a run), `claim` (what each verdict needs), `check` (what has to be true in every cycle).
 //! [`write()`] is for producers; nothing rests on it.
 
+mod cells;
 mod check;
 mod claim;
 pub mod cycle;
 pub mod format;
+mod later;
+mod memo;
 pub mod states;
 pub mod subject;
 mod write;

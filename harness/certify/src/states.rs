@@ -21,6 +21,12 @@ impl Radix {
         Some(Self { digits, space })
     }
 
+    /// By how much each variable raises the number of a state when its value grows by 1.
+    pub fn weights(&self) -> Vec<u128> {
+        let below = |k: usize| self.digits[k + 1..].iter().map(|(_, size)| size).product();
+        (0..self.digits.len()).map(below).collect()
+    }
+
     /// The number of a state; none if a variable is outside its range.
     pub fn index(&self, state: &[i32]) -> Option<u128> {
         let mut index = 0;
@@ -48,10 +54,46 @@ impl Radix {
     }
 }
 
-/// Where `key` stands in an ascending list. `near` is where the last one stood: successors often repeat.
-pub fn place(list: &[u128], key: u128, near: &mut usize) -> Option<usize> {
-    if list.get(*near) != Some(&key) {
-        *near = list.binary_search(&key).ok()?;
+/// An ascending list of numbers, and where each one stands.
+#[derive(Debug)]
+pub struct Places<'a> {
+    list: &'a [u128],
+    /// A hash table with open addressing: places from 1 on, 0 where there is none.
+    slots: Vec<u32>,
+}
+
+impl<'a> Places<'a> {
+    /// The places in a list; none if it has 2^32 numbers or more.
+    pub fn new(list: &'a [u128]) -> Option<Self> {
+        u32::try_from(list.len()).ok()?;
+        let mut places = Self {
+            list,
+            // At least half of them stay free, so that a search comes to an end soon.
+            slots: vec![0; (2 * list.len() + 1).next_power_of_two()],
+        };
+        for (place, number) in list.iter().enumerate() {
+            let slot = places.slot(*number);
+            places.slots[slot] = place as u32 + 1;
+        }
+        Some(places)
     }
-    Some(*near)
+
+    /// Where a number stands.
+    pub fn find(&self, number: u128) -> Option<usize> {
+        (self.slots[self.slot(number)] as usize).checked_sub(1)
+    }
+
+    /// The slot of a number: one with its place, or a free one.
+    fn slot(&self, number: u128) -> usize {
+        let mixed = (number as u64 ^ (number >> 64) as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        let mut slot = (mixed >> 32) as usize;
+        loop {
+            slot &= self.slots.len() - 1;
+            match self.slots[slot] as usize {
+                0 => return slot,
+                place if self.list[place - 1] == number => return slot,
+                _ => slot += 1,
+            }
+        }
+    }
 }

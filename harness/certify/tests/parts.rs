@@ -5,7 +5,7 @@ use std::path::Path;
 
 use stillpoint_certify::cycle::{Cycle, PairCycle, Pairing};
 use stillpoint_certify::format::{Body, Header, Kind, Proof, Run, bodies, open};
-use stillpoint_certify::states::{Radix, place};
+use stillpoint_certify::states::{Places, Radix};
 use stillpoint_certify::subject::Subject;
 use stillpoint_certify::{Failure, write};
 use stillpoint_spec::bind::Bound;
@@ -56,10 +56,13 @@ fn states_have_numbers() {
             }
         }
     }
-    let mut near = 0;
-    assert_eq!(place(&[1, 5, 9], 5, &mut near), Some(1));
-    assert_eq!((place(&[1, 5, 9], 5, &mut near), near), (Some(1), 1));
-    assert_eq!(place(&[1, 5, 9], 6, &mut near), None);
+    let list = [1, 5, 9, u128::MAX];
+    let places = Places::new(&list).expect("few");
+    for (place, number) in list.into_iter().enumerate() {
+        assert_eq!(places.find(number), Some(place));
+        assert_eq!(places.find(number ^ 2), None);
+    }
+    assert_eq!(Places::new(&[]).expect("none").find(0), None);
 }
 
 /// Cycles enumerated on demand are those of all combinations of all inputs, for the step and for each property.
@@ -77,25 +80,28 @@ fn cycles_are_complete() {
     assert!(bounds.len() > 6, "{}", bounds.len());
     for bound in bounds {
         let inputs = every(&bound.inputs);
-        let mut cycles = Cycle::new(&bound);
+        let radix = Radix::new(&bound).expect("small");
+        let atoms = [(0, (0..bound.system.atoms.len()).collect())];
+        let mut cycles = Cycle::new(&bound, &radix, &atoms);
         let mut made = 0;
         for state in every(&bound.states) {
             // For each successor (none: a fault) and atom whether it can be false, and true.
-            let mut naive: BTreeMap<Option<Vec<i32>>, BTreeSet<(usize, bool)>> = BTreeMap::new();
+            let number = |state: &[i32]| radix.index(state).expect("a state");
+            let mut naive: BTreeMap<Option<u128>, BTreeSet<(usize, bool)>> = BTreeMap::new();
             for given in &inputs {
                 let Some(mut frame) = cycle(&bound, &state, given) else {
                     naive.entry(None).or_default();
                     continue;
                 };
-                let seen = naive.entry(Some(frame.now.clone())).or_default();
+                let seen = naive.entry(Some(number(&frame.now))).or_default();
                 for k in 0..bound.system.atoms.len() {
                     seen.insert((k, bound.atom(k, &mut frame, &mut |i| given[i])));
                 }
             }
-            let mut found: BTreeMap<Option<Vec<i32>>, BTreeSet<(usize, bool)>> = BTreeMap::new();
-            let each = cycles.each(&state, |cycle, result| {
+            let mut found: BTreeMap<Option<u128>, BTreeSet<(usize, bool)>> = BTreeMap::new();
+            let each = cycles.each(number(&state), |cycle, result| {
                 made += 1;
-                let after = result.is_ok().then(|| cycle.after().to_vec());
+                let after = result.is_ok().then(|| cycle.after());
                 let seen = found.entry(after).or_default();
                 for k in 0..bound.system.atoms.len() {
                     if result.is_ok() {
@@ -124,6 +130,8 @@ fn pairs_of_cycles_are_complete() {
     for bound in systems().bounds {
         let inputs = every(&bound.inputs);
         let states = every(&bound.states);
+        let radix = Radix::new(&bound).expect("small");
+        let number = |state: &[i32]| radix.index(state).expect("a state");
         let observe: Vec<usize> = (0..bound.system.observed.len()).collect();
         // Every atom as the condition, every input as the one that may differ.
         let conditions = (0..bound.system.atoms.len()).map(Some).chain([None]);
@@ -135,7 +143,7 @@ fn pairs_of_cycles_are_complete() {
                 of,
                 condition,
             };
-            let mut cycles = PairCycle::new(&bound, pairing);
+            let mut cycles = PairCycle::new(&bound, &radix, pairing);
             // A part of the pairs of states is enough: every 67th.
             let pairs = states
                 .iter()
@@ -165,12 +173,12 @@ fn pairs_of_cycles_are_complete() {
                                 bound.observe(*k, &mut first, &mut |i| one[i])
                                     == bound.observe(*k, &mut second, &mut |i| other[i])
                             });
-                        naive.insert((first.now.clone(), second.now.clone(), agree));
+                        naive.insert(([&first.now, &second.now].map(|s| number(s)), agree));
                     }
                 }
                 let mut found = BTreeSet::new();
-                let each = cycles.each([a, b], |after, agree| {
-                    found.insert((after[0].to_vec(), after[1].to_vec(), agree));
+                let each = cycles.each([number(a), number(b)], |after, agree| {
+                    found.insert((after, agree));
                     Ok::<(), ()>(())
                 });
                 assert_eq!(each, Ok(()));

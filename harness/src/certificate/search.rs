@@ -398,20 +398,15 @@ impl<'a, S: System> Search<'a, S> {
     /// The pairs of states that two runs can reach side by side; `place` is the place of a state in the certificate.
     fn pairs(&self, pairing: Pairing, place: &[u32]) -> Result<Vec<u128>, String> {
         let count = place.len() as u128;
-        let mut cycles = PairCycle::new(self.bound, pairing);
-        let mut before = [
-            vec![0; self.bound.states.len()],
-            vec![0; self.bound.states.len()],
-        ];
+        let mut cycles = PairCycle::new(self.bound, &self.radix, pairing);
         let roots = (0..place.len() as u32).filter(|k| self.parent[*k as usize] == *k);
         let mut queue: Vec<(u32, u32)> = roots.map(|k| (k, k)).collect();
         let mut seen: std::collections::HashSet<(u32, u32)> = queue.iter().copied().collect();
-        let number = |state: &[i32]| self.number.get(&self.radix.index(state)?).copied();
         while let Some((one, other)) = queue.pop() {
-            self.radix.state(self.keys[one as usize], &mut before[0]);
-            self.radix.state(self.keys[other as usize], &mut before[1]);
-            cycles.each([&before[0], &before[1]], |after, _| {
-                let pair = (number(after[0]).zip(number(after[1]))).ok_or("a state is new")?;
+            let before = [one, other].map(|number| self.keys[number as usize]);
+            cycles.each(before, |after, _| {
+                let [one, other] = after.map(|key| self.number.get(&key).copied());
+                let pair = one.zip(other).ok_or("a state is new")?;
                 if seen.insert(pair) {
                     queue.push(pair);
                 }

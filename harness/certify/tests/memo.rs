@@ -1,0 +1,157 @@
+//! What the checker looks up is what the interpreter does: on walks at random through every shipped system.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+
+use stillpoint_certify::cycle::Cycle;
+use stillpoint_certify::format::Kind;
+use stillpoint_certify::states::Radix;
+use stillpoint_certify::subject::Subject;
+use stillpoint_spec::bind::Bound;
+use stillpoint_spec::eval::Frame;
+
+/// Numbers at random, the same ones each time (xorshift).
+struct Random(u64);
+
+impl Random {
+    fn below(&mut self, count: u64) -> u64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 >> 16) % count
+    }
+
+    fn value(&mut self, (lo, hi): (i32, i32)) -> i32 {
+        lo.wrapping_add_unsigned(self.below(u64::from(hi.abs_diff(lo)) + 1) as u32)
+    }
+
+    fn inputs(&mut self, bound: &Bound) -> Vec<i32> {
+        bound
+            .inputs
+            .iter()
+            .map(|range| self.value(*range))
+            .collect()
+    }
+}
+
+/// All files of the specification: those that do not load by themselves are parts of others.
+fn subjects() -> Vec<Subject> {
+    let mut folders: Vec<PathBuf> = vec![Path::new(env!("CARGO_MANIFEST_DIR")).join("../../spec")];
+    let mut subjects = Vec::new();
+    while let Some(folder) = folders.pop() {
+        let entries = std::fs::read_dir(folder).expect("a folder");
+        let mut paths: Vec<PathBuf> = entries.map(|e| e.expect("an entry").path()).collect();
+        paths.sort();
+        for path in paths {
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|e| e == "toml") {
+                let machine = path.parent().is_some_and(|p| p.ends_with("machines"));
+                let kind = if machine {
+                    Kind::Machine
+                } else {
+                    Kind::Specification
+                };
+                subjects.extend(Subject::load(&path, kind, &BTreeMap::new()));
+            }
+        }
+    }
+    subjects
+}
+
+/// The step with all inputs given, and the number of the state after it.
+fn step(bound: &Bound, radix: &Radix, state: u128, inputs: &[i32]) -> (Frame, Result<u128, u32>) {
+    let mut before = vec![0; bound.states.len()];
+    assert!(radix.state(state, &mut before));
+    let mut frame = Frame::new(bound);
+    frame.start(&before);
+    let made = bound.step(&mut frame, &mut |k| inputs[k]);
+    let after = made.map(|()| radix.index(&frame.now).expect("a state"));
+    (frame, after)
+}
+
+/// So many cycles of a state are compared at most.
+const MOST: usize = 60;
+
+/// Compares the cycles of states on a walk, of which `atoms` are asked; how many cycles, and from how many states all of them.
+fn compare(bound: &Bound, radix: &Radix, atoms: &[usize], random: &mut Random) -> (usize, usize) {
+    let mut cycles = Cycle::new(bound, radix, &[(1, atoms.to_vec())]);
+    let first = |(init, range): (&Option<i32>, &(i32, i32))| init.unwrap_or(range.0);
+    let initial: Vec<i32> = bound.initial.iter().zip(&bound.states).map(first).collect();
+    let mut state = radix.index(&initial).expect("a state");
+    let (mut compared, mut whole) = (0, 0);
+    for _ in 0..12 {
+        let mut made = 0;
+        let mut found = BTreeSet::new();
+        let each = cycles.each(state, |cycle, result| {
+            // What was not read does not matter.
+            let mut inputs = random.inputs(bound);
+            let given = |cycle: &Cycle, inputs: &mut Vec<i32>| {
+                for (k, above) in cycle.inputs() {
+                    let (lo, _) = bound.inputs[k as usize];
+                    inputs[k as usize] = lo.wrapping_add_unsigned(above);
+                }
+            };
+            given(cycle, &mut inputs);
+            let after = result.map(|()| cycle.after());
+            let (frame, expected) = step(bound, radix, state, &inputs);
+            assert_eq!(after, expected, "{}", bound.system.name);
+            found.insert((after, None));
+            for k in atoms.iter().filter(|_| after.is_ok()) {
+                cycle.all(|cycle| {
+                    let value = cycle.atom(*k);
+                    given(cycle, &mut inputs);
+                    let expected = bound.atom(*k, &mut frame.clone(), &mut |i| inputs[i]);
+                    assert_eq!(value, expected, "{}, atom {k}", bound.system.name);
+                    found.insert((after, Some((*k, value))));
+                    true
+                });
+            }
+            made += 1;
+            if made < MOST { Ok(()) } else { Err(()) }
+        });
+        compared += made;
+        // No cycle is left out.
+        let mut next = state;
+        for _ in 0..20 {
+            let inputs = random.inputs(bound);
+            let (mut frame, after) = step(bound, radix, state, &inputs);
+            if each.is_ok() {
+                assert!(found.contains(&(after, None)), "{}", bound.system.name);
+                for k in atoms.iter().filter(|_| after.is_ok()) {
+                    let value = bound.atom(*k, &mut frame, &mut |i| inputs[i]);
+                    let seen = found.contains(&(after, Some((*k, value))));
+                    assert!(seen, "{}, atom {k}", bound.system.name);
+                }
+            }
+            next = after.unwrap_or(next);
+        }
+        state = next;
+        whole += usize::from(each.is_ok());
+    }
+    (compared, whole)
+}
+
+#[test]
+fn what_is_looked_up_is_what_the_interpreter_does() {
+    let (mut systems, mut compared, mut whole) = (0, 0, 0);
+    let mut random = Random(88_172_645_463_325_252);
+    for bound in subjects().iter().flat_map(|subject| &subject.bounds) {
+        let Some(radix) = Radix::new(bound) else {
+            continue;
+        };
+        let all: Vec<usize> = (0..bound.system.atoms.len()).collect();
+        // The fewer atoms are asked, the more cycles are the same.
+        for atoms in [&all[..], &all[..all.len().min(1)]] {
+            let (cycles, states) = compare(bound, &radix, atoms, &mut random);
+            compared += cycles;
+            whole += states;
+        }
+        systems += 1;
+    }
+    println!("{systems} systems, {compared} cycles, all of {whole} states");
+    assert!(
+        systems > 200 && compared > 50_000 && whole > 2_000,
+        "{systems}, {compared}, {whole}"
+    );
+}
