@@ -2,6 +2,8 @@
 
 use std::fmt::Write;
 
+use rayon::prelude::*;
+
 use crate::enumeration::Count;
 use crate::inventory::{self, Entry};
 use crate::properties::Subject;
@@ -12,7 +14,9 @@ pub const COMMAND: &str = "cargo run -p stillpoint-proofs --bin inventory";
 
 /// Runs every enumeration on the production monitors.
 pub fn results() -> Vec<(&'static Entry, Count)> {
-    inventory::all()
+    let entries: Vec<&Entry> = inventory::all().collect();
+    entries
+        .into_par_iter()
         .map(|entry| (entry, (entry.enumerate)(&Subject::PRODUCTION)))
         .collect()
 }

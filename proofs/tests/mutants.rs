@@ -1,6 +1,7 @@
 //! Every mutant of the monitors dies: the tables `kills/<family>.txt` say by which harnesses of the inventory, and by which
 //! law.
 
+use rayon::prelude::*;
 use stillpoint_monitors::mutant::Mutant;
 use stillpoint_proofs::inventory;
 use stillpoint_proofs::properties::{self, Subject};
@@ -8,8 +9,8 @@ use stillpoint_proofs::properties::{self, Subject};
 /// The table has one kill in a line: mutant, harness, broken law; in the order of the mutants and of the inventory.
 fn check(family: &str, mutants: Vec<(Mutant, Subject)>, listed: &str) {
     let kills: Vec<String> = mutants
-        .into_iter()
-        .flat_map(|(mutant, subject)| killed_by(mutant, &subject))
+        .into_par_iter()
+        .flat_map_iter(|(mutant, subject)| killed_by(mutant, &subject))
         .collect();
     assert!(
         kills == listed.lines().collect::<Vec<_>>(),

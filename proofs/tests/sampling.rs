@@ -1,6 +1,7 @@
 //! The properties as random tests over the full width. A pass is a test, not a proof.
 
 use proptest::test_runner::{Config, RngAlgorithm, TestCaseError, TestError, TestRng, TestRunner};
+use rayon::prelude::*;
 use stillpoint_proofs::inventory;
 use stillpoint_proofs::properties::Subject;
 use stillpoint_proofs::sampling::Tape;
@@ -17,7 +18,8 @@ const SEED: [u8; 32] = *b"stillpoint: any seed will do. 01";
 
 #[test]
 fn every_property_holds_on_random_choices_of_full_width() {
-    for entry in inventory::all() {
+    let entries: Vec<_> = inventory::all().collect();
+    entries.into_par_iter().for_each(|entry| {
         let config = Config {
             cases: CASES,
             failure_persistence: None,
@@ -51,5 +53,5 @@ fn every_property_holds_on_random_choices_of_full_width() {
             entry.id,
             held.get()
         );
-    }
+    });
 }

@@ -1,12 +1,15 @@
-//! What the end-to-end tests share: where the files of the project are, how to run other tools, what fuzzers drive, a
-//! reader of BTOR2.
+//! What the end-to-end tests share: where the files of the project are, what tests leave out, how to run other tools, what
+//! fuzzers drive, a reader of BTOR2.
 
 pub mod btor2;
 pub mod fuzz;
 pub mod peer;
 pub mod random;
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
+
+use serde::Deserialize;
 
 /// The root of the workspace.
 pub fn root() -> PathBuf {
@@ -51,5 +54,42 @@ pub fn specification_files() -> Vec<PathBuf> {
         }
     }
     found.sort();
+    found
+}
+
+/// `tests/exceptions.toml`.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Exceptions {
+    exception: Vec<Exception>,
+}
+
+/// What a test leaves out for one reason.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Exception {
+    test: String,
+    reason: String,
+    of: Vec<String>,
+}
+
+/// What a test leaves out, by `tests/exceptions.toml`. The test must compare it with what it has met, so that no exception
+/// outlives its reason.
+///
+/// # Panics
+/// If the file is not as it must be, has nothing for this test, or the same thing twice.
+pub fn exceptions(test: &str) -> BTreeSet<String> {
+    let text = std::fs::read_to_string(root().join("tests/exceptions.toml"))
+        .unwrap_or_else(|e| panic!("exceptions.toml: {e}"));
+    let all: Exceptions = toml::from_str(&text).unwrap_or_else(|e| panic!("exceptions.toml: {e}"));
+    let mut found = BTreeSet::new();
+    for one in all.exception.into_iter().filter(|e| e.test == test) {
+        assert!(!one.reason.is_empty(), "{test}: an exception has no reason");
+        for name in one.of {
+            assert!(!found.contains(&name), "{test}: {name} stands twice");
+            found.insert(name);
+        }
+    }
+    assert!(!found.is_empty(), "{test} has no exceptions");
     found
 }

@@ -194,9 +194,10 @@ fn must_fail(root: &Path, tests: &mut Named) -> Result<(), ReadError> {
     Ok(())
 }
 
-/// The machine files that must be refused, by the ids that the refusal prints. A test compares this list with the refusals.
+/// The machine files that must be refused, by the ids that the refusal prints: a test compares this snapshot with the refusals.
 fn refused(root: &Path, prefixes: &BTreeSet<String>, tests: &mut Named) -> Result<(), ReadError> {
-    let list = root.join("spec/tests/bad-input.txt");
+    let list =
+        root.join("spec/tests/specification/snapshots/specification__machine__bad_input.snap");
     if !list.is_file() {
         return Ok(());
     }

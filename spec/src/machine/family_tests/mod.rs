@@ -35,6 +35,19 @@ fn table(family: &str, file: &str) -> toml::Table {
     toml::from_str(&text).expect(file)
 }
 
+/// What the test leaves out, by the file of exceptions of all tests.
+fn exceptions(test: &str) -> BTreeSet<String> {
+    let text = std::fs::read_to_string(root().join("../tests/exceptions.toml")).expect("there");
+    let table: toml::Table = toml::from_str(&text).expect("TOML");
+    let all = table["exception"].as_array().expect("a list").iter();
+    let names = all
+        .filter(|one| one["test"].as_str() == Some(test))
+        .flat_map(|one| one["of"].as_array().expect("a list"));
+    names
+        .map(|name| name.as_str().expect("a name").to_owned())
+        .collect()
+}
+
 /// Loads what stands in a machine file after the family.
 fn load(family: &str, text: &str) -> crate::diag::Result<super::Machine> {
     let text = format!("family = \"{family}\"\n{text}\n");

@@ -1,0 +1,20 @@
+//! The binary `stillpoint` as its users meet it: commands, files, terminals, pipes, signals, browsers.
+//!
+//! One test binary for all of them, of the package that has the binary: only there cargo tells where it lies.
+
+mod acceptance;
+mod book;
+mod certify;
+mod commands;
+mod common;
+mod distributed;
+mod explore;
+mod export_and_trace;
+mod first_hour;
+mod heidenhain;
+mod reaction;
+mod recording;
+mod report;
+mod simulate;
+mod survival;
+mod terminal;

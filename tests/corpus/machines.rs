@@ -1,0 +1,130 @@
+//! The shipped machine files, checked as a user does: everything holds, and what never happens is explained. A machine with a
+//! wrong program of its safe PLC is found out.
+
+use std::collections::BTreeSet;
+
+use stillpoint::check::{Settings, Unfired, check, exit_status, summarise};
+use stillpoint::subject::{self, Readings, Subject, Task};
+use stillpoint_model::Verdict;
+use stillpoint_tests::{exceptions, root};
+
+/// A machine file.
+fn load(file: &str) -> Subject {
+    let path = root().join("spec/machines").join(file);
+    subject::load(&path, &Readings::new()).unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// Checks a machine and these of its runs; the answer is the number of properties.
+fn keeps_every_property(subject: &Subject, expected: &[&str]) -> usize {
+    let axes: Vec<&str> = subject
+        .machine
+        .iter()
+        .flat_map(|m| m.axes.iter().map(|a| a.name.as_str()))
+        .collect();
+    assert_eq!(axes, expected);
+    let checked = check(subject, &Settings::default(), &mut |_| Box::new(()))
+        .unwrap_or_else(|(t, e)| panic!("{t}: {e}"));
+    for (task, done) in subject.tasks.iter().zip(&checked) {
+        let report = &done.outcome.report;
+        assert!(
+            report.complete && report.faults.is_empty(),
+            "{}: {:?}",
+            task.title,
+            report.faults
+        );
+        let unexplained: Vec<&str> = done
+            .unfired
+            .iter()
+            .filter(|(_, why)| matches!(why, Unfired::Unexplained | Unfired::Unknown))
+            .map(|(rule, _)| rule.as_str())
+            .collect();
+        assert!(
+            unexplained.is_empty(),
+            "{}: rules that never fire: {unexplained:?}",
+            task.title
+        );
+    }
+    let summaries = summarise(subject, &checked);
+    for one in &summaries {
+        assert!(
+            matches!(one.verdict, Verdict::Holds | Verdict::Reached),
+            "{}: {:?}",
+            one.id,
+            one.verdict
+        );
+        // What holds because of a premise was seen to have its premise fulfilled.
+        assert!(
+            one.length.is_some() || one.verdict == Verdict::Holds,
+            "{}",
+            one.id
+        );
+    }
+    assert_eq!(exit_status(&summaries, &checked), 0);
+    summaries.len()
+}
+
+#[test]
+fn the_milling_machine_keeps_every_property() {
+    let subject = load("milling-840d.toml");
+    assert!(subject.tasks.len() >= 10);
+    let properties = keeps_every_property(&subject, &["X", "Y", "Z", "S"]);
+    assert!(properties >= 30, "{properties}");
+}
+
+/// The axes of the machining centre.
+const CENTRE: [&str; 5] = ["X", "Y", "Z", "S", "M"];
+
+/// The machining centre with those of its runs that are left to a deep run, or with all others.
+fn centre(deep: bool) -> Subject {
+    let mut subject = load("machining-centre-heidenhain.toml");
+    let left_out = exceptions("machines");
+    let name = |task: &Task| task.bound.system.name.clone();
+    let all: BTreeSet<String> = subject.tasks.iter().map(name).collect();
+    assert!(left_out.is_subset(&all), "{left_out:?}");
+    subject
+        .tasks
+        .retain(|task| left_out.contains(&name(task)) == deep);
+    subject
+}
+
+#[test]
+fn the_machining_centre_keeps_every_property() {
+    let subject = centre(false);
+    assert!(subject.tasks.len() >= 10);
+    let properties = keeps_every_property(&subject, &CENTRE);
+    assert!(properties >= 200, "{properties}");
+}
+
+#[test]
+#[ignore = "deep: minutes"]
+fn the_logic_and_the_kernel_of_the_machining_centre_keep_every_property() {
+    let properties = keeps_every_property(&centre(true), &CENTRE);
+    assert!(properties >= 10, "{properties}");
+}
+
+/// The kernel does what a program that ignores the doors asks for; that nothing may move then is found broken in the logic alone,
+/// by the event tables of each group, and in the logic with the kernel of each group.
+#[test]
+fn a_program_that_ignores_the_doors_is_found() {
+    let path = root().join("tests/machines/door-ignored.toml");
+    let mut subject = subject::load(&path, &Readings::new()).unwrap_or_else(|e| panic!("{e}"));
+    let with_logic = |task: &Task| {
+        let mut instances = task.bound.system.instances.iter();
+        instances.any(|i| i.machine == "splc")
+    };
+    subject.tasks.retain(with_logic);
+    assert_eq!(subject.tasks.len(), 7);
+    let checked = check(&subject, &Settings::default(), &mut |_| Box::new(()))
+        .unwrap_or_else(|(t, e)| panic!("{t}: {e}"));
+    for (task, done) in subject.tasks.iter().zip(&checked) {
+        let judged = done.outcome.report.properties.iter();
+        let broken: Vec<&str> = judged
+            .filter(|p| p.verdict == Verdict::Violated)
+            .map(|p| p.id.as_str())
+            .collect();
+        assert!(!broken.is_empty(), "{}: nothing is broken", task.title);
+        println!("{}: {broken:?}", task.title);
+    }
+    let summaries = summarise(&subject, &checked);
+    assert_eq!(exit_status(&summaries, &checked), 1);
+}

@@ -1,0 +1,15 @@
+//! What the repository holds as data, tried: the tables, the machine files, the worked examples of the manuals, the requirements
+//! and the book. Files are discovered, never listed.
+
+mod alarms;
+mod book;
+mod conversion;
+mod fuzz;
+mod interface;
+mod machines;
+mod manuals;
+mod parameters;
+mod programs;
+mod reaction_times;
+mod tables;
+mod trace;

@@ -1,0 +1,98 @@
+//! Cases that go through the command line, as a user meets them.
+
+use super::case::Given;
+use std::path::Path;
+use std::process::Command;
+use toml::{Table, Value};
+
+/// Runs the command `stillpoint`.
+///
+/// Given: `arguments`, in which `FILE` stands for the machine file; `machine`, a file of the workspace, or `file`, the text of one;
+/// `replace`, pairs of texts, each replaced in it where it stands first; `find`, texts looked for in both outputs;
+/// `json`, pointers into the standard output, taken as JSON. Answer: `status`, `found` (those of `find` that were found), and
+/// each pointer of `json`.
+pub fn run(given: &Given<'_>) -> Result<Table, String> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let mut text = match given.get("file") {
+        Some(text) => text.as_str().ok_or("file: a text is needed")?.to_owned(),
+        None => {
+            std::fs::read_to_string(root.join(given.text("machine")?)).map_err(|e| e.to_string())?
+        }
+    };
+    for pair in given.texts("replace")?.chunks(2) {
+        let [from, to] = pair else {
+            return Err("replace: pairs are needed".into());
+        };
+        if !text.contains(from) {
+            return Err(format!("replace: the file has no {from}"));
+        }
+        text = text.replacen(from, to, 1);
+    }
+    // A file of its own for every case, inside the workspace so that the family is found.
+    let folder = tempfile_folder(&text)?;
+    let file = folder.join("machine.toml");
+    std::fs::write(&file, text).map_err(|e| e.to_string())?;
+    let arguments = given.texts("arguments")?;
+    let output = Command::new(env!("CARGO_BIN_EXE_stillpoint"))
+        .args(arguments.iter().map(|a| {
+            if *a == "FILE" {
+                file.as_os_str()
+            } else {
+                a.as_ref()
+            }
+        }))
+        .current_dir(&root)
+        .env("NO_COLOR", "1")
+        .output()
+        .map_err(|e| e.to_string());
+    let _ = std::fs::remove_dir_all(&folder);
+    let output = output?;
+    let (out, err) = (
+        String::from_utf8_lossy(&output.stdout).into_owned(),
+        String::from_utf8_lossy(&output.stderr).into_owned(),
+    );
+    let mut answer = Table::new();
+    answer.insert(
+        "status".into(),
+        i64::from(output.status.code().ok_or("ended by a signal")?).into(),
+    );
+    let found = given
+        .texts("find")?
+        .into_iter()
+        .filter(|t| out.contains(t) || err.contains(t));
+    answer.insert(
+        "found".into(),
+        found
+            .map(|t| Value::from(t.to_owned()))
+            .collect::<Vec<_>>()
+            .into(),
+    );
+    let pointers = given.texts("json")?;
+    if !pointers.is_empty() {
+        let json: serde_json::Value =
+            serde_json::from_str(&out).map_err(|e| format!("no JSON: {e}\n{err}"))?;
+        for pointer in pointers {
+            let value = json
+                .pointer(pointer)
+                .ok_or(format!("nothing at {pointer}"))?;
+            let value = Value::try_from(value).map_err(|e| e.to_string())?;
+            answer.insert(pointer.to_owned(), value);
+        }
+    }
+    Ok(answer)
+}
+
+fn tempfile_folder(text: &str) -> Result<std::path::PathBuf, String> {
+    use std::hash::{DefaultHasher, Hash, Hasher};
+    let mut hasher = DefaultHasher::new();
+    (
+        text,
+        std::process::id(),
+        format!("{:?}", std::thread::current().id()),
+    )
+        .hash(&mut hasher);
+    let folder =
+        Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("corpus-{:016x}", hasher.finish()));
+    std::fs::create_dir_all(&folder).map_err(|e| e.to_string())?;
+    Ok(folder)
+}

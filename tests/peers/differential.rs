@@ -1,0 +1,278 @@
+//! Table against monitor: the same outputs in every reachable pair, and each deliberately wrong monitor is found.
+
+use std::collections::BTreeSet;
+use std::sync::LazyLock;
+
+use stillpoint::diff::pairing::vary;
+use stillpoint::diff::product::Product;
+use stillpoint::diff::random::Random;
+use stillpoint::diff::slices::slices;
+use stillpoint::diff::{Compared, Pairing, bytes, exhaustive, pairings, peer, sample, to_json};
+use stillpoint::subject::{self, Readings};
+use stillpoint_model::Options;
+use stillpoint_monitors::mutant::Mutant;
+use stillpoint_tests::peer::each;
+use stillpoint_tests::{exceptions, root};
+
+/// The tables compared: those of a machine, or with the parameters of their systems. What several files use is compared with
+/// the parameters of the first one, so the file of a machine's own table stands before those that put it together with others.
+const FILES: [&str; 19] = [
+    "spec/sinumerik-840d/axis.toml",
+    "spec/machines/milling-840d.toml",
+    "spec/heidenhain-fs/stop.toml",
+    "spec/heidenhain-fs/group.toml",
+    "spec/heidenhain-fs/interface.toml",
+    "spec/heidenhain-fs/compared.toml",
+    "spec/heidenhain-fs/mode.toml",
+    "spec/heidenhain-fs/monitors.toml",
+    "spec/heidenhain-fs/operation.toml",
+    "spec/heidenhain-fs/outputs.toml",
+    "spec/heidenhain-fs/reference.toml",
+    "spec/heidenhain-fs/selftest.toml",
+    "spec/heidenhain-fs/cutout.toml",
+    "spec/heidenhain-fs/status-bits.toml",
+    "spec/heidenhain-fs/fields.toml",
+    "spec/heidenhain-fs/link.toml",
+    "spec/heidenhain-fs/splc.toml",
+    "spec/heidenhain-fs/doors.toml",
+    "spec/heidenhain-fs/faults.toml",
+];
+
+/// What has a monitor: the names of family and machine or system. Families use the same names for different machines.
+type Name = (&'static str, String);
+
+fn name(pairing: &Pairing) -> Name {
+    let family = peer::family(&pairing.bound.system.name).expect("a family with monitors");
+    (family.name, pairing.machine.clone())
+}
+
+/// Everything that has a monitor: with the parameters of the systems of the first file that has it, else with those of the
+/// milling machine or its own default ones.
+static ALL: LazyLock<Vec<Pairing>> = LazyLock::new(|| {
+    let mut all: Vec<Pairing> = Vec::new();
+    for file in FILES {
+        let subject =
+            subject::load(&root().join(file), &Readings::new()).unwrap_or_else(|e| panic!("{e}"));
+        let more = pairings(&subject).unwrap_or_else(|e| panic!("{e}"));
+        let known: BTreeSet<Name> = all.iter().map(name).collect();
+        all.extend(more.into_iter().filter(|p| !known.contains(&name(p))));
+    }
+    all
+});
+
+/// Whether it is both channels of an axis: the test `pair` explores those.
+fn both_channels(name: &str) -> bool {
+    name.starts_with("pair_")
+}
+
+/// What is explored: the machines alone, and the slices of what is composed of several.
+static PIECES: LazyLock<Vec<Pairing>> = LazyLock::new(|| {
+    let pieces = ALL
+        .iter()
+        .filter(|p| !both_channels(&p.machine))
+        .flat_map(|p| slices(p).unwrap_or_else(|e| panic!("{e}")));
+    pieces.collect()
+});
+
+/// Explores a piece. There are many of them, so each has one thread.
+fn explore(piece: &Pairing, mutant: Option<Mutant>) -> Compared {
+    let mut options = Options {
+        witnesses: false,
+        stop_when_decided: mutant.is_some(),
+        ..Options::default()
+    };
+    options.limits.threads = 1;
+    exhaustive(piece, mutant, &options, &mut ()).unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// The machine that a mutant is one of; none where no table states what its monitor does, so that only its contract finds it.
+fn machine(mutant: Mutant) -> Option<Name> {
+    let family = peer::family_of(mutant);
+    let mut names = family.machines().chain(family.systems.iter().copied());
+    let found = names.find(|(_, module)| *module == mutant.monitor);
+    // Both channels are compared in parts of their own: see the test `pair`.
+    if mutant.monitor == "pair" {
+        return None;
+    }
+    // The filter is part of the table `splc`, which is paired with the blocks together.
+    let uncompared = ["channel", "key_filter", "safe_output"];
+    assert!(
+        found.is_some() != (family.name == "heidenhain-fs" && uncompared.contains(&mutant.monitor)),
+        "{mutant:?} is one of no machine that is compared"
+    );
+    found.map(|(machine, _)| (family.name, machine.to_owned()))
+}
+
+/// The wrong monitors that are compared with a table, and its name.
+fn mutants() -> impl Iterator<Item = (Mutant, Name)> {
+    peer::mutants().filter_map(|mutant| Some((mutant, machine(mutant)?)))
+}
+
+#[test]
+fn no_reachable_pair_differs() {
+    let compared = each(&PIECES, |piece| explore(piece, None));
+    let known = peer::FAMILIES.iter().flat_map(|family| {
+        let names = family.machines().chain(family.systems.iter().copied());
+        names
+            .filter(|(machine, _)| !both_channels(machine))
+            .map(|(machine, _)| (family.name, machine.to_owned()))
+    });
+    assert_eq!(
+        PIECES.iter().map(name).collect::<BTreeSet<_>>(),
+        known.collect(),
+        "everything that has a monitor"
+    );
+    for one in &compared {
+        assert!(
+            one.divergence.is_none(),
+            "{}: {}",
+            one.machine,
+            one.divergence.as_ref().expect("it").text()
+        );
+        assert!(
+            one.complete && one.pairs > 0 && one.cycles > 0 && one.outputs >= one.cycles,
+            "{one:?}"
+        );
+    }
+    let json = to_json(&compared, None);
+    assert_eq!(json["divergences"], 0);
+    assert_eq!(json["complete"], true);
+    assert!(
+        json["pairs"].as_u64() > Some(0) && json["outputs_compared"].as_u64() > Some(0),
+        "{json}"
+    );
+}
+
+/// Those that are not found need other parameters than the default ones, which random runs have.
+#[test]
+fn every_wrong_monitor_is_found_by_exploration() {
+    let names: BTreeSet<&str> = peer::mutants().map(|mutant| mutant.name).collect();
+    assert_eq!(names.len(), peer::mutants().count(), "a name is given once");
+    let mutants: Vec<(Mutant, Name)> = mutants().collect();
+    let diagrams = each(&mutants, |(mutant, machine)| {
+        let start = std::time::Instant::now();
+        let mut concerned = PIECES.iter().filter(|p| name(p) == *machine);
+        let r = concerned.find_map(|piece| explore(piece, Some(*mutant)).divergence);
+        println!(
+            "MUTANT {machine:?} {mutant:?} {} {:.1}",
+            r.is_some(),
+            start.elapsed().as_secs_f64()
+        );
+        r
+    });
+    let mut survivors = BTreeSet::new();
+    for ((mutant, _), diagram) in mutants.iter().zip(diagrams) {
+        let Some(diagram) = diagram else {
+            survivors.insert(mutant.name.to_owned());
+            continue;
+        };
+        let text = diagram.text();
+        assert!(
+            text.contains("cycle") && text.contains('^'),
+            "{mutant:?}: no diagram with a mark\n{text}"
+        );
+    }
+    assert_eq!(survivors, exceptions("mutants"));
+}
+
+/// Whether random runs of the machine of a mutant find it.
+fn differs(mutant: Mutant, machine: &Name) -> bool {
+    let concerned: Vec<Pairing> = ALL
+        .iter()
+        .filter(|p| name(p) == *machine)
+        .cloned()
+        .collect();
+    let found = sample(&concerned, Some(mutant), 4_000_000, 3, 0, &|_, _| ())
+        .unwrap_or_else(|e| panic!("{e}"));
+    found.iter().any(|c| c.divergence.is_some())
+}
+
+#[test]
+fn random_runs_find_no_difference_and_repeat() {
+    let runs = |threads| {
+        sample(&ALL, None, 3_000_000, 3, threads, &|_, _| ()).unwrap_or_else(|e| panic!("{e}"))
+    };
+    let once = runs(1);
+    for one in &once {
+        assert!(
+            one.divergence.is_none(),
+            "{}: {:?}\n{}",
+            one.machine,
+            one.params,
+            one.divergence.as_ref().expect("it").text()
+        );
+    }
+    let cycles: u128 = once.iter().map(|c| c.cycles).sum();
+    assert!(cycles >= 3_000_000, "{cycles}");
+    assert_eq!(
+        to_json(&once, Some(3)),
+        to_json(&runs(3), Some(3)),
+        "the number of threads does not matter"
+    );
+}
+
+/// Parameters of functions that a system leaves out: the override and the limit frequency.
+fn left_out(machine: &str, param: &str) -> bool {
+    let factor = param
+        .strip_prefix("f_")
+        .is_some_and(|n| n.parse::<u8>().is_ok());
+    (both_channels(machine) && (factor || param == "encoder_max"))
+        || (machine == "axis_core" && param == "encoder_max")
+}
+
+/// A parameter of a table that its monitor never hears of makes both differ for a reason that is none, or hides one.
+#[test]
+fn every_parameter_of_a_table_reaches_its_monitor() {
+    let mut random = Random::new(1);
+    let mut found = BTreeSet::new();
+    for pairing in ALL.iter() {
+        let mut unread = peer::unread(&pairing.machine, &pairing.bound);
+        for _ in 0..40 {
+            if let Some(other) = vary(pairing, &mut random) {
+                let now = peer::unread(&other.machine, &other.bound);
+                unread.retain(|name| now.contains(name));
+            }
+        }
+        let (family, machine) = name(pairing);
+        unread.retain(|param| !left_out(&machine, param));
+        let names = unread
+            .into_iter()
+            .map(|p| format!("{family}/{machine}/{p}"));
+        found.extend(names);
+    }
+    assert_eq!(found, exceptions("differential"));
+}
+
+#[test]
+fn random_runs_find_every_wrong_monitor() {
+    for (mutant, machine) in mutants() {
+        let found = differs(mutant, &machine);
+        assert!(found, "random runs miss {mutant:?}");
+    }
+}
+
+/// What the fuzz target does with its bytes: the production monitors agree, a wrong one is found.
+#[test]
+fn runs_described_by_bytes_find_a_wrong_monitor() {
+    let pairing = ALL
+        .iter()
+        .find(|p| name(p) == ("sinumerik-840d", "stop".to_owned()))
+        .expect("the machine");
+    let mut random = Random::new(5);
+    let strings: Vec<Vec<u8>> = (0..400)
+        .map(|_| (0..120).map(|_| random.below(256) as u8).collect())
+        .collect();
+    let found = |mutant| {
+        let monitor = peer::peer("stop", &pairing.bound, mutant)
+            .expect("the parameters fit")
+            .expect("a monitor");
+        let product = Product::new(&pairing.bound, monitor.as_ref()).expect("both sides fit");
+        let inputs = pairing.bound.inputs.len();
+        strings
+            .iter()
+            .any(|data| bytes::run(&product, inputs, data).is_some())
+    };
+    assert!(!found(None));
+    let wrong = peer::mutant("stop-lower-displaces").expect("its name");
+    assert!(found(Some(wrong)));
+}

@@ -1,0 +1,14 @@
+//! Everything that is computed twice: tables against monitors, interpreter against generated code, reduced explorations against
+//! whole ones, certificates, and exported systems in other tools.
+
+mod btor2;
+mod certificates;
+mod differential;
+mod evaluators;
+mod exports;
+mod nusmv;
+mod pair;
+mod reductions;
+mod rumur;
+mod spin;
+mod yardstick;

@@ -1,0 +1,182 @@
+//! Exported systems in rumur: the same number of states, and the same verdict on each property of single cycles.
+//!
+//! A user without rumur or gcc sees that the tests were skipped; where the environment has `CI`, they fail then.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use stillpoint::export::murphi::{RANGE, murphi};
+use stillpoint::subject::{Subject, Task};
+use stillpoint_model::Verdict;
+use stillpoint_spec::ir::Form;
+use stillpoint_tests::peer::{Folder, each, explored, has_system, load, tools};
+use stillpoint_tests::{exceptions, files, specification_files};
+
+const TOOLS: [&str; 2] = ["rumur", "gcc"];
+
+/// Systems with more combinations of inputs a cycle, or more transitions (states x combinations), than this are left out:
+/// rumur enumerates every combination of the inputs that the model reads, which would take too long in a test.
+const COMBINATIONS: u128 = 10_000;
+const TRANSITIONS: u128 = 400_000;
+
+/// What rumur found.
+struct Found {
+    states: u64,
+    /// Properties whose claim failed, and [`RANGE`].
+    broken: BTreeSet<String>,
+    /// Witnesses that were seen.
+    seen: BTreeSet<String>,
+}
+
+/// The value of an attribute of an XML element.
+fn attribute<'a>(element: &'a str, name: &str) -> Option<&'a str> {
+    let start = element.find(&format!("{name}=\""))? + name.len() + 2;
+    let length = element[start..].find('"')?;
+    Some(&element[start..start + length])
+}
+
+/// The id that a property's message begins with.
+fn id(message: &str) -> String {
+    message.split(": ").next().unwrap_or_default().to_owned()
+}
+
+impl Found {
+    fn of(xml: &str) -> Self {
+        let elements = |name: &'static str| {
+            let start = format!("<{name}");
+            xml.lines().filter(move |l| l.starts_with(&start))
+        };
+        let summary = elements("summary")
+            .next()
+            .unwrap_or_else(|| panic!("not complete: {xml}"));
+        let number = |name| attribute(summary, name).and_then(|v| v.parse::<u64>().ok());
+        let mut broken = BTreeSet::new();
+        let mut errors = 0;
+        for line in elements("message") {
+            let text = line
+                .trim_start_matches("<message>")
+                .trim_end_matches("</message>");
+            // Assertion failed: FILE:PLACE: ID: text
+            let claim = text
+                .strip_prefix("Assertion failed: ")
+                .and_then(|t| t.split_once(": "));
+            errors += 1;
+            broken.insert(match claim {
+                Some((_, claim)) => id(claim),
+                None => text.to_owned(),
+            });
+        }
+        let mut seen = BTreeSet::new();
+        for line in elements("cover_result") {
+            if attribute(line, "count").is_some_and(|n| n != "0") {
+                seen.insert(id(attribute(line, "message").unwrap_or_default()));
+            } else {
+                errors += 1;
+            }
+        }
+        assert_eq!(
+            number("errors"),
+            Some(errors),
+            "every error is understood: {xml}"
+        );
+        let states = number("states").unwrap_or_else(|| panic!("{xml}"));
+        Found {
+            states,
+            broken,
+            seen,
+        }
+    }
+}
+
+/// rumur's findings on a model.
+fn run(name: &str, model: &str) -> Found {
+    let folder = Folder::new(env!("CARGO_TARGET_TMPDIR"), &format!("rumur-{name}"));
+    Found::of(&folder.rumur(model, 4_000_000_000))
+}
+
+/// Compares a system, unless it is too large; the answer is whether it was compared, and what is broken.
+fn compare(subject: &Subject, task: &Task, name: &str) -> Option<BTreeSet<String>> {
+    let bound = &task.bound;
+    if bound.combinations() > COMBINATIONS {
+        return None;
+    }
+    let report = explored(subject, task);
+    if report.transitions > TRANSITIONS {
+        return None;
+    }
+    let model = murphi(bound, &task.title).unwrap_or_else(|e| panic!("{name}: {e}"));
+    let found = run(&name.replace('/', "-"), &model);
+    assert_eq!(found.states, report.states, "{name}: states");
+    let mut broken = BTreeSet::new();
+    let mut seen = BTreeSet::new();
+    for (property, judged) in bound.system.properties.iter().zip(&report.properties) {
+        match property.form {
+            Form::Always { .. } if judged.verdict == Verdict::Violated => {
+                broken.insert(judged.id.clone());
+            }
+            Form::Reachable { .. } if judged.verdict == Verdict::Reached => {
+                seen.insert(judged.id.clone());
+            }
+            _ => {}
+        }
+    }
+    if !report.faults.is_empty() {
+        broken.insert(RANGE.to_owned());
+    }
+    assert_eq!(found.broken, broken, "{name}: broken properties");
+    assert_eq!(found.seen, seen, "{name}: witnesses");
+    eprintln!("{name}: {} states in rumur and here", report.states);
+    Some(broken)
+}
+
+/// Compares every system of a file.
+fn compare_all(path: &Path) -> Vec<(String, Option<BTreeSet<String>>)> {
+    let subject = load(path);
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    let compared = subject.tasks.iter().map(|task| {
+        let system = task.bound.system.name.rsplit('/').next();
+        let name = format!("{stem}/{}", system.unwrap_or_default());
+        let broken = compare(&subject, task, &name);
+        (name, broken)
+    });
+    compared.collect()
+}
+
+#[test]
+fn shipped_systems_have_the_same_states_and_verdicts() {
+    if !tools(&TOOLS) {
+        return;
+    }
+    // The yardstick is left to SPIN: its 193 million transitions take rumur minutes. Files that only others use have no system.
+    let mut files = specification_files();
+    files.retain(|path| has_system(path) && !path.ends_with("bench/two-axis.toml"));
+    let mut left_out = BTreeSet::new();
+    for (name, broken) in each(&files, |path| compare_all(path)).into_iter().flatten() {
+        match broken {
+            Some(broken) => assert_eq!(broken, BTreeSet::new(), "{name}"),
+            None => _ = left_out.insert(name),
+        }
+    }
+    assert_eq!(
+        left_out,
+        exceptions("rumur"),
+        "the systems that are too large"
+    );
+}
+
+#[test]
+fn seeded_errors_fail_there_too() {
+    if !tools(&TOOLS) {
+        return;
+    }
+    let files = files("tests/must-fail", "toml");
+    let mut broken = 0;
+    for (name, found) in each(&files, |path| compare_all(path)).into_iter().flatten() {
+        let found = found.unwrap_or_else(|| panic!("{name}: too large"));
+        broken += usize::from(!found.is_empty());
+    }
+    assert!(
+        broken >= 2,
+        "properties are broken in {broken} systems only: the comparison shows too little"
+    );
+}

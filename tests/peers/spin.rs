@@ -1,0 +1,211 @@
+//! Exported systems in SPIN: the same number of states, and the same broken properties.
+//!
+//! A user without SPIN or gcc sees that the tests were skipped; where the environment has `CI`, they fail then.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use stillpoint::export::promela::{Promela, promela};
+use stillpoint_model::Verdict;
+use stillpoint_spec::ir::Form;
+use stillpoint_tests::peer::{Folder, each, explored, has_system, load, tools};
+use stillpoint_tests::{exceptions, files, root, specification_files};
+
+const TOOLS: [&str; 2] = ["spin", "gcc"];
+
+/// What came of a file.
+#[derive(Default)]
+struct Compared {
+    /// Systems with a broken assertion.
+    broken: usize,
+    /// Systems that are left out.
+    left_out: Vec<String>,
+}
+
+/// What a run of SPIN's verifier found.
+struct Found {
+    states: u64,
+    errors: u64,
+}
+
+fn number(text: &str, before: &str, after: &str) -> Option<u64> {
+    let end = text.find(after)?;
+    let start = text[..end].rfind(before)? + before.len();
+    text[start..end].trim().parse().ok()
+}
+
+impl Found {
+    fn of(text: &str) -> Self {
+        assert!(!text.contains("max search depth too small"), "{text}");
+        assert!(
+            !text.contains("Search not completed\n") || text.contains("errors: 1"),
+            "{text}"
+        );
+        let states = number(text, "\n", "states, stored").unwrap_or_else(|| panic!("{text}"));
+        let errors = text
+            .split("errors: ")
+            .nth(1)
+            .and_then(|t| t.split_whitespace().next()?.parse().ok());
+        Found {
+            states,
+            errors: errors.unwrap_or_else(|| panic!("{text}")),
+        }
+    }
+}
+
+/// The verifier of a model, built in a folder; `optimise` is worth it for large models only.
+fn verifier(name: &str, model: &Promela, optimise: &str) -> Folder {
+    let folder = Folder::new(env!("CARGO_TARGET_TMPDIR"), &format!("spin-{name}"));
+    folder.write("model.pml", &model.text);
+    folder.run("spin", &["-a", "model.pml"]);
+    folder.run(
+        "gcc",
+        &[
+            optimise,
+            "-w",
+            "-DSAFETY",
+            "-DNOREDUCE",
+            "-DMEMLIM=3000",
+            "-o",
+            "pan",
+            "pan.c",
+        ],
+    );
+    folder
+}
+
+/// Compares every system of a file but those that are too large.
+fn compare(path: &Path, too_large: &BTreeSet<String>) -> Compared {
+    let subject = load(path);
+    let mut compared = Compared::default();
+    for (n, task) in subject.tasks.iter().enumerate() {
+        let name = &task.bound.system.name;
+        if too_large.contains(name) {
+            compared.left_out.push(name.clone());
+            continue;
+        }
+        let report = explored(&subject, task);
+        let model = promela(&task.bound, &task.title).unwrap_or_else(|e| panic!("{name}: {e}"));
+        let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+        let folder = verifier(&format!("{stem}-{n}"), &model, "-O0");
+        let judged = Found::of(&folder.run("./pan", &["-m1000000"]));
+        // A broken assertion ends the search; with -A none is looked at and every state is visited.
+        let all = if judged.errors == 0 {
+            judged.states
+        } else {
+            Found::of(&folder.run("./pan", &["-A", "-m1000000"])).states
+        };
+        assert_eq!(all, report.states + model.extra_states, "{name}: states");
+        let violated = task
+            .bound
+            .system
+            .properties
+            .iter()
+            .zip(&report.properties)
+            .any(|(p, j)| matches!(p.form, Form::Always { .. }) && j.verdict == Verdict::Violated);
+        assert_eq!(
+            judged.errors > 0,
+            violated || !report.faults.is_empty(),
+            "{name}: assertions"
+        );
+        compared.broken += usize::from(judged.errors > 0);
+        eprintln!("{name}: {} states in SPIN and here", report.states);
+    }
+    compared
+}
+
+#[test]
+fn the_yardstick_has_its_states() {
+    if !tools(&TOOLS) {
+        return;
+    }
+    let subject = load(&root().join("spec/bench/two-axis.toml"));
+    let model = promela(&subject.tasks[0].bound, "yardstick").unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!(
+        model.extra_states, 0,
+        "its initial state is fixed, SPIN's figure is the figure"
+    );
+    let folder = verifier("yardstick", &model, "-O3");
+    let found = Found::of(&folder.run("./pan", &["-m100000"]));
+    assert_eq!((found.states, found.errors), (4_024_036, 0));
+}
+
+#[test]
+fn shipped_systems_have_the_same_states() {
+    if !tools(&TOOLS) {
+        return;
+    }
+    // The yardstick has a test of its own; files that only others use have no system.
+    let mut files = specification_files();
+    files.retain(|path| has_system(path) && !path.ends_with("bench/two-axis.toml"));
+    let too_large = exceptions("spin");
+    let mut left_out = BTreeSet::new();
+    let all = each(&files, |path| compare(path, &too_large));
+    for (path, compared) in files.iter().zip(all) {
+        assert_eq!(compared.broken, 0, "{}", path.display());
+        left_out.extend(compared.left_out);
+    }
+    assert_eq!(left_out, too_large, "the systems that are too large");
+}
+
+#[test]
+fn seeded_errors_break_assertions() {
+    if !tools(&TOOLS) {
+        return;
+    }
+    let files = files("tests/must-fail", "toml");
+    let broken: usize = each(&files, |path| compare(path, &BTreeSet::new()).broken)
+        .iter()
+        .sum();
+    assert!(
+        broken >= 2,
+        "assertions are broken in {broken} systems only: the comparison shows too little"
+    );
+}
+
+#[test]
+fn what_a_model_must_not_hide() {
+    if !tools(&TOOLS) {
+        return;
+    }
+    // A counter that leaves its range, a state that nothing reads, and an array with a computed index.
+    let text = r#"
+spec  = "test/spin"
+title = "what a model must not hide"
+[machine.m]
+text = "a counter, a write-only state, an array"
+otherwise = "stay"
+order = "priority"
+[machine.m.input]
+go = "BOOL"
+at = "INT(0..2)"
+big = "INT(-40000..-39960)"
+[machine.m.state]
+count = { type = "INT(0..3)", init = 1 }
+shadow = { type = "INT(-2..2)", init = "ANY" }
+cells = { type = "ARRAY[0..2] OF BOOL", init = false }
+[[machine.m.rule]]
+name = "go"
+note = "test"
+when = "go AND NOT cells[at]"
+then = "count := count + at; shadow := at - 1; cells[MIN(at, count)] := TRUE;"
+[[machine.m.rule]]
+name = "back"
+note = "test"
+when = "big < -39990 AND count > MAX(at, 1, count MOD 2)"
+then = "count := ABS(at - count); IF at = 1 THEN shadow := -2; ELSIF cells[2] THEN cells[2] := FALSE; END_IF;"
+[system.s]
+text = "one"
+[system.s.instance]
+m = { machine = "m" }
+[system.s.free]
+ports = ["m.go", "m.at", "m.big"]
+"#;
+    let folder = Folder::new(env!("CARGO_TARGET_TMPDIR"), "spin-text");
+    folder.write("hidden.toml", text);
+    assert_eq!(
+        compare(&folder.file("hidden.toml"), &BTreeSet::new()).broken,
+        1,
+        "the counter leaves its range"
+    );
+}
