@@ -8,6 +8,7 @@ use stillpoint::check::{Checked, Settings, check, exit_status, summarise};
 use stillpoint::subject::{self, Readings, Subject};
 use stillpoint_model::Verdict;
 use stillpoint_spec::machine;
+use stillpoint_tests::peer::each;
 use stillpoint_tests::root;
 
 const MACHINE: &str = "spec/machines/machining-centre-heidenhain.toml";
@@ -74,8 +75,13 @@ fn library(text: &str) -> Subject {
     subject::of_runs(&path, machine, &runs, &Readings::new()).unwrap_or_else(|e| panic!("{e}"))
 }
 
+/// There are many programs to check, so each has one thread.
 fn checked(subject: &Subject) -> Vec<Checked> {
-    check(subject, &Settings::default(), &mut |_| Box::new(()))
+    let settings = Settings {
+        threads: 1,
+        ..Settings::default()
+    };
+    check(subject, &settings, &mut |_| Box::new(()))
         .unwrap_or_else(|(title, e)| panic!("{title}: {e}"))
 }
 
@@ -107,8 +113,7 @@ fn the_shipped_program_keeps_every_row_of_the_event_tables() {
 /// HFS-MAG-003, HFS-SS2-009, HFS-FAULT-022, HFS-FAULT-023, HFS-FAULT-024, HFS-FAULT-026.
 #[test]
 fn each_row_of_the_event_tables_finds_the_program_that_breaks_it() {
-    let mut wrong = Vec::new();
-    for mistake in &programs().mistake {
+    let wrong = each(&programs().mistake, |mistake| {
         // Only what is asked for is judged: all of the others would take ten times as long.
         let mut subject = library(&changed(&mistake.text, &mistake.replace));
         subject
@@ -124,22 +129,21 @@ fn each_row_of_the_event_tables_finds_the_program_that_breaks_it() {
             .collect();
         let cycles = Some(mistake.cycles);
         let expected = [(mistake.breaks.as_str(), Verdict::Violated, cycles)];
-        if found != expected {
-            wrong.push(format!("{}: {found:?}, not {expected:?}", mistake.text));
-        }
-    }
+        (found != expected).then(|| format!("{}: {found:?}, not {expected:?}", mistake.text))
+    });
+    let wrong: Vec<String> = wrong.into_iter().flatten().collect();
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
 /// The tables say what a program has to do, not how: one that does it otherwise is not accused.
 #[test]
 fn programs_that_are_right_in_another_way_are_not_accused() {
-    for right in &programs().right {
+    each(&programs().right, |right| {
         let subject = library(&changed(&right.text, &right.replace));
         for one in summarise(&subject, &checked(&subject)) {
             assert_eq!(one.verdict, Verdict::Holds, "{}: {}", right.text, one.id);
         }
-    }
+    });
 }
 
 /// A property that no seeded mistake breaks could be one that nothing breaks.

@@ -20,6 +20,7 @@
 
 use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::{Arc, Mutex};
 
 use stillpoint::diff::peer::{Peer, peer};
 use stillpoint::diff::product::Product;
@@ -73,11 +74,23 @@ fn monitor(given: &Given<'_>) -> Result<Table, String> {
     Ok(answer)
 }
 
+/// A file of the family; read once, since many cases look into the same.
+fn specification(name: &str) -> Result<Arc<Spec>, String> {
+    static READ: Mutex<BTreeMap<String, Arc<Spec>>> = Mutex::new(BTreeMap::new());
+    let mut read = READ.lock().map_err(|e| e.to_string())?;
+    if let Some(spec) = read.get(name) {
+        return Ok(Arc::clone(spec));
+    }
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../spec/heidenhain-fs");
+    let spec = Arc::new(Spec::load(&folder.join(name)).map_err(|e| e.to_string())?);
+    read.insert(name.to_owned(), Arc::clone(&spec));
+    Ok(spec)
+}
+
 impl Pair {
     fn new(given: &Given<'_>) -> Result<Self, String> {
-        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../spec/heidenhain-fs");
         let machine = given.text("machine")?;
-        let spec = Spec::load(&root.join(given.text("file")?)).map_err(|e| e.to_string())?;
+        let spec = specification(given.text("file")?)?;
         let system = spec.open_machine(machine).map_err(|e| e.to_string())?;
         let mut params = BTreeMap::new();
         if let Some(list) = given.get("params") {
