@@ -28,7 +28,11 @@ fn the_expectations_of_every_example_hold() {
     let folder = root().join("spec/scenarios");
     let mut count = 0;
     for entry in std::fs::read_dir(folder).expect("the folder") {
-        let path = entry.expect("an entry").path().display().to_string();
+        let path = entry.expect("an entry").path();
+        if path.is_dir() {
+            continue;
+        }
+        let path = path.display().to_string();
         let output = simulate(&path);
         let out = stdout(&output);
         assert_eq!(status(&output), 0, "{path}: {out}{}", stderr(&output));
@@ -353,4 +357,123 @@ fn mistakes_are_refused() {
         "spec/scenarios/power-up.toml",
     ]);
     assert_eq!(status(&other), 2);
+}
+
+const CENTRE: &str = "spec/machines/machining-centre-heidenhain.toml";
+
+fn on_the_centre(scenario: &str) -> Output {
+    stillpoint(&["simulate", CENTRE, "--scenario", scenario, "--brief"])
+}
+
+/// The scenarios of the other family, each with a number that its manual prints.
+#[test]
+fn a_machine_of_groups_runs_its_scenarios() {
+    let folder = root().join("spec/scenarios/heidenhain-fs");
+    let mut run = 0;
+    for entry in std::fs::read_dir(folder).expect("readable") {
+        let path = entry.expect("readable").path();
+        let output = on_the_centre(path.to_str().expect("UTF-8"));
+        assert_eq!(status(&output), 0, "{}{}", stdout(&output), stderr(&output));
+        assert!(!stdout(&output).contains("FAILS"), "{}", stdout(&output));
+        run += 1;
+    }
+    assert!(run >= 3, "{run}");
+}
+
+/// Each thing that such a scenario depends on: without it, it fails.
+#[test]
+fn a_machine_of_groups_can_fail() {
+    let folder = Folder::new("simulate-centre");
+    let read = |name: &str| {
+        let path = root().join("spec/scenarios/heidenhain-fs").join(name);
+        std::fs::read_to_string(path).expect("readable")
+    };
+    for (name, from, to, fails) in [
+        // Braking at 0.8 m/s2 takes 104 ms, more than the 100 ms that the manual assumes.
+        (
+            "emergency-stop.toml",
+            "braking = \"1 m/s2\"",
+            "braking = \"0.8 m/s2\"",
+            "X stands in a cycle from 1.05 s",
+        ),
+        // The button is not released: no key brings the control voltage back.
+        (
+            "emergency-stop.toml",
+            "until  = \"2.001 s\"",
+            "until  = \"2.5 s\"",
+            "NN_AxGrpState = SOS",
+        ),
+        // No key: nothing is released, and nothing moves.
+        (
+            "emergency-stop.toml",
+            "signal = \"AXIS_KEY\"",
+            "signal = \"JOG\"",
+            "X moves in a cycle from 3 s",
+        ),
+        // An increment above the limit and its 5 %, as early as that.
+        (
+            "set-up-speed.toml",
+            "105 % of SOM_2",
+            "2102 mm/min",
+            "never X.mc.stop or X.cc.stop = SS1",
+        ),
+        // The contacts close in time at once.
+        (
+            "slow-contacts.toml",
+            "until  = \"1.5 s\"",
+            "until  = \"1.197 s\"",
+            "stop = SS1 in a cycle from 1.197 s",
+        ),
+        // Both contacts open: no difference.
+        (
+            "door-contact-lost.toml",
+            "channel = \"cc\"\n",
+            "",
+            "stop = SS1 in a cycle from 1.074 s",
+        ),
+    ] {
+        let text = read(name);
+        assert!(text.contains(from), "{name}: {from}");
+        let file = folder.write(name, &text.replacen(from, to, 1));
+        let output = on_the_centre(&file);
+        let text = stdout(&output);
+        assert_eq!(
+            status(&output),
+            1,
+            "{name}, {from}: {text}{}",
+            stderr(&output)
+        );
+        let failed = text.lines().filter(|l| l.starts_with("FAILS"));
+        let failed: Vec<&str> = failed.filter(|l| l.contains(fails)).collect();
+        assert!(!failed.is_empty(), "{name}, {from}: {text}");
+    }
+}
+
+/// A mode belongs to the machine, a signal of the machine to no axis.
+#[test]
+fn a_machine_of_groups_refuses_what_is_not_of_an_axis() {
+    let folder = Folder::new("simulate-centre-mistakes");
+    for (scenario, message) in [
+        (
+            "[[select]]\nat = \"0 s\"\naxis = \"X\"\nfunction = \"SOM_2\"\n",
+            "a mode is selected for the whole machine",
+        ),
+        (
+            "[[signal]]\nat = \"0 s\"\naxis = \"X\"\nsignal = \"ES\"\nvalue = false\n",
+            "ES is no signal of an axis",
+        ),
+        (
+            "[[expect]]\naxis = \"X\"\nchannel = \"nck\"\nstop = \"SS1\"\n",
+            "write \"mc\", \"cc\" or \"both\"",
+        ),
+        (
+            "[[motion]]\nat = \"0 s\"\naxis = \"X\"\nspeed = \"50 % of SG1\"\n",
+            "SOM_2 to SOM_4",
+        ),
+    ] {
+        let file = folder.write("m.toml", &format!("duration = \"1 s\"\n{scenario}"));
+        let output = on_the_centre(&file);
+        assert_eq!(status(&output), 2, "{scenario}");
+        assert!(stderr(&output).contains(message), "{}", stderr(&output));
+    }
 }

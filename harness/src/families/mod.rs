@@ -3,6 +3,7 @@
 //! A simulation, a recording, a replay, the results of an acceptance test and a walk work with any family that implements it.
 //! Which family a machine file belongs to, and what implements it, stands in [`of`] and nowhere else.
 
+pub mod heidenhain;
 pub mod sinumerik;
 
 use stillpoint_spec::machine::{Axis as MachineAxis, AxisKind, Machine};
@@ -12,7 +13,7 @@ use crate::recording::vocabulary::Unit;
 use crate::recording::{Kind, Role, Signal, Value};
 
 /// The families whose production monitors run whole machines.
-static FAMILIES: [&dyn Drive; 1] = [&sinumerik::Sinumerik];
+static FAMILIES: [&dyn Drive; 2] = [&sinumerik::Sinumerik, &heidenhain::Heidenhain];
 
 /// What implements the family of a machine.
 ///
@@ -22,9 +23,8 @@ pub fn of(machine: &Machine) -> Result<&'static dyn Drive, String> {
     let mut all = FAMILIES.into_iter();
     all.find(|drive| drive.name() == machine.family)
         .ok_or_else(|| {
-            let known = FAMILIES.map(Drive::name).join(", ");
             format!(
-                "{}: whole axes can be run for the family {known} only; for {} there are check, diff, reaction, acceptance and explore",
+                "{}: no production monitors run the axes of the family {}; there are check, reaction, acceptance and explore",
                 machine.name, machine.family
             )
         })
@@ -99,6 +99,8 @@ pub struct Words {
     pub stop: &'static str,
     /// What a mode can select, and the function that an axis needs for it.
     pub selections: (&'static [&'static str], Option<&'static str>),
+    /// It is selected for the whole machine.
+    pub of_machine: bool,
     /// The pairs of limit positions that can be selected, and the function that an axis needs for it.
     pub limits: (&'static [&'static str], Option<&'static str>),
     /// The stops that can be asked for from outside, each with the function that an axis needs for it.

@@ -28,6 +28,12 @@ impl Simulation {
         {
             lanes.extend(self.lane("machine", &door.name, &[&door.name]));
         }
+        for (owner, signals) in &self.others {
+            for name in signals {
+                let [first, second] = &self.words.channels.map(|c| format!("{owner}.{c}.{name}"));
+                lanes.extend(self.lane(owner, name, &[first, second]));
+            }
+        }
         for axis in self.axes.iter().filter(|axis| self.is_concerned(axis)) {
             panels.push(self.speed(axis));
             panels.push(self.position(axis));

@@ -22,6 +22,8 @@ pub struct Simulation {
     pub roundings: Vec<String>,
     /// The axes, as the machine has them.
     pub(super) axes: Vec<Shown>,
+    /// What has signals beside the axes: its name, and which.
+    pub(super) others: Vec<(String, Vec<&'static str>)>,
     /// What its family calls things.
     pub(super) words: &'static Words,
 }
@@ -88,7 +90,13 @@ pub(super) fn summarise(
         .iter()
         .map(|e| judge(e, &recording))
         .collect();
-    let axes = machine.axes.iter().zip(drive.owners(machine));
+    let mut owners = drive.owners(machine);
+    let others = owners.split_off(machine.axes.len()).into_iter();
+    let others = others.map(|owner| {
+        let ports = owner.inputs.iter().chain(&owner.outputs);
+        (owner.name, ports.map(|port| port.name).collect())
+    });
+    let axes = machine.axes.iter().zip(owners);
     let axes = axes.map(|(axis, owner)| {
         let flags = owner.inputs.iter().filter(|i| i.kind == Kind::Bool);
         Shown {
@@ -104,6 +112,7 @@ pub(super) fn summarise(
         judged,
         roundings: scenario.roundings.clone(),
         axes: axes.collect(),
+        others: others.collect(),
         words: drive.words(),
         recording,
     }

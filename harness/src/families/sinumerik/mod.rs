@@ -23,6 +23,7 @@ const WORDS: Words = Words {
     stops_listed: &["A", "B", "C", "D", "E", "F", "TEST", "NONE"],
     stop: "STOP ",
     selections: (&["SBH", "SG1", "SG2", "SG3", "SG4"], Some("SBH/SG")),
+    of_machine: false,
     limits: (&["SE1", "SE2"], Some("SE")),
     asked: &[
         ("A", Some("external stops")),

@@ -38,6 +38,10 @@ impl Resolver<'_> {
             let named = select.axis.as_ref();
             let (selections, selects) = self.drive.words().selections;
             let (pairs, limited) = self.drive.words().limits;
+            if let (Some(axis), true) = (named, self.drive.words().of_machine) {
+                let message = "a mode is selected for the whole machine".to_owned();
+                self.add(axis.span(), message, "not used", "remove axis".to_owned());
+            }
             let axes = match (&select.function, &select.limits) {
                 (Some(_), None) => self.axes_with(named, selects),
                 (None, Some(_)) => self.axes_with(named, limited),

@@ -1,0 +1,247 @@
+//! The signals of the family: what a channel reads of the machine and of an axis, and what it says of them.
+
+use stillpoint_monitors::heidenhain::types::{GroupState, Phase, Stop};
+use stillpoint_monitors::heidenhain::{axis_release, channel, reference};
+
+use super::axis::Said;
+use crate::families::Port;
+use crate::recording::vocabulary::{ALARMS, POSITION, STOP, Unit, VELOCITY};
+use crate::recording::{Kind, Value};
+
+/// An input of the machine in a channel. What is 1 in order is named as the manual names it: a lost signal stops.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Bit {
+    Es,
+    Sd,
+    SdMagazine,
+    Pb,
+    PbHandwheel,
+    PbMagazine,
+    Key2,
+    Key3,
+    Key4,
+    AxisKey,
+    NcStart,
+    Jog,
+    SpindleStart,
+    StopKey,
+    MagazineKey,
+    Confirm,
+    Handwheel,
+    Program,
+    Homing,
+    Restricted,
+    HolderOpen,
+    Cvo,
+    Permit,
+    Chain,
+    GenSafe,
+}
+
+/// Their names, in the same order.
+const BITS: [&str; Bit::COUNT] = [
+    "ES",
+    "SD",
+    "SD_MAGAZINE",
+    "PB",
+    "PB_HANDWHEEL",
+    "PB_MAGAZINE",
+    "KEY_SOM_2",
+    "KEY_SOM_3",
+    "KEY_SOM_4",
+    "AXIS_KEY",
+    "NC_START",
+    "JOG",
+    "SPINDLE_START",
+    "STOP_KEY",
+    "MAGAZINE_KEY",
+    "CONFIRM",
+    "HANDWHEEL",
+    "PROGRAM",
+    "HOMING",
+    "RESTRICTED",
+    "HOLDER_OPEN",
+    "PP_GenCVO",
+    "PP_AxGrpPermitDrvOn",
+    "PP_GenFB_NCC",
+    "NN_GenSafe",
+];
+
+impl Bit {
+    /// How many there are.
+    pub const COUNT: usize = 25;
+
+    /// Those that only a scenario gives: buttons, keys and what the PLC says.
+    pub const PRESSED: [Self; 15] = [
+        Self::Pb,
+        Self::PbHandwheel,
+        Self::PbMagazine,
+        Self::AxisKey,
+        Self::NcStart,
+        Self::Jog,
+        Self::SpindleStart,
+        Self::StopKey,
+        Self::MagazineKey,
+        Self::Confirm,
+        Self::Handwheel,
+        Self::Program,
+        Self::Homing,
+        Self::Restricted,
+        Self::HolderOpen,
+    ];
+}
+
+/// The safe operating modes.
+pub(super) const SOMS: [&str; 4] = ["SOM_1", "SOM_2", "SOM_3", "SOM_4"];
+
+const fn flag(name: &'static str) -> Port {
+    Port {
+        name,
+        kind: Kind::Bool,
+        unit: Unit::None,
+    }
+}
+
+const fn text(name: &'static str) -> Port {
+    Port {
+        name,
+        kind: Kind::Text,
+        unit: Unit::None,
+    }
+}
+
+const fn number(name: &'static str, unit: Unit) -> Port {
+    Port {
+        name,
+        kind: Kind::Int,
+        unit,
+    }
+}
+
+/// What a channel reads of the machine.
+pub(super) fn machine_inputs() -> Vec<Port> {
+    BITS.map(flag).to_vec()
+}
+
+/// What it says of it.
+pub(super) const MACHINE_OUTPUTS: [Port; 4] = [
+    text("PP_GenSOM"),
+    flag("STO.G"),
+    flag("STOS.G"),
+    flag("NN_GenOutputEnable"),
+];
+
+/// What a channel reads of an axis.
+pub(super) const AXIS_INPUTS: [Port; 2] =
+    [flag("PP_AxFeedEnable"), number(POSITION, Unit::Increment)];
+
+/// What it says of an axis and of its group.
+pub(super) const AXIS_OUTPUTS: [Port; 18] = [
+    text(STOP),
+    text("stop_phase"),
+    text("cause"),
+    text("PP_AxGrpStateReq"),
+    text("NN_AxGrpState"),
+    flag("STO"),
+    flag("BRK_REL"),
+    text("axis_release"),
+    text("axis_state"),
+    flag("NN_AxSafe"),
+    text("Safety.SOS.ActivationState"),
+    number("standstill_reference", Unit::Increment),
+    text("Safety.SLS.ActivationState"),
+    number("Safety.SLS.Limit", Unit::IncrementPerCycle),
+    text("Safety.SLP.SelectionState"),
+    text("Safety.SLP.ActivationState"),
+    number(VELOCITY, Unit::IncrementPerCycle),
+    text(ALARMS),
+];
+
+/// The values of these outputs; `group`: what its kernel says and why it stops.
+pub(super) fn axis(said: &Said, group: Option<(&channel::Outputs, &'static str)>) -> Vec<Value> {
+    let name = |text: &'static str| Value::Text(text.into());
+    let none = channel::Outputs::default();
+    let (kernel, cause) = group.unwrap_or((&none, ""));
+    let active = |on: bool, faulted: bool, words: [&'static str; 2]| match (on, faulted) {
+        (false, _) => name("NONE"),
+        (true, true) => name(words[1]),
+        (true, false) => name(words[0]),
+    };
+    let micrometres = |tenths: i32| Value::Int(i64::from(tenths).div_euclid(10));
+    let (switch, passed) = said.slp;
+    vec![
+        name(stop(kernel.stop.level)),
+        name(phase(kernel.stop.phase)),
+        name(cause),
+        name(state(kernel.taken.request)),
+        name(state(kernel.group.state)),
+        // 1 in order, as the signals -STO and -BRK_REL are.
+        Value::Bool(!kernel.torque_off),
+        Value::Bool(!kernel.brake_closed),
+        name(match said.release.mode {
+            axis_release::Mode::Sos => "SOS",
+            axis_release::Mode::Released => "RELEASED",
+            axis_release::Mode::Ss2 => "SS2",
+        }),
+        name(match said.known {
+            reference::AxisRef::NotHomed => "NOT_HOMED",
+            reference::AxisRef::Homed => "HOMED",
+            reference::AxisRef::NotChecked => "NOT_CHECKED",
+            reference::AxisRef::Checked => "CHECKED",
+        }),
+        Value::Bool(said.reference.ax_safe),
+        active(
+            said.stands_at.is_some(),
+            said.standing.too_far || said.standing.too_fast,
+            ["SOS_ACTIVE", "SOS_ACTIVE_FAULTED"],
+        ),
+        micrometres(said.stands_at.map_or(0, |at| at.0)),
+        active(
+            said.limited.watched,
+            said.limited.violated,
+            ["SLS_ACTIVE", "SLS_ACTIVE_FAULTED"],
+        ),
+        Value::Int(said.limit.map_or(0, |limit| i64::from(limit.0) / 10)),
+        name(if switch { "SELECTED_LIMIT_1" } else { "NONE" }),
+        active(switch, passed, ["SLP_ACTIVE", "SLP_ACTIVE_FAULTED"]),
+        Value::Int(i64::from(said.speed.0) / 10),
+        name(""),
+    ]
+}
+
+/// The name of a stop.
+pub(super) const fn stop(stop: Stop) -> &'static str {
+    match stop {
+        Stop::None => "NONE",
+        Stop::Ss2 => "SS2",
+        Stop::Ss1D => "SS1D",
+        Stop::Ss1 => "SS1",
+        Stop::Ss1F => "SS1F",
+        Stop::Ss0 => "SS0",
+    }
+}
+
+const fn phase(phase: Phase) -> &'static str {
+    match phase {
+        Phase::Run => "RUN",
+        Phase::Ss2Wait => "SS2_WAIT",
+        Phase::Ss2Brake => "SS2_BRAKE",
+        Phase::Ss1DWait => "SS1D_WAIT",
+        Phase::EmergencyBrake => "EMERGENCY_BRAKE",
+        Phase::BrakeCloses => "BRAKE_CLOSES",
+        Phase::TorqueOff => "TORQUE_OFF",
+    }
+}
+
+const fn state(state: GroupState) -> &'static str {
+    match state {
+        GroupState::Auto => "AUTO",
+        GroupState::Sls4 => "SLS_4",
+        GroupState::Sls3 => "SLS_3",
+        GroupState::Sls2 => "SLS_2",
+        GroupState::SlsS => "SLS_S",
+        GroupState::Sos => "SOS",
+        GroupState::StoO => "STO_O",
+        GroupState::Sto => "STO",
+    }
+}
