@@ -30,5 +30,4 @@ pub mod properties;
 pub mod results;
 pub mod sampling;
 pub mod source;
-#[cfg(not(kani))]
 pub mod tries;

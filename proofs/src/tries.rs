@@ -14,6 +14,9 @@ use crate::source::Source;
 /// A number with at most so many values is tried whole.
 const NARROW: i64 = 8;
 
+/// How often random numbers are tried that make no configuration, or no state.
+const ATTEMPTS: usize = 50;
+
 /// The values of each number, in the order of a visit.
 type Values = Vec<Vec<i64>>;
 
@@ -84,7 +87,7 @@ impl Visitor for Finder<'_, '_> {
             }
             None => match kind {
                 Kind::Choice(variants) => Ok(variants.iter().map(|(_, number)| *number).collect()),
-                _ if high - low < NARROW => Ok((low..=high).collect()),
+                _ if high.saturating_sub(low) < NARROW => Ok((low..=high).collect()),
                 _ => Err("no list says what is tried".to_owned()),
             },
         };
@@ -133,16 +136,13 @@ impl Tries {
         }
     }
 
-    /// A step of these numbers; none where they make none.
+    /// A step of these numbers; none where they make none. A random one is tried again, the configuration first.
     pub fn step<M: Contract, S: Source>(&self, source: &mut S) -> Option<Case<M>> {
-        let config = chosen(&self.config, source);
-        if !M::accepted(&config) {
-            return None;
-        }
-        let state = chosen(&self.state, source);
-        if !M::invariant(&state, &config) {
-            return None;
-        }
+        let attempts = if source.enumerates() { 1 } else { ATTEMPTS };
+        let mut configs = (0..attempts).map(|_| chosen(&self.config, source));
+        let config = configs.find(M::accepted)?;
+        let mut states = (0..attempts).map(|_| chosen(&self.state, source));
+        let state = states.find(|state| M::invariant(state, &config))?;
         Some((state, config, chosen(&self.inputs, source)))
     }
 }
@@ -193,8 +193,12 @@ pub fn in_words(text: &str) -> String {
         let words: Vec<String> = words.into_iter().map(word).collect();
         format!("{} {}", names.join(", "), words.join(", "))
     });
-    let all: Vec<String> = lists.chain(["all else whole".to_owned()]).collect();
-    all.join("; ")
+    let lists: Vec<String> = lists.collect();
+    if lists.is_empty() {
+        "complete".to_owned()
+    } else {
+        format!("{}; all else whole", lists.join("; "))
+    }
 }
 
 /// Chooses each number that it is shown among its values. Where the source does not try one after the other, also any other
@@ -214,8 +218,9 @@ impl<S: Source> Visitor for Chooser<'_, S> {
         if self.absent {
             return value;
         }
-        if !self.source.enumerates() && self.source.any_bool() {
-            let (low, high) = kind.ends();
+        let (low, high) = kind.ends();
+        let whole = own.len() as i64 > high.saturating_sub(low);
+        if !self.source.enumerates() && !whole && self.source.any_bool() {
             return self.source.any_whole(low, high);
         }
         let place = self.source.any_in(0, own.len() as u32 - 1);
@@ -242,4 +247,111 @@ fn chosen<T: Fields>(values: &[Vec<i64>], source: &mut impl Source) -> T {
         },
     );
     value
+}
+
+#[cfg(test)]
+mod tests {
+    use stillpoint_monitors::heidenhain::deceleration;
+    use stillpoint_monitors::sinumerik::speed;
+
+    use super::*;
+    use crate::enumeration::{Domain, Odometer, enumerate};
+    use crate::source::Verdict;
+
+    const GOOD: &str = "wait: 0 1 3; timer: 0..3; last: 0..2 max; inputs.speed: 0..3 max";
+
+    fn of(text: &str) -> Result<Tries, String> {
+        Tries::of::<deceleration::Monitor>(text)
+    }
+
+    fn steps<M: Contract>(text: &str) -> Vec<Case<M>> {
+        let tries = Tries::of::<M>(text).expect("lists that fit");
+        let mut steps = Vec::new();
+        let domain = Domain {
+            delays: &[],
+            highest_speed: 0,
+        };
+        enumerate(domain, 0, |source: &mut Odometer| {
+            steps.extend(tries.step::<M, _>(source));
+            Verdict::Held
+        });
+        steps
+    }
+
+    #[test]
+    fn words_are_values_and_narrow_numbers_are_whole() {
+        let tries = of(GOOD).expect("lists that fit");
+        let max = i64::from(u32::MAX);
+        let truth = vec![0, 1];
+        assert_eq!(tries.config, [truth.clone(), vec![0, 1, 3], truth.clone()]);
+        assert_eq!(
+            tries.state,
+            [truth.clone(), (0..=3).collect(), vec![0, 1, 2, max]]
+        );
+        assert_eq!(tries.inputs, [truth, vec![0, 1, 2, 3, max]]);
+        let ends = of("wait: 5 ends 4..5 -1; timer: max min 9; last speed: min").expect("lists");
+        assert_eq!(ends.config[1], [0, 4, 5, max]);
+        assert_eq!(ends.state[1], [0, 9, max]);
+        assert_eq!((&ends.state[2], &ends.inputs[1]), (&vec![0], &vec![0]));
+    }
+
+    #[test]
+    fn the_first_list_with_the_name_counts_and_a_name_stands_for_what_is_below() {
+        let tries = of("config.wait: 7; config: 1; state: 0..1; inputs: 1").expect("lists");
+        assert_eq!(tries.config, [vec![1], vec![7], vec![1]]);
+        assert_eq!(tries.state, [vec![0, 1], vec![0, 1], vec![0, 1]]);
+        assert_eq!(tries.inputs, [vec![1], vec![1]]);
+    }
+
+    #[test]
+    fn lists_that_do_not_fit_are_refused() {
+        let refused = |text: &str, lines: &str| assert_eq!(of(text), Err(lines.to_owned()));
+        refused(
+            "wait: 0; timer: 0",
+            "state.last: no list says what is tried\ninputs.speed: no list says what is tried",
+        );
+        refused(
+            &format!("{GOOD}; colour tim.er: 1"),
+            "no number is called colour, tim.er",
+        );
+        refused(
+            &GOOD.replace("0 1 3", "0 soon"),
+            "config.wait: `soon` is no number, range, `min`, `max` or `ends`",
+        );
+        refused(&GOOD.replace("0 1 3", "-1"), "config.wait: no value");
+        refused(
+            &GOOD.replace("wait: 0 1 3", "wait"),
+            "config.wait: no value",
+        );
+        // A list that stands behind one with the same name is never used.
+        refused(&format!("{GOOD}; wait: 9"), "no number is called wait");
+    }
+
+    #[test]
+    fn every_step_of_the_values_comes_once() {
+        let steps = steps::<deceleration::Monitor>(GOOD);
+        for (place, step) in steps.iter().enumerate() {
+            assert!(step.0.invariant(&step.1), "{step:?}");
+            assert!(!steps.iter().take(place).any(|other| other == step));
+        }
+        // Ten configurations times inputs; states: those with `on` and a timer that fits, and the initial one.
+        let fits = |wait: usize| 4 * (wait + 1) + 1;
+        assert_eq!(steps.len(), 4 * 10 * (fits(0) + fits(1) + fits(3)));
+    }
+
+    #[test]
+    fn the_numbers_of_a_missing_value_are_not_chosen() {
+        let one = "stops: 1; monitored stage: 0; setpoint: 100; speed limit encoder_speed: 0";
+        let steps = steps::<speed::Monitor>(&format!("{one}; encoder_max.value: 0 5"));
+        assert_eq!(steps.len(), 3, "none, 0 and 5");
+    }
+
+    #[test]
+    fn lists_are_said_in_words() {
+        assert_eq!(in_words(""), "complete");
+        assert_eq!(
+            in_words("path still: 0..2 max; begin: -1 min ends"),
+            "path, still 0 to 2, the greatest; begin -1, the least, the ends of its type; all else whole"
+        );
+    }
 }

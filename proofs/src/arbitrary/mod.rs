@@ -1,4 +1,5 @@
-//! Any state that satisfies the invariant, any configuration that is accepted, any inputs, for each monitor of each family.
+//! Steps drawn by hand, for the contracts that [`crate::draw`] and [`crate::tries`] cannot serve: the values that the enumeration
+//! tries depend on each other, or Kani must leave something out; and parts of steps for the runs.
 //!
 //! A function returns `None` when the choices are outside the domain. States are chosen before inputs, so that an
 //! enumeration leaves an impossible state at once.

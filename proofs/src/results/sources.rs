@@ -16,10 +16,11 @@ pub fn fingerprint(entry: &Entry) -> String {
     let draws = modules_of_draws(&root.join("src/arbitrary").join(entry.family));
 
     // What every harness of a family is made of.
-    let mut files: Vec<PathBuf> = ["kernel.rs", "units.rs", "contract.rs"]
+    let mut files: Vec<PathBuf> = ["kernel.rs", "units.rs", "contract.rs", "fields.rs"]
         .map(|name| monitors.join(name))
         .into();
-    files.extend(["kani_source.rs", "source.rs"].map(|name| root.join("src").join(name)));
+    files
+        .extend(["kani_source.rs", "source.rs", "draw.rs"].map(|name| root.join("src").join(name)));
     let mut texts: Vec<String> = files.iter().map(|file| code(file)).collect();
 
     let mut open: Vec<String> = Vec::new();

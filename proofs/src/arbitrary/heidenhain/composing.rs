@@ -4,10 +4,10 @@
 //! parts of it, each free in what one group of laws is about.
 
 use stillpoint_monitors::heidenhain::types::{GroupState, Left, Phase, Som, Stop, Unit};
-use stillpoint_monitors::heidenhain::{channel, gate, judge, startup, stop};
+use stillpoint_monitors::heidenhain::{channel, gate, group, judge, startup, stop};
 use stillpoint_monitors::kernel::Cycles;
 
-use super::{gate_inputs, group_state, judge_state, kind, stop_config, stop_state};
+use crate::draw::any;
 use crate::source::Source;
 
 type Step = (channel::State, channel::Config, channel::Inputs);
@@ -19,6 +19,70 @@ pub fn channel<S: Source>(source: &mut S) -> Option<Step> {
         2 => stopped(source),
         3 => permitted(source),
         _ => whole(source),
+    }
+}
+
+/// Any times, either channel.
+fn stop_config<S: Source>(source: &mut S) -> Option<stop::Config> {
+    let t_ss1 = source.any_delay(stop::Config::LONGEST);
+    let t_ss2 = source.any_delay(stop::Config::LONGEST);
+    let t_brake = source.any_delay(stop::Config::LONGEST);
+    stop::Config::new(source.any_bool(), t_ss1, t_ss2, t_brake).ok()
+}
+
+/// Any consistent state of the stop.
+fn stop_state<S: Source>(source: &mut S, config: &stop::Config) -> Option<stop::State> {
+    let phase = source.any_of(&Phase::ALL);
+    let mut state = stop::State {
+        phase,
+        ..stop::State::INITIAL
+    };
+    match phase {
+        Phase::Run => {}
+        Phase::Ss2Wait | Phase::Ss2Brake => {
+            state.level = Stop::Ss2;
+            state.timer = source.any_cycles(stop::started(config.t_ss2()));
+        }
+        Phase::Ss1DWait => {
+            state.level = Stop::Ss1D;
+            state.timer = source.any_cycles(stop::started(config.t_ss2()));
+        }
+        Phase::EmergencyBrake | Phase::BrakeCloses => {
+            state.level = source.any_of(&[Stop::Ss1D, Stop::Ss1, Stop::Ss1F]);
+            state.timer = source.any_cycles(stop::started(config.t_ss1()));
+            if phase == Phase::BrakeCloses {
+                state.brake = source.any_cycles(stop::started(config.t_brake()));
+            }
+        }
+        Phase::TorqueOff => {
+            state.level = source.any_of(&[Stop::Ss1D, Stop::Ss1, Stop::Ss1F, Stop::Ss0]);
+        }
+    }
+    let ramp = matches!(phase, Phase::EmergencyBrake | Phase::BrakeCloses);
+    state.wide = ramp && state.level >= Stop::Ss1 && source.any_bool();
+    state.invariant(config).then_some(state)
+}
+
+/// Any consistent monitoring state.
+fn group_state<S: Source>(source: &mut S, config: &group::Config) -> Option<group::State> {
+    let state = source.any_of(&GroupState::ALL);
+    let slow = matches!(
+        state,
+        GroupState::Sls2 | GroupState::Sls3 | GroupState::Sls4
+    );
+    let left = if slow { any(source) } else { Left::NONE };
+    let state = group::State { state, left };
+    state.invariant(config).then_some(state)
+}
+
+/// Any fields of the interface: every code, and for the others one beyond them and the highest number.
+fn gate_inputs<S: Source>(source: &mut S) -> gate::Inputs {
+    gate::Inputs {
+        state_code: source.any_u32(8, u32::from(u8::MAX)) as u8,
+        stop_code: source.any_u32(5, u32::from(u8::MAX)) as u8,
+        som_code: source.any_u32(4, u32::from(u8::MAX)) as u8,
+        activate: source.any_bool(),
+        permissive: source.any_bool(),
     }
 }
 
@@ -55,13 +119,8 @@ fn quiet() -> channel::Inputs {
 
 /// Any requests of both channels, in every monitoring state without a stop.
 fn requested<S: Source>(source: &mut S) -> Option<Step> {
-    let config = channel::Config::new(
-        kind(source),
-        true,
-        brief(source.any_bool())?,
-        Cycles::new(2),
-    )
-    .ok()?;
+    let config =
+        channel::Config::new(any(source), true, brief(source.any_bool())?, Cycles::new(2)).ok()?;
     let group = group_state(source, config.group())?;
     // Which limits of other modes are left makes no difference to the channel: all of them, or none.
     let all = group.left.sls_2 && group.left.sls_3 && group.left.sls_4;
@@ -94,7 +153,7 @@ fn requested<S: Source>(source: &mut S) -> Option<Step> {
 /// Any stop with its causes and times, in two monitoring states.
 fn stopped<S: Source>(source: &mut S) -> Option<Step> {
     let stop = stop_config(source)?;
-    let config = channel::Config::new(kind(source), true, stop, Cycles::new(2)).ok()?;
+    let config = channel::Config::new(any(source), true, stop, Cycles::new(2)).ok()?;
     let mut state = channel::State {
         stop: stop_state(source, &stop)?,
         ..channel::State::INITIAL
@@ -120,13 +179,8 @@ fn stopped<S: Source>(source: &mut S) -> Option<Step> {
 
 /// Any permission to switch the drives on, without torque.
 fn permitted<S: Source>(source: &mut S) -> Option<Step> {
-    let config = channel::Config::new(
-        kind(source),
-        true,
-        brief(source.any_bool())?,
-        Cycles::new(2),
-    )
-    .ok()?;
+    let config =
+        channel::Config::new(any(source), true, brief(source.any_bool())?, Cycles::new(2)).ok()?;
     let mut state = channel::State::INITIAL;
     state.stop.level = source.any_of(&[Stop::None, Stop::Ss1D, Stop::Ss1, Stop::Ss1F, Stop::Ss0]);
     if state.stop.level != Stop::None {
@@ -155,7 +209,7 @@ fn permitted<S: Source>(source: &mut S) -> Option<Step> {
 
 /// Any step at all.
 fn whole<S: Source>(source: &mut S) -> Option<Step> {
-    let (kind, som_4) = (kind(source), source.any_bool());
+    let (kind, som_4) = (any(source), source.any_bool());
     let stop = stop_config(source)?;
     let idle = source.any_delay(startup::Config::LONGEST);
     let config = channel::Config::new(kind, som_4, stop, idle).ok()?;
@@ -166,7 +220,7 @@ fn whole<S: Source>(source: &mut S) -> Option<Step> {
         judge: if source.any_bool() {
             judge::State::INITIAL
         } else {
-            judge_state(source)
+            any(source)
         },
         stop: stop_state(source, &stop)?,
         group: group_state(source, config.group())?,

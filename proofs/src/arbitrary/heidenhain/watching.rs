@@ -2,20 +2,10 @@
 
 use stillpoint_monitors::heidenhain::types::GroupState;
 use stillpoint_monitors::heidenhain::{comparison, speed};
-use stillpoint_monitors::kernel::{Cycles, Distance, Percent, Position, Speed};
+use stillpoint_monitors::kernel::{Cycles, Distance, Percent, Speed};
 
-use super::left;
+use crate::draw::any;
 use crate::source::Source;
-
-/// Any position; the enumeration takes those near 0 and the ends of the range.
-fn position<S: Source>(source: &mut S, reach: u32) -> Position {
-    Position(source.any_i32(reach))
-}
-
-/// Any speed; the enumeration takes low ones and the highest.
-fn velocity<S: Source>(source: &mut S, reach: u32) -> Speed {
-    Speed(source.any_u32(reach, u32::MAX))
-}
 
 /// Any distance; the enumeration takes short ones and the longest.
 fn distance<S: Source>(source: &mut S, reach: u32) -> Distance {
@@ -29,17 +19,18 @@ fn state<S: Source>(source: &mut S) -> GroupState {
 /// The highest limit whose 5 % more fits 32 bits.
 pub const HIGHEST_LIMIT: u32 = u32::MAX / 105 * 100;
 
-/// Any step of the limited speed. The enumeration takes low speeds, and those around each limit.
+/// Any step of the limited speed. By hand, since the enumeration takes low speeds and those around the limit in force, Kani few
+/// bits.
 pub fn speed<S: Source>(source: &mut S) -> Option<(speed::State, speed::Config, speed::Inputs)> {
     let limits = speed::Limits {
         som_2: Speed(source.any_cut(1, HIGHEST_LIMIT, 10)),
         som_3: Speed(source.any_cut(1, HIGHEST_LIMIT, 10)),
         som_4: Speed(source.any_cut(0, HIGHEST_LIMIT, 10)),
-        restricted: velocity(source, 1),
+        restricted: Speed(source.any_u32(1, u32::MAX)),
     };
     let config = speed::Config::new(limits, source.any_bool()).ok()?;
     let state = state(source);
-    let left = left(source);
+    let left = any(source);
     let limit = config.limit(state, left).unwrap_or_default().0;
     // Those around each limit for the enumeration, which takes low ones only.
     let kind = if source.leaves_out() {
@@ -60,7 +51,7 @@ pub fn speed<S: Source>(source: &mut S) -> Option<(speed::State, speed::Config, 
     Some((speed::State::INITIAL, config, inputs))
 }
 
-/// Any step of the comparison of nominal and actual value.
+/// Any step of the comparison of nominal and actual value. By hand, since Kani takes few bits of the speeds.
 pub fn comparison<S: Source>(
     source: &mut S,
 ) -> Option<(comparison::State, comparison::Config, comparison::Inputs)> {

@@ -6,20 +6,17 @@ use crate::inventory::NARROW;
 inventory! {
     [contract stop_contract on sinumerik::stop {
         property: "every clause of the arbitration's contract: priority, latching, acknowledgement, timers, actions",
-        domain: Domain { delays: &[0, 2], highest_speed: 0 },
-        domain_text: "t_B, t_C, t_D, t_E each 0 or 2 cycles; every consistent state; every input",
+        tries: "t_b t_c t_d t_e: 0 2; timer: 0..2",
         caveat: "longer times only under Kani and in samples; the code compares times, it never treats one by its value",
     }]
     [contract external_contract on sinumerik::external {
         property: "every clause of the external stops' contract: table of priorities, enables, latch of the safe logic",
-        domain: NARROW,
-        domain_text: "complete: every configuration, state and input",
+        tries: "",
         caveat: "none",
     }]
     [contract fault_contract on sinumerik::fault {
         property: "every clause of STOP F's contract: escalation, delay, latching, acknowledgement, interlock",
-        domain: Domain { delays: &[0, 1, 2, 3, 5], highest_speed: 0 },
-        domain_text: "t_F 0, 1, 2, 3 or 5 cycles; every consistent state; every input",
+        tries: "t_f: 0..3 5; timer: 0..5",
         caveat: "what counts as an active function and as a discrepancy comes from outside",
     }]
     [contract [kani(stub(stillpoint_monitors::kernel::Speed::reduced, crate::kani_source::reduced_small))] selection_contract on sinumerik::selection {
@@ -30,26 +27,22 @@ inventory! {
     }]
     [contract reference_contract on sinumerik::reference {
         property: "every clause of the referencing's contract: both agreements, history between, loss",
-        domain: NARROW,
-        domain_text: "complete: every configuration, state and input",
+        tries: "",
         caveat: "the result of the comparison with the history comes through the agreements",
     }]
     [contract agreement_contract on sinumerik::agreement {
         property: "every clause of the user agreement's contract: key, reference, gear, history, difference of the channels",
-        domain: Domain { delays: &[1, 2, 4], highest_speed: 0 },
-        domain_text: "t_differ 1, 2 or 4 cycles; every consistent state; every input",
+        tries: "t_differ: 1 2 4; timer: 0..4",
         caveat: "that the non-volatile memory keeps the agreement is assumed",
     }]
     [contract gear_contract on sinumerik::gear {
         property: "every clause of the gear stage's contract: a change is an event in the same cycle",
-        domain: NARROW,
-        domain_text: "complete: every configuration, state and input",
+        tries: "",
         caveat: "a mechanical change without its signals is not detected (S840D-REF-012)",
     }]
     [contract group_contract on sinumerik::group {
         property: "every clause of the effect on other axes: table of 5.2, setting, ESR, external stops",
-        domain: NARROW,
-        domain_text: "complete: every setting and input",
+        tries: "",
         caveat: "of several stopping axes the highest reaction counts: a maximum, tested in the monitor's module",
     }]
     [run(18) initial_states on sinumerik::"all" by initial::initial_states {

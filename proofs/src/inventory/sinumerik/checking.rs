@@ -6,20 +6,17 @@ use crate::inventory::NARROW;
 inventory! {
     [contract test_stop_contract on sinumerik::test_stop {
         property: "every clause of the contract of the test of the shutdown path: refusal, feedback in time, hold, higher stops",
-        domain: Domain { delays: &[0, 1, 2, 4], highest_speed: 0 },
-        domain_text: "t_chk 0, 1, 2 or 4 cycles; every consistent state; every input",
+        tries: "t_chk: 0..2 4; timer: 0..4",
         caveat: "standstill before the test is a duty of the user (reading A-32)",
     }]
     [contract shutdown_test_contract on sinumerik::shutdown_test {
         property: "every clause of the contract of the test of the external shutdown",
-        domain: Domain { delays: &[0, 1, 2, 4], highest_speed: 0 },
-        domain_text: "t_chk 0, 1, 2 or 4 cycles; every consistent state; every input",
+        tries: "t_chk: 0..2 4; timer: 0..4",
         caveat: "which axes share the output is decided outside (S840D-TEST-018)",
     }]
     [contract pulses_contract on sinumerik::pulses {
         property: "every clause of the pulse cancellation's contract: at once, supervised, fallback to the external path",
-        domain: Domain { delays: &[0, 1, 2, 4], highest_speed: 0 },
-        domain_text: "t_chk 0, 1, 2 or 4 cycles; with and without internal cancellation; every consistent state; every input",
+        tries: "t_chk: 0..2 4; timer: 0..4",
         caveat: "that the pulses are off once their enable is gone is an assumption about the drive",
     }]
     [contract compare_contract on sinumerik::compare {
@@ -30,20 +27,17 @@ inventory! {
     }]
     [contract [kani(solver(kissat))] slip_contract on sinumerik::slip {
         property: "every clause of the synchronisation's contract: half of the difference, dead band, tolerance, never past",
-        domain: NARROW,
-        domain_text: "dead band and tolerance 0 to 3 and the greatest; positions -3 to 3 and both ends; offsets around 0 and the ends",
+        tries: "dead tol: 0..3 max; offset: -4294967295..-4294967293 -2147483650..-2147483645 -2..2 2147483645..2147483650 4294967293..4294967295; own other: -3..3 ends",
         caveat: "none",
     }]
     [contract history_contract on sinumerik::history {
         property: "every clause of the history's contract: exact at the tolerance, kept through power-on, not overtaken",
-        domain: NARROW,
-        domain_text: "tolerance 0 to 3 and the greatest; positions -3 to 3 and both ends; every state; every input",
+        tries: "tol: 0..3 max; standstill: -2..2 ends; position: 0 -7; refpos: -3..3 ends; travelled: -1..1 ends",
         caveat: "that the non-volatile memory keeps the position is assumed",
     }]
     [contract forced_check_contract on sinumerik::forced_check {
         property: "every clause of the forced checking's contract: both paths, interval, failure, power-on",
-        domain: Domain { delays: &[1, 2, 4], highest_speed: 0 },
-        domain_text: "interval 1, 2 or 4 cycles; every consistent state; every input",
+        tries: "interval: 1 2 4; drive nck: 0..4",
         caveat: "what follows from a due test is decided outside (S840D-TEST-002)",
     }]
     [run(4) checking_initial_states on sinumerik::"the checking monitors" by checking::checking_initial_states {

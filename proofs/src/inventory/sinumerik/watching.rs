@@ -6,44 +6,37 @@ use crate::inventory::NARROW;
 inventory! {
     [contract motion_contract on sinumerik::motion {
         property: "every clause of the actual position's contract: speed as a distance, first position, parking",
-        domain: NARROW,
-        domain_text: "positions -3 to 3 and the ends of 32 bits; every state and input",
+        tries: "last position: -3..3 ends; speed: ends",
         caveat: "the encoder itself is outside",
     }]
     [contract standstill_contract on sinumerik::standstill {
         property: "every clause of the operating stop's window: STOP B beyond it, none inside, the side shown",
-        domain: NARROW,
-        domain_text: "tolerances 0 to 3 and the largest; positions and references -5 to 5 and the ends of 32 bits",
+        tries: "tol: 0..3 100000; position reference: -5..5 ends",
         caveat: "none",
     }]
     [contract [kani(solver(kissat), stub(stillpoint_monitors::kernel::Speed::reduced, crate::kani_source::reduced_small))] speed_contract on sinumerik::speed {
         property: "every clause of the speed limit's contract: configured stop, encoder limit, setpoint limit",
-        domain: NARROW,
-        domain_text: "every common stop, one per stage from A, B, C and a delayed E; speeds 0 to 2, limits 0 and 1, and 32 bits",
+        tries: "encoder_max.value: ends; setpoint: 0 99 100; speed: 0..2 max; limit encoder_speed: 0 1 max",
         caveat: "Kani takes limits below a setpoint factor of at most 15; units_factor shows that a wide one is reduced exactly",
     }]
     [contract limit_switch_contract on sinumerik::limit_switch {
         property: "every clause of the limit switches' contract: selected pair, agreement, configured stop",
-        domain: NARROW,
-        domain_text: "ends -1 to 1, positions -2 to 2, and the ends of 32 bits; every reaction",
+        tries: "plus minus: -1..1 ends; position: -2..2 ends",
         caveat: "whether the position is right is the agreement's business",
     }]
     [contract ramp_contract on sinumerik::ramp {
         property: "every clause of the braking ramp's contract: start, fall and end of the limit, STOP A",
-        domain: NARROW,
-        domain_text: "n_x and tolerance 0 to 2, speeds 0 to 6, and 32 bits; every state and input",
+        tries: "velo_x tol: 0..2 max; lowest: 0..4 max; speed: 0..6 max",
         caveat: "how long the ramp is on comes from the arbitration",
     }]
     [contract threshold_contract on sinumerik::threshold {
         property: "every clause of the threshold's contract",
-        domain: NARROW,
-        domain_text: "speeds and thresholds 0 to 5 and 32 bits",
+        tries: "velo_x speed: 0..5 max",
         caveat: "none",
     }]
     [contract [kani(stub(stillpoint_monitors::units::ModuloRange::folded, crate::kani_source::folded_in_range))] cam_contract on sinumerik::cam {
         property: "every clause of a cam's contract: side, hysteresis, modulo range, synchronisation",
-        domain: NARROW,
-        domain_text: "cams -1 to 1, ranges -2 to 2, tolerances 0 to 2, positions -5 to 5, and the ends of 32 bits",
+        tries: "config.cam: -1..1 ends; tol: 0..2 max; range: -2..2 ends; position: -5..5 ends",
         caveat: "the signal is safe only together with \"axis safely referenced\"; Kani takes positions in the modulo range, units_folding folds the others into it",
     }]
     [contract [kani(solver(kissat), unwind(10))] results_contract on sinumerik::results {

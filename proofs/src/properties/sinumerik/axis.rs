@@ -6,7 +6,7 @@ use stillpoint_monitors::sinumerik::reference::AxisState;
 use stillpoint_monitors::sinumerik::{agreement, gear, reference};
 
 use super::Subject;
-use crate::arbitrary::sinumerik as arbitrary;
+use crate::draw;
 use crate::source::{Source, Verdict};
 
 /// The parameters of an axis with limit switches.
@@ -100,7 +100,7 @@ pub fn gear_change_ends_safe_reference<S: Source>(source: &mut S, subject: &Subj
         return Verdict::Discarded;
     };
     let state = source.any_of(&[AxisState::NotRef, AxisState::Ref, AxisState::SafeRef]);
-    let (old, new) = (arbitrary::gear_index(source), arbitrary::gear_index(source));
+    let (old, new) = (draw::any(source), draw::any(source));
     if old == new {
         return Verdict::Discarded;
     }

@@ -6,12 +6,11 @@ use stillpoint_monitors::sinumerik::compare::list::{
     self, CLASSES, ITEMS, Kind, Limits, Rule, Snapshot, Tolerance,
 };
 use stillpoint_monitors::sinumerik::level::InternalStop;
-use stillpoint_monitors::sinumerik::{
-    compare, forced_check, history, path_test, pulses, shutdown_test, slip, test_stop,
-};
+use stillpoint_monitors::sinumerik::{compare, forced_check, history, path_test, pulses, slip};
 
 use super::Subject;
 use crate::arbitrary::sinumerik as arbitrary;
+use crate::draw;
 use crate::source::{Source, Verdict};
 
 /// One cycle of either test of a shutdown path, as far as both are alike.
@@ -421,7 +420,7 @@ pub fn test_becomes_due<S: Source>(source: &mut S, subject: &Subject) -> Verdict
     // The ages of the last tests of both paths in cycles, counted apart from the monitor.
     let mut ages: [Option<u32>; 2] = [None; 2];
     for _ in 0..4 {
-        let inputs = arbitrary::forced_check_inputs(source);
+        let inputs: forced_check::Inputs = draw::any(source);
         let (after, outputs) = (subject.forced_check)(state, &config, &inputs);
         state = after;
         for (age, passed) in ages
@@ -450,21 +449,28 @@ pub fn test_becomes_due<S: Source>(source: &mut S, subject: &Subject) -> Verdict
 ///
 /// Cover 0: an accepted configuration.
 pub fn checking_initial_states<S: Source>(source: &mut S, _subject: &Subject) -> Verdict {
-    let law = match source.any_in(0, 6) {
-        0 => arbitrary::test_stop(source)
-            .map(|(_, config, _)| test_stop::State::INITIAL.invariant(&config)),
-        1 => arbitrary::shutdown_test(source)
-            .map(|(_, config, _)| shutdown_test::State::INITIAL.invariant(&config)),
-        2 => arbitrary::pulses(source)
-            .map(|(_, config, _)| pulses::State::INITIAL.invariant(&config)),
+    let law = match source.any_in(1, 6) {
+        1 => path_test::Config::new(source.any_delay(Cycles::TEN_SECONDS))
+            .ok()
+            .map(|config| path_test::State::INITIAL.invariant(&config)),
+        2 => {
+            let t_chk = source.any_delay(Cycles::TEN_SECONDS);
+            pulses::Config::new(source.any_bool(), source.any_bool(), t_chk)
+                .ok()
+                .map(|config| pulses::State::INITIAL.invariant(&config))
+        }
         3 => arbitrary::compare(source)
             .map(|(_, config, _)| compare::State::INITIAL.invariant(&config)),
         4 => arbitrary::slip_config(source).map(|config| slip::State::INITIAL.invariant(&config)),
-        5 => arbitrary::history(source).map(|(state, config, _)| {
-            history::State::INITIAL.invariant(&config) && state.invariant(&config)
-        }),
-        _ => arbitrary::forced_check(source)
-            .map(|(_, config, _)| forced_check::State::INITIAL.invariant(&config)),
+        5 => {
+            let stored = (source.any_bool()).then(|| arbitrary::position_near(source, 2));
+            history::Config::new(arbitrary::tolerance(source))
+                .ok()
+                .map(|config| history::State::restored(stored).invariant(&config))
+        }
+        _ => forced_check::Config::new(source.any_delay(forced_check::EIGHT_HOURS))
+            .ok()
+            .map(|config| forced_check::State::INITIAL.invariant(&config)),
     };
     source.cover(0, law == Some(true));
     match law {

@@ -4,7 +4,7 @@ use stillpoint_monitors::kernel::Cycles;
 use stillpoint_monitors::sinumerik::fault::{Config, FaultState, Inputs, State};
 
 use super::Subject;
-use crate::arbitrary::sinumerik as arbitrary;
+use crate::draw;
 use crate::source::{Source, Verdict};
 
 /// STOP F with an active function requests STOP B after exactly t_F cycles, whatever RESET, de-selection and STOP C, D, E
@@ -31,7 +31,7 @@ pub fn delay_leads_to_stop_b<S: Source>(source: &mut S, subject: &Subject) -> Ve
         cycles += 1;
         let inputs = Inputs {
             power_on: false,
-            ..arbitrary::fault_inputs(source)
+            ..draw::any(source)
         };
         reset |= inputs.reset;
         (state, outputs) = (subject.fault)(state, &config, &inputs);

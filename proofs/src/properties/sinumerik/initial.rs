@@ -1,12 +1,20 @@
 //! The base of the induction: initial states satisfy the invariants.
 
+use stillpoint_monitors::contract::Contract;
+use stillpoint_monitors::kernel::Cycles;
 use stillpoint_monitors::sinumerik::{
     agreement, external, fault, gear, reference, selection, stop,
 };
 
 use super::Subject;
 use crate::arbitrary::sinumerik as arbitrary;
+use crate::draw::any;
 use crate::source::{Source, Verdict};
+
+/// Any configuration of narrow numbers.
+fn accepted<M: Contract>(source: &mut impl Source) -> Option<M::Config> {
+    Some(any(source)).filter(M::accepted)
+}
 
 /// The initial state of every monitor satisfies its invariant under every accepted configuration: the base of the
 /// induction.
@@ -15,18 +23,22 @@ pub fn initial_states<S: Source>(source: &mut S, _subject: &Subject) -> Verdict 
         0 => arbitrary::stop_config(source).map(|config| stop::State::INITIAL.invariant(&config)),
         1 => arbitrary::selection_config(source)
             .map(|(config, _)| selection::State::INITIAL.invariant(&config)),
-        2 => {
-            arbitrary::fault(source).map(|(_, config, _)| fault::State::INITIAL.invariant(&config))
+        2 => fault::Config::new(source.any_delay(Cycles::SIXTY_SECONDS))
+            .ok()
+            .map(|config| fault::State::INITIAL.invariant(&config)),
+        3 => accepted::<external::Monitor>(source)
+            .map(|config| external::State::INITIAL.invariant(&config)),
+        4 => accepted::<reference::Monitor>(source)
+            .map(|config| reference::State::INITIAL.invariant(&config)),
+        5 => {
+            let t_differ = source.any_delay(Cycles::SIXTY_SECONDS);
+            agreement::Config::new(t_differ, source.any_bool())
+                .ok()
+                .map(|config| agreement::State::restored(source.any_bool()).invariant(&config))
         }
-        3 => arbitrary::external(source)
-            .map(|(_, config, _)| external::State::INITIAL.invariant(&config)),
-        4 => arbitrary::reference(source)
-            .map(|(_, config, _)| reference::State::INITIAL.invariant(&config)),
-        5 => arbitrary::agreement(source).map(|(state, config, _)| {
-            agreement::State::INITIAL.invariant(&config)
-                && agreement::State::restored(state.agreed).invariant(&config)
-        }),
-        _ => arbitrary::gear(source).map(|(_, config, _)| gear::State::INITIAL.invariant(&config)),
+        _ => {
+            accepted::<gear::Monitor>(source).map(|config| gear::State::INITIAL.invariant(&config))
+        }
     };
     source.cover(0, law == Some(true));
     match law {

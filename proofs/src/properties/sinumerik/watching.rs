@@ -19,7 +19,12 @@ use crate::source::{Source, Verdict};
 pub fn watching_initial_states<S: Source>(source: &mut S, _subject: &Subject) -> Verdict {
     let law = match source.any_in(0, 2) {
         0 => arbitrary::cam_config(source).map(|config| cam::State::INITIAL.invariant(&config)),
-        1 => arbitrary::ramp(source).map(|(_, config, _)| ramp::State::INITIAL.invariant(&config)),
+        1 => {
+            let (velo_x, tol) = (source.any_u32(2, u32::MAX), source.any_u32(2, u32::MAX));
+            ramp::Config::new(Speed(velo_x), Speed(tol))
+                .ok()
+                .map(|config| ramp::State::INITIAL.invariant(&config))
+        }
         _ => Some(motion::State::INITIAL.invariant(&motion::Config)),
     };
     source.cover(0, law == Some(true));
