@@ -47,9 +47,15 @@ pub struct Odometer {
     next: usize,
     domain: Domain,
     covers: Vec<u64>,
+    part: u32,
 }
 
 impl Odometer {
+    /// The part of the domain that the run is in; 0 where there are none.
+    pub fn part(&self) -> u32 {
+        self.part
+    }
+
     /// A choice from 0 to `highest`.
     fn choose(&mut self, highest: u32) -> u32 {
         let position = self.next;
@@ -129,7 +135,8 @@ impl Source for Odometer {
     }
 
     fn any_part(&mut self, parts: u32) -> u32 {
-        1 + self.choose(parts.saturating_sub(1))
+        self.part = 1 + self.choose(parts.saturating_sub(1));
+        self.part
     }
 
     fn cover(&mut self, index: usize, met: bool) {
@@ -152,6 +159,7 @@ pub fn enumerate(
         next: 0,
         domain,
         covers: vec![0; covers],
+        part: 0,
     };
     let mut cases = 0;
     let mut discarded = 0;

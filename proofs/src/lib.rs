@@ -20,6 +20,7 @@ pub mod enumeration;
 #[macro_use]
 pub mod inventory;
 pub mod arbitrary;
+pub mod complete;
 pub mod draw;
 #[cfg(kani)]
 mod kani_source;

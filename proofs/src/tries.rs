@@ -61,7 +61,7 @@ fn number(word: &str) -> Result<i64, String> {
 }
 
 /// Whether `name`, some names joined by dots, stands in `path` as it is.
-fn names(path: &[&str], name: &str) -> bool {
+pub(crate) fn names(path: &[&str], name: &str) -> bool {
     let parts: Vec<&str> = name.split('.').collect();
     path.windows(parts.len()).any(|window| window == parts)
 }

@@ -2,6 +2,7 @@
 
 use stillpoint_monitors::contract::{Contract, Next};
 
+use crate::complete::{Found, Tied};
 use crate::draw::Case;
 use crate::enumeration::{Count, Domain, Odometer, enumerate};
 use crate::properties::{self, Subject};
@@ -36,6 +37,8 @@ pub struct Entry {
     pub clauses: fn() -> Vec<ClauseText>,
     /// Tries every choice.
     pub enumerate: fn(&Subject) -> Count,
+    /// What the enumeration of a contract leaves out whose draw is written by hand.
+    pub by_hand: Option<fn(&[Tied]) -> Found>,
     /// Makes one random run.
     pub sample: fn(&mut Tape<'_>, &Subject) -> Verdict,
 }
@@ -61,6 +64,7 @@ impl Entry {
             kani: "",
             clauses: properties::clauses::<M>,
             enumerate: |_| Count::default(),
+            by_hand: None,
             sample: |_, _| Verdict::Discarded,
         }
     }
@@ -139,6 +143,9 @@ macro_rules! entry {
                 let case = |source: &mut $crate::enumeration::Odometer| $crate::arbitrary::$family::$monitor(source);
                 $crate::inventory::enumerate_contract::<Monitor>($domain, case, subject.$family.$monitor)
             },
+            by_hand: Some(|tied| {
+                $crate::complete::check::<Monitor>($domain, $crate::arbitrary::$family::$monitor, tied)
+            }),
             sample: |tape, subject| {
                 let case = $crate::arbitrary::$family::$monitor(tape);
                 $crate::properties::contract::<Monitor>(tape, case, subject.$family.$monitor)
@@ -163,6 +170,7 @@ macro_rules! entry {
             file: Some(concat!("properties/", stringify!($family), "/", stringify!($module), ".rs")),
             kani: concat!($(stringify!($($how)*))?),
             clauses: Vec::new,
+            by_hand: None,
             enumerate: |subject| {
                 $crate::enumeration::enumerate($domain, [$($cover),+].len(), |source| {
                     $crate::properties::$family::$module::$function(source, &subject.$family)

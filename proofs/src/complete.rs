@@ -1,0 +1,234 @@
+//! Whether the enumeration of a draw that is written by hand leaves steps out.
+//!
+//! The values that it gives to each number are combined anew. Each combination that the constructor accepts and whose state is
+//! consistent must be among those that it enumerates; what it leaves out of them it leaves out on purpose or by mistake.
+
+use std::collections::{BTreeMap, HashSet};
+
+use stillpoint_monitors::contract::Contract;
+use stillpoint_monitors::fields::{Fields, Kind, Visitor};
+
+use crate::draw::Case;
+use crate::enumeration::{Domain, Odometer, enumerate};
+use crate::source::Verdict;
+use crate::tries::names;
+
+/// At most so many combinations of a part are all made; of more, so many random ones.
+const COMBINATIONS: u64 = 1_000_000;
+
+/// What was found.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Found {
+    /// Combinations that are steps, each once.
+    pub steps: usize,
+    /// Those of them that the draw leaves out.
+    pub missed: usize,
+    /// One of those: its part, its numbers with their names.
+    pub example: String,
+}
+
+/// Numbers that are combined as one: those of some names (as in [`crate::tries`]), in a part of the domain (0: in a domain
+/// without parts).
+pub type Tied<'a> = (u32, &'a str);
+
+/// Combines the values of a draw; those that are tied keep the combinations that it gives them.
+pub fn check<M: Contract>(
+    domain: Domain,
+    case: impl Fn(&mut Odometer) -> Option<Case<M>>,
+    tied: &[Tied],
+) -> Found {
+    let each = |found: &mut dyn FnMut(u32, &[i64])| {
+        let mut numbers = Vec::new();
+        enumerate(domain, 0, |source| {
+            if let Some(mut case) = case(source) {
+                numbers.clear();
+                visit::<M>(&mut case, &mut Reader(&mut numbers));
+                found(source.part(), &numbers);
+            }
+            Verdict::Held
+        });
+    };
+    let paths = paths::<M>();
+    let mut parts: BTreeMap<u32, Vec<Unit>> = BTreeMap::new();
+    each(&mut |part, numbers| {
+        let units = parts
+            .entry(part)
+            .or_insert_with(|| units(&paths, part, tied));
+        units.iter_mut().for_each(|unit| unit.meet(numbers));
+    });
+    let mut open = HashSet::new();
+    combine::<M>(&parts, &mut |part, numbers| {
+        open.insert(hash(part, numbers));
+    });
+    let steps = open.len();
+    each(&mut |part, numbers| {
+        open.remove(&hash(part, numbers));
+    });
+    let mut example = String::new();
+    combine::<M>(&parts, &mut |part, numbers| {
+        if example.is_empty() && open.contains(&hash(part, numbers)) {
+            let named = paths.iter().zip(numbers);
+            let named: Vec<String> = named
+                .map(|(path, number)| format!("{} {number}", path.join(".")))
+                .collect();
+            example = format!("part {part}: {}", named.join(", "));
+        }
+    });
+    Found {
+        steps,
+        missed: open.len(),
+        example,
+    }
+}
+
+/// Shows the numbers of a step to a visitor.
+fn visit<M: Contract>((state, config, inputs): &mut Case<M>, visitor: &mut impl Visitor) {
+    config.visit("config", visitor);
+    state.visit("state", visitor);
+    inputs.visit("inputs", visitor);
+}
+
+/// Reads the numbers.
+struct Reader<'a>(&'a mut Vec<i64>);
+
+impl Visitor for Reader<'_> {
+    fn number(&mut self, _: &'static str, _: Kind, value: i64) -> i64 {
+        self.0.push(value);
+        value
+    }
+}
+
+/// Sets the numbers.
+struct Writer<'a>(&'a [i64]);
+
+impl Visitor for Writer<'_> {
+    fn number(&mut self, _: &'static str, _: Kind, value: i64) -> i64 {
+        let Some((first, rest)) = self.0.split_first() else {
+            return value;
+        };
+        self.0 = rest;
+        *first
+    }
+}
+
+type Path = Vec<&'static str>;
+
+/// Notes where the numbers stand.
+#[derive(Default)]
+struct Places {
+    path: Path,
+    found: Vec<Path>,
+}
+
+impl Visitor for Places {
+    fn number(&mut self, name: &'static str, _: Kind, value: i64) -> i64 {
+        self.found.push([self.path.as_slice(), &[name]].concat());
+        value
+    }
+
+    fn open(&mut self, name: &'static str) {
+        self.path.push(name);
+    }
+
+    fn close(&mut self) {
+        self.path.pop();
+    }
+}
+
+fn paths<M: Contract>() -> Vec<Path> {
+    let mut places = Places::default();
+    let mut any = (M::State::ANY, M::Config::ANY, M::Inputs::ANY);
+    visit::<M>(&mut any, &mut places);
+    places.found
+}
+
+/// Numbers that are chosen together, with the values that were met.
+#[derive(Default)]
+struct Unit {
+    places: Vec<usize>,
+    last: Vec<i64>,
+    met: HashSet<Vec<i64>>,
+    values: Vec<Vec<i64>>,
+}
+
+impl Unit {
+    fn meet(&mut self, numbers: &[i64]) {
+        let own = || self.places.iter().filter_map(|place| numbers.get(*place));
+        if own().eq(&self.last) {
+            return;
+        }
+        self.last = own().copied().collect();
+        if self.met.insert(self.last.clone()) {
+            self.values.push(self.last.clone());
+        }
+    }
+}
+
+/// One for each row of names that are tied in the part, and for each other number.
+fn units(paths: &[Path], part: u32, tied: &[Tied]) -> Vec<Unit> {
+    let tied = tied.iter().filter(|(of, _)| *of == part);
+    let mut units: BTreeMap<Result<&str, usize>, Unit> = BTreeMap::new();
+    for (place, path) in paths.iter().enumerate() {
+        let name = tied
+            .clone()
+            .find(|(_, all)| all.split(' ').any(|name| names(path, name)));
+        let unit = units
+            .entry(name.map(|(_, name)| *name).ok_or(place))
+            .or_default();
+        unit.places.push(place);
+    }
+    units.into_values().collect()
+}
+
+/// Combines the values of each part. Only what is a step counts.
+fn combine<M: Contract>(parts: &BTreeMap<u32, Vec<Unit>>, step: &mut dyn FnMut(u32, &[i64])) {
+    for (part, units) in parts {
+        let counts: Vec<u64> = units.iter().map(|unit| unit.values.len() as u64).collect();
+        let all = (counts.iter()).try_fold(1, |all: u64, count| all.checked_mul(*count));
+        let all = all.filter(|all| *all <= COMBINATIONS);
+        let mut random = 0;
+        let mut numbers = vec![0; units.iter().map(|unit| unit.places.len()).sum()];
+        for number in 0..all.unwrap_or(COMBINATIONS) {
+            let mut rest = number;
+            for (unit, count) in units.iter().zip(&counts) {
+                let digit = if all.is_some() {
+                    let digit = rest % count;
+                    rest /= count;
+                    digit
+                } else {
+                    next(&mut random) % count
+                };
+                let values = unit.values.get(digit as usize).into_iter().flatten();
+                for (place, value) in unit.places.iter().zip(values) {
+                    if let Some(number) = numbers.get_mut(*place) {
+                        *number = *value;
+                    }
+                }
+            }
+            let mut case = (M::State::ANY, M::Config::ANY, M::Inputs::ANY);
+            visit::<M>(&mut case, &mut Writer(&numbers));
+            let (state, config, _) = &case;
+            if M::accepted(config) && M::invariant(state, config) {
+                // A number of a value that is missing has no effect: it is read as it is after all.
+                let mut read = Vec::with_capacity(numbers.len());
+                visit::<M>(&mut case, &mut Reader(&mut read));
+                step(*part, &read);
+            }
+        }
+    }
+}
+
+/// SplitMix64: the same numbers in every run.
+fn next(state: &mut u64) -> u64 {
+    *state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    let mixed = (*state ^ (*state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    mixed ^ (mixed >> 31)
+}
+
+/// Fx, since every case of an enumeration is hashed.
+fn hash(part: u32, numbers: &[i64]) -> u64 {
+    numbers.iter().fold(u64::from(part), |hash, number| {
+        (hash.rotate_left(5) ^ *number as u64).wrapping_mul(0x517c_c1b7_2722_0a95)
+    })
+}
