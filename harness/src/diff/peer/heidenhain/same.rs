@@ -91,7 +91,11 @@ peers! { heidenhain |p|
         .told("allowed", |_, outputs| if outputs.one_only { 1 } else { 3 });
 
     // Referencing, outputs, tests.
-    "reference" => reference.named(&[("ref", "axis")]).hidden(&["outputs.demand"]).kept("saved", "saved");
+    // What is saved is set anew before it is read again; the two sides do so in different cycles.
+    "reference" => reference
+        .named(&[("ref", "axis")])
+        .hidden(&["outputs.demand", "state.saved"])
+        .kept("saved", "saved");
     "agreement" => agreement;
     "brakes" => brakes
         .named(&[
