@@ -2,7 +2,7 @@
 
 use std::process::Output;
 
-use crate::common::{Folder, command, root, status, stderr, stdout, stillpoint};
+use crate::common::{Folder, command, messages, root, status, stderr, stdout, stillpoint};
 
 const MACHINE: &str = "spec/machines/milling-840d.toml";
 
@@ -474,6 +474,6 @@ fn a_machine_of_groups_refuses_what_is_not_of_an_axis() {
         let file = folder.write("m.toml", &format!("duration = \"1 s\"\n{scenario}"));
         let output = on_the_centre(&file);
         assert_eq!(status(&output), 2, "{scenario}");
-        assert!(stderr(&output).contains(message), "{}", stderr(&output));
+        assert!(messages(&output).contains(message), "{}", stderr(&output));
     }
 }

@@ -11,10 +11,15 @@ use stillpoint_certify::{Failure, write};
 use stillpoint_spec::bind::Bound;
 use stillpoint_spec::eval::Frame;
 
+/// The systems of a file.
+fn load(file: &str) -> Subject {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(file);
+    Subject::load(&path, Kind::Specification, &BTreeMap::new()).unwrap_or_else(|e| panic!("{e}"))
+}
+
 /// The systems of the example with every form of property.
 fn systems() -> Subject {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/certified/forms.toml");
-    Subject::load(&path, Kind::Specification, &BTreeMap::new()).unwrap_or_else(|e| panic!("{e}"))
+    load("../../tests/certified/forms.toml")
 }
 
 /// All values of cells with these ranges, the last one turning fastest.
@@ -127,9 +132,12 @@ fn cycles_are_complete() {
 #[test]
 fn pairs_of_cycles_are_complete() {
     let mut compared = 0;
-    for bound in systems().bounds {
+    let shared = load("tests/shared.toml");
+    for bound in systems().bounds.into_iter().chain(shared.bounds) {
         let inputs = every(&bound.inputs);
         let states = every(&bound.states);
+        // A part of the pairs of states is enough where there are many.
+        let every_nth = if states.len() < 10 { 1 } else { 67 };
         let radix = Radix::new(&bound).expect("small");
         let number = |state: &[i32]| radix.index(state).expect("a state");
         let observe: Vec<usize> = (0..bound.system.observed.len()).collect();
@@ -144,11 +152,10 @@ fn pairs_of_cycles_are_complete() {
                 condition,
             };
             let mut cycles = PairCycle::new(&bound, &radix, pairing);
-            // A part of the pairs of states is enough: every 67th.
             let pairs = states
                 .iter()
                 .flat_map(|a| states.iter().map(move |b| [a, b]));
-            for [a, b] in pairs.step_by(67) {
+            for [a, b] in pairs.step_by(every_nth) {
                 let mut naive = BTreeSet::new();
                 for one in &inputs {
                     for other in &inputs {

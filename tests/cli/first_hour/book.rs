@@ -32,17 +32,15 @@ fn limits_and_readme_agree_with_the_families() {
         list.join(" and ")
     );
     assert!(words.contains(&sentence), "limits.md lacks: {sentence}");
-    assert!(
-        words.contains("simulation for `sinumerik-840d` only"),
-        "{words}"
-    );
+    let sentence = format!("{}, simulation too", list.join(" and "));
+    assert!(words.contains(&sentence), "limits.md lacks: {sentence}");
     let readme = read("README.md");
     let row = readme
         .lines()
         .find(|l| l.starts_with("| `heidenhain-fs` |"))
         .expect("its row");
     assert!(
-        row.contains("reaction chains, acceptance protocols. Not yet: simulation"),
+        row.contains("reaction chains, acceptance protocols, simulation of the whole machine"),
         "{row}"
     );
 }

@@ -1,7 +1,7 @@
 //! What the messages say to somebody who writes their first file.
 
 use super::{away, elsewhere};
-use crate::common::{Folder, root, status, stderr, stdout};
+use crate::common::{Folder, messages, root, status, stderr, stdout};
 
 /// What `validate` or `check` says about a file, in one line.
 fn said(folder: &Folder, command: &str, text: &str) -> (i32, String) {
@@ -109,7 +109,7 @@ fn simulate_speaks_the_words_of_the_family() {
     ];
     let output = away(&folder, &arguments);
     assert_eq!(status(&output), 2);
-    let text = stderr(&output);
+    let text = messages(&output);
     assert!(
         text.contains("\"C\" is no stop") && text.contains("SS1F"),
         "{text}"

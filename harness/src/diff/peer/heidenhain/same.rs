@@ -105,7 +105,8 @@ peers! { heidenhain |p|
         ]);
     "tool_holder" => tool_holder;
     "acceptance" => acceptance.named(&[("accepted", "phase")]);
-    "self_test" => self_test.named(&[("step", "phase")]).hidden(&["brake_demand"]);
+    // A passed test is no repeated one any more, in the table it stays one until the next; nothing reads it in between.
+    "self_test" => self_test.named(&[("step", "phase")]).hidden(&["brake_demand", "state.repeated"]);
     "cut_out" => cut_out;
     "holding_brake" => holding_brake.named(&[("hold", "step")]);
     "status_bits" => status_bits;
