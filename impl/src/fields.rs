@@ -60,6 +60,83 @@ pub trait Fields: Copy + Send + Sync + 'static {
     fn visit<V: Visitor + ?Sized>(&mut self, name: &'static str, visitor: &mut V);
 }
 
+/// Hands on each number.
+struct Get<F>(F);
+
+impl<F: FnMut(i64)> Visitor for Get<F> {
+    fn number(&mut self, _: &'static str, _: Kind, value: i64) -> i64 {
+        (self.0)(value);
+        value
+    }
+}
+
+/// Hands on the numbers of a value.
+pub fn get<T: Fields>(mut value: T, each: impl FnMut(i64)) {
+    value.visit("", &mut Get(each));
+}
+
+/// Sets each number to the next one.
+struct Set<I>(I);
+
+impl<I: Iterator<Item = i64>> Visitor for Set<I> {
+    fn number(&mut self, _: &'static str, _: Kind, value: i64) -> i64 {
+        self.0.next().unwrap_or(value)
+    }
+}
+
+/// The value with these numbers. One that the type does not have becomes the nearest; what is missing is that of
+/// [`Fields::ANY`].
+pub fn set<T: Fields>(numbers: impl Iterator<Item = i64>) -> T {
+    let mut value = T::ANY;
+    value.visit("", &mut Set(numbers));
+    value
+}
+
+/// No number is in more fields than this, itself counted.
+const DEPTH: usize = 8;
+
+/// Hands on the names of the numbers.
+struct Walk<F> {
+    path: [&'static str; DEPTH],
+    depth: usize,
+    each: F,
+}
+
+impl<F: FnMut(&[&'static str], Kind)> Visitor for Walk<F> {
+    fn number(&mut self, name: &'static str, kind: Kind, value: i64) -> i64 {
+        self.open(name);
+        (self.each)(self.path.get(..self.depth).unwrap_or(&self.path), kind);
+        self.close();
+        value
+    }
+
+    fn open(&mut self, name: &'static str) {
+        debug_assert!(
+            self.depth < DEPTH,
+            "a number is in more fields than have room"
+        );
+        if let Some(place) = self.path.get_mut(self.depth) {
+            *place = name;
+        }
+        self.depth += 1;
+    }
+
+    fn close(&mut self) {
+        self.depth = self.depth.saturating_sub(1);
+    }
+}
+
+/// Hands on the name of each number of a type with the names of the fields it is in, `part` first, and its kind.
+pub fn walk<T: Fields>(part: &'static str, each: impl FnMut(&[&'static str], Kind)) {
+    let mut walk = Walk {
+        path: [""; DEPTH],
+        depth: 0,
+        each,
+    };
+    let mut value = T::ANY;
+    value.visit(part, &mut walk);
+}
+
 /// Shows a number and gives back one of the kind.
 fn whole<V: Visitor + ?Sized>(
     visitor: &mut V,

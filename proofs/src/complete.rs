@@ -6,7 +6,7 @@
 use std::collections::{BTreeMap, HashSet};
 
 use stillpoint_monitors::contract::Contract;
-use stillpoint_monitors::fields::{Fields, Kind, Visitor};
+use stillpoint_monitors::fields::{get, set, walk};
 
 use crate::draw::Case;
 use crate::enumeration::{Domain, Odometer, enumerate};
@@ -40,9 +40,8 @@ pub fn check<M: Contract>(
     let each = |found: &mut dyn FnMut(u32, &[i64])| {
         let mut numbers = Vec::new();
         enumerate(domain, 0, |source| {
-            if let Some(mut case) = case(source) {
-                numbers.clear();
-                visit::<M>(&mut case, &mut Reader(&mut numbers));
+            if let Some(case) = case(source) {
+                read::<M>(&case, &mut numbers);
                 found(source.part(), &numbers);
             }
             Verdict::Held
@@ -81,65 +80,32 @@ pub fn check<M: Contract>(
     }
 }
 
-/// Shows the numbers of a step to a visitor.
-fn visit<M: Contract>((state, config, inputs): &mut Case<M>, visitor: &mut impl Visitor) {
-    config.visit("config", visitor);
-    state.visit("state", visitor);
-    inputs.visit("inputs", visitor);
+/// Reads the numbers of a step.
+fn read<M: Contract>(&(state, config, inputs): &Case<M>, numbers: &mut Vec<i64>) {
+    numbers.clear();
+    get(config, |number| numbers.push(number));
+    get(state, |number| numbers.push(number));
+    get(inputs, |number| numbers.push(number));
 }
 
-/// Reads the numbers.
-struct Reader<'a>(&'a mut Vec<i64>);
-
-impl Visitor for Reader<'_> {
-    fn number(&mut self, _: &'static str, _: Kind, value: i64) -> i64 {
-        self.0.push(value);
-        value
-    }
-}
-
-/// Sets the numbers.
-struct Writer<'a>(&'a [i64]);
-
-impl Visitor for Writer<'_> {
-    fn number(&mut self, _: &'static str, _: Kind, value: i64) -> i64 {
-        let Some((first, rest)) = self.0.split_first() else {
-            return value;
-        };
-        self.0 = rest;
-        *first
-    }
+/// The step with these numbers.
+fn write<M: Contract>(numbers: &[i64]) -> Case<M> {
+    let mut numbers = numbers.iter().copied();
+    let config = set(&mut numbers);
+    let state = set(&mut numbers);
+    (state, config, set(numbers))
 }
 
 type Path = Vec<&'static str>;
 
-/// Notes where the numbers stand.
-#[derive(Default)]
-struct Places {
-    path: Path,
-    found: Vec<Path>,
-}
-
-impl Visitor for Places {
-    fn number(&mut self, name: &'static str, _: Kind, value: i64) -> i64 {
-        self.found.push([self.path.as_slice(), &[name]].concat());
-        value
-    }
-
-    fn open(&mut self, name: &'static str) {
-        self.path.push(name);
-    }
-
-    fn close(&mut self) {
-        self.path.pop();
-    }
-}
-
+/// Where the numbers of a step stand.
 fn paths<M: Contract>() -> Vec<Path> {
-    let mut places = Places::default();
-    let mut any = (M::State::ANY, M::Config::ANY, M::Inputs::ANY);
-    visit::<M>(&mut any, &mut places);
-    places.found
+    let mut paths = Vec::new();
+    let mut each = |path: &[&'static str], _| paths.push(path.to_vec());
+    walk::<M::Config>("config", &mut each);
+    walk::<M::State>("state", &mut each);
+    walk::<M::Inputs>("inputs", &mut each);
+    paths
 }
 
 /// Numbers that are chosen together, with the values that were met.
@@ -187,6 +153,7 @@ fn combine<M: Contract>(parts: &BTreeMap<u32, Vec<Unit>>, step: &mut dyn FnMut(u
         let all = (counts.iter()).try_fold(1, |all: u64, count| all.checked_mul(*count));
         let all = all.filter(|all| *all <= COMBINATIONS);
         let mut random = 0;
+        let mut effective = Vec::new();
         let mut numbers = vec![0; units.iter().map(|unit| unit.places.len()).sum()];
         for number in 0..all.unwrap_or(COMBINATIONS) {
             let mut rest = number;
@@ -205,14 +172,12 @@ fn combine<M: Contract>(parts: &BTreeMap<u32, Vec<Unit>>, step: &mut dyn FnMut(u
                     }
                 }
             }
-            let mut case = (M::State::ANY, M::Config::ANY, M::Inputs::ANY);
-            visit::<M>(&mut case, &mut Writer(&numbers));
+            let case = write::<M>(&numbers);
             let (state, config, _) = &case;
             if M::accepted(config) && M::invariant(state, config) {
                 // A number of a value that is missing has no effect: it is read as it is after all.
-                let mut read = Vec::with_capacity(numbers.len());
-                visit::<M>(&mut case, &mut Reader(&mut read));
-                step(*part, &read);
+                read::<M>(&case, &mut effective);
+                step(*part, &effective);
             }
         }
     }

@@ -6,7 +6,7 @@
 //! same name, the part says which is meant (`state.timer`). The first list with the name counts.
 
 use stillpoint_monitors::contract::Contract;
-use stillpoint_monitors::fields::{Fields, Kind, Visitor};
+use stillpoint_monitors::fields::{Fields, Kind, Visitor, walk};
 
 use crate::draw::Case;
 use crate::source::Source;
@@ -66,49 +66,6 @@ pub(crate) fn names(path: &[&str], name: &str) -> bool {
     path.windows(parts.len()).any(|window| window == parts)
 }
 
-/// Finds the values of each number that it is shown.
-struct Finder<'a, 'b> {
-    path: Vec<&'static str>,
-    lists: &'a mut [List<'b>],
-    found: Values,
-    errors: &'a mut Vec<String>,
-}
-
-impl Visitor for Finder<'_, '_> {
-    fn number(&mut self, name: &'static str, kind: Kind, value: i64) -> i64 {
-        self.path.push(name);
-        let (low, high) = kind.ends();
-        let path = &self.path;
-        let own = (self.lists.iter_mut()).find(|list| list.names.iter().any(|n| names(path, n)));
-        let values = match own {
-            Some(list) => {
-                list.used = true;
-                list.values((low, high))
-            }
-            None => match kind {
-                Kind::Choice(variants) => Ok(variants.iter().map(|(_, number)| *number).collect()),
-                _ if high.saturating_sub(low) < NARROW => Ok((low..=high).collect()),
-                _ => Err("no list says what is tried".to_owned()),
-            },
-        };
-        match values {
-            Ok(values) if !values.is_empty() => self.found.push(values),
-            Ok(_) => self.errors.push(format!("{}: no value", path.join("."))),
-            Err(what) => self.errors.push(format!("{}: {what}", path.join("."))),
-        }
-        self.path.pop();
-        value
-    }
-
-    fn open(&mut self, name: &'static str) {
-        self.path.push(name);
-    }
-
-    fn close(&mut self) {
-        self.path.pop();
-    }
-}
-
 impl Tries {
     /// The values for the numbers of `M`.
     ///
@@ -123,9 +80,9 @@ impl Tries {
         let mut lists: Vec<List> = lists_of(text).into_iter().map(list).collect();
         let mut errors = Vec::new();
         let tries = Self {
-            config: values_of("config", M::Config::ANY, &mut lists, &mut errors),
-            state: values_of("state", M::INITIAL, &mut lists, &mut errors),
-            inputs: values_of("inputs", M::Inputs::ANY, &mut lists, &mut errors),
+            config: values_of::<M::Config>("config", &mut lists, &mut errors),
+            state: values_of::<M::State>("state", &mut lists, &mut errors),
+            inputs: values_of::<M::Inputs>("inputs", &mut lists, &mut errors),
         };
         let unused = lists.iter().filter(|list| !list.used);
         errors.extend(unused.map(|list| format!("no number is called {}", list.names.join(", "))));
@@ -150,18 +107,31 @@ impl Tries {
 /// The values of the numbers of one part of a step.
 fn values_of<T: Fields>(
     part: &'static str,
-    mut value: T,
     lists: &mut [List],
     errors: &mut Vec<String>,
 ) -> Values {
-    let mut finder = Finder {
-        path: Vec::new(),
-        lists,
-        found: Vec::new(),
-        errors,
-    };
-    value.visit(part, &mut finder);
-    finder.found
+    let mut found = Vec::new();
+    walk::<T>(part, |path, kind| {
+        let (low, high) = kind.ends();
+        let own = (lists.iter_mut()).find(|list| list.names.iter().any(|n| names(path, n)));
+        let values = match own {
+            Some(list) => {
+                list.used = true;
+                list.values((low, high))
+            }
+            None => match kind {
+                Kind::Choice(variants) => Ok(variants.iter().map(|(_, number)| *number).collect()),
+                _ if high.saturating_sub(low) < NARROW => Ok((low..=high).collect()),
+                _ => Err("no list says what is tried".to_owned()),
+            },
+        };
+        match values {
+            Ok(values) if !values.is_empty() => found.push(values),
+            Ok(_) => errors.push(format!("{}: no value", path.join("."))),
+            Err(what) => errors.push(format!("{}: {what}", path.join("."))),
+        }
+    });
+    found
 }
 
 /// The lists of a text: names and words.

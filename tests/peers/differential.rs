@@ -88,7 +88,7 @@ fn explore(piece: &Pairing, mutant: Option<Mutant>) -> Compared {
 
 /// The machine that a mutant is one of; none where no table states what its monitor does, so that only its contract finds it.
 fn machine(mutant: Mutant) -> Option<Name> {
-    let family = peer::family_of(mutant);
+    let family = peer::family_of(mutant).expect("a family with monitors");
     let mut names = family.machines().chain(family.systems.iter().copied());
     let found = names.find(|(_, module)| *module == mutant.monitor);
     // Both channels are compared in parts of their own: see the test `pair`.

@@ -1,75 +1,26 @@
 //! The types of the monitors as cells and ports: every number of theirs in its order.
 
-use stillpoint_monitors::fields::{Fields, Kind, Visitor};
+use stillpoint_monitors::fields::{Fields, Kind, get, set, walk};
 
 /// A number of a type: its name, that with the names of the fields it is in, and its values.
+#[derive(Clone)]
 pub(super) struct Number {
     pub(super) short: &'static str,
     pub(super) name: String,
     pub(super) kind: Kind,
 }
 
-/// Collects the numbers of a type.
-#[derive(Default)]
-struct Collect {
-    path: Vec<&'static str>,
-    all: Vec<Number>,
-}
-
-impl Visitor for Collect {
-    fn number(&mut self, short: &'static str, kind: Kind, value: i64) -> i64 {
-        self.path.push(short);
-        let name = self.path.join(".");
-        self.all.push(Number { short, name, kind });
-        self.path.pop();
-        value
-    }
-
-    fn open(&mut self, name: &'static str) {
-        self.path.push(name);
-    }
-
-    fn close(&mut self) {
-        self.path.pop();
-    }
-}
-
 /// The numbers of a part of a step, which is the first part of their names.
 pub(super) fn numbers<T: Fields>(part: &'static str) -> Vec<Number> {
-    let mut numbers = Collect::default();
-    T::ANY.clone().visit(part, &mut numbers);
-    numbers.all
-}
-
-/// Sets each number to the next one of a list.
-struct Set<I>(I);
-
-impl<I: Iterator<Item = i64>> Visitor for Set<I> {
-    fn number(&mut self, _: &'static str, _: Kind, value: i64) -> i64 {
-        self.0.next().unwrap_or(value)
-    }
-}
-
-/// The value with these numbers.
-pub(super) fn set<T: Fields>(numbers: impl Iterator<Item = i64>) -> T {
-    let mut value = T::ANY;
-    value.visit("", &mut Set(numbers));
-    value
-}
-
-/// Hands each number on.
-struct Get<F>(F);
-
-impl<F: FnMut(i64)> Visitor for Get<F> {
-    fn number(&mut self, _: &'static str, _: Kind, value: i64) -> i64 {
-        (self.0)(value);
-        value
-    }
-}
-
-/// Hands on each number of a value.
-pub(super) fn get<T: Fields>(mut value: T, each: impl FnMut(i64)) {
-    value.visit("", &mut Get(each));
+    let mut numbers = Vec::new();
+    walk::<T>(part, |path, kind| {
+        numbers.push(Number {
+            short: path.last().copied().unwrap_or_default(),
+            name: path.join("."),
+            kind,
+        });
+    });
+    numbers
 }
 
 /// The value in cells.

@@ -78,9 +78,8 @@ pub fn mutants() -> impl Iterator<Item = Mutant> {
 }
 
 /// The family of a wrong monitor.
-pub fn family_of(mutant: Mutant) -> &'static Family {
-    let own = FAMILIES.into_iter().find(|f| f.module == mutant.family);
-    own.unwrap_or(&sinumerik::FAMILY)
+pub fn family_of(mutant: Mutant) -> Option<&'static Family> {
+    FAMILIES.into_iter().find(|f| f.module == mutant.family)
 }
 
 /// A name that is no mutant's.
@@ -126,6 +125,8 @@ enum Refusal {
     Monitor(ConfigError),
     /// The monitor does not accept this configuration.
     Values(String),
+    /// A name stands for a number that the monitor does not have.
+    Name(&'static str),
     /// The table does not have what the monitor needs.
     Unknown(String),
     /// The table is too small for what the monitor does.
@@ -208,6 +209,7 @@ pub fn peer(
             format!("the monitor of `{machine}` refuses these parameters: {e:?}")
         }
         Refusal::Values(config) => format!("the monitor of `{machine}` refuses {config}"),
+        Refusal::Name(name) => format!("the monitor of `{machine}` has no number `{name}`"),
         Refusal::Unknown(what) => format!("machine `{machine}`: the table does not say {what}"),
         Refusal::Table(text) => format!("machine `{machine}`: {text}"),
     })?;

@@ -3,12 +3,12 @@
 
 use stillpoint_model::Domain;
 use stillpoint_monitors::contract::{Contract, Next};
-use stillpoint_monitors::fields::Kind;
+use stillpoint_monitors::fields::{Kind, get, set};
 use stillpoint_monitors::mutant::Mutant;
 use stillpoint_spec::ir::LazyKind;
 
 use super::adapter::Adapter;
-use super::cells::{Number, cell, get, load, numbers, set, stored};
+use super::cells::{Number, cell, load, numbers, stored};
 use super::{Params, Refusable, Refusal, chosen};
 use crate::diff::product::{Values, is};
 
@@ -150,7 +150,7 @@ impl<'a, M: Contract> Same<'a, M> {
 
     /// What the table calls a number of the monitor.
     fn table_name(&self, number: &Number) -> &'static str {
-        let named = (self.named.iter()).find(|(_, name)| ends(&number.name, name));
+        let named = (self.named.iter()).find(|(_, name)| has(&number.name, name));
         named.map_or(number.short, |(table, _)| table)
     }
 
@@ -175,12 +175,40 @@ impl<'a, M: Contract> Same<'a, M> {
                 None => i64::from(self.params.known(self.table_name(number))?),
             });
         }
-        let config = set(values.into_iter());
-        if M::accepted(&config) {
+        let config = set(values.iter().copied());
+        // A number that the type does not have has become another one.
+        let mut same = true;
+        let mut given = values.iter();
+        get(config, |number| same &= given.next() == Some(&number));
+        if same && M::accepted(&config) {
             Ok(config)
         } else {
-            Err(Refusal::Values(format!("{config:?}")))
+            Err(Refusal::Values(format!("{values:?}")))
         }
+    }
+
+    /// A name given for a number that the monitor does not have.
+    fn unknown(&self) -> Option<&'static str> {
+        let parts = [
+            numbers::<M::Config>("config"),
+            numbers::<M::Inputs>("inputs"),
+            numbers::<M::Outputs>("outputs"),
+            numbers::<M::State>("state"),
+        ];
+        let all = parts.concat();
+        let named = self.named.iter().map(|(_, name)| *name);
+        let constants = self.constants.iter().map(|(name, _)| *name);
+        let made = self.made.iter().map(|(name, ..)| *name);
+        let cells = self.cells.iter().map(|(name, _)| *name);
+        let kept = self.kept.iter().map(|(name, ..)| *name);
+        let hidden = self.hidden.iter().copied();
+        let mut given = named
+            .chain(constants)
+            .chain(made)
+            .chain(cells)
+            .chain(kept)
+            .chain(hidden);
+        given.find(|name| !all.iter().any(|number| has(&number.name, name)))
     }
 
     /// Whether the table has a state variable or an output of this name.
@@ -192,7 +220,7 @@ impl<'a, M: Contract> Same<'a, M> {
 
     /// The values of a state.
     fn domain(&self, number: &Number) -> Result<Domain, Refusal> {
-        if let Some((_, domain)) = self.cells.iter().find(|(n, _)| ends(&number.name, n)) {
+        if let Some((_, domain)) = self.cells.iter().find(|(n, _)| has(&number.name, n)) {
             return Ok(*domain);
         }
         let (low, high) = number.kind.ends();
@@ -216,11 +244,14 @@ impl<'a, M: Contract> Same<'a, M> {
         if let Some(text) = self.lacks {
             return Err(Refusal::Table(text));
         }
+        if let Some(name) = self.unknown() {
+            return Err(Refusal::Name(name));
+        }
         let config = self.configuration()?;
         let mut ports = Vec::new();
         let mut feeds = Vec::new();
         for number in &numbers::<M::Inputs>("inputs") {
-            let made = self.made.iter().find(|(n, ..)| ends(&number.name, n));
+            let made = self.made.iter().find(|(n, ..)| has(&number.name, n));
             feeds.push(match (self.constant(&number.name), made) {
                 (Some(value), _) => Feed::Constant(value),
                 (None, Some((_, parts, make))) => {
@@ -256,7 +287,7 @@ impl<'a, M: Contract> Same<'a, M> {
             if compared {
                 outputs.push(name);
             }
-            let own = self.kept.iter().find(|(n, ..)| ends(&number.name, n));
+            let own = self.kept.iter().find(|(n, ..)| has(&number.name, n));
             kept.extend(own.map(|(_, variable, condition)| (cell, *variable, *condition)));
         }
         let told: Vec<Told<M>> = self.told.iter().map(|(_, told)| *told).collect();
@@ -316,13 +347,8 @@ macro_rules! peers {
 
 pub(super) use peers;
 
-/// Whether a number is this one, or one of those below it.
+/// Whether a number, with the names of the fields it is in, is the one of this name or one of those below it.
 fn has(path: &str, name: &str) -> bool {
     let (path, name) = (format!(".{path}."), format!(".{name}."));
     path.contains(&name)
-}
-
-/// Whether a name with the names of the fields it is in ends in this one.
-fn ends(path: &str, name: &str) -> bool {
-    path == name || (path.strip_suffix(name)).is_some_and(|rest| rest.ends_with('.'))
 }

@@ -334,7 +334,7 @@ macro_rules! both {
         shown! { $names $show {
             "stop" "level" => |o: &axis::Outputs| rank(o.channel.stop.level);
             "stop" "internal" => |o: &axis::Outputs| rank(o.channel.stop.internal.level());
-            "stop" "phase" => |o: &axis::Outputs| ordinal(&STOPS_PHASES, o.channel.stop.phase);
+            "stop" "phase" => |o: &axis::Outputs| o.channel.stop.phase as i32;
             "stop" "cancel_pulses" => |o: &axis::Outputs| o.channel.stop.cancel_pulses;
             "stop" "n_set_zero" => |o: &axis::Outputs| o.channel.stop.n_set_zero;
             "stop" "path_brake" => |o: &axis::Outputs| o.channel.stop.path_brake;
@@ -344,10 +344,10 @@ macro_rules! both {
             "stop" "sga_stop_e" => |o: &axis::Outputs| o.sga.stop_e;
             "stop" "stopsi" => |o: &axis::Outputs| o.channel.stop.stopsi;
             "stop" "start_inhibit" => |o: &axis::Outputs| o.channel.stop.start_inhibit;
-            "fault" "fault" => |o: &axis::Outputs| ordinal(&FAULTS, o.channel.fault.fault);
+            "fault" "fault" => |o: &axis::Outputs| o.channel.fault.fault as i32;
             "fault" "bit1" => |o: &axis::Outputs| o.channel.fault.bit1;
             "fault" "interlock" => |o: &axis::Outputs| o.channel.fault.interlock;
-            "selection" "mode" => |o: &axis::Outputs| ordinal(&MODES, o.channel.selection.mode);
+            "selection" "mode" => |o: &axis::Outputs| o.channel.selection.mode as i32;
             "shown" "sga_active" => |o: &axis::Outputs| o.sga.sbh_sg_active;
             "shown" "sga_sbh_active" => |o: &axis::Outputs| o.sga.sbh_active;
             "shown" "sga_sg" => |o: &axis::Outputs| i64::from(o.sga.sg_active_1) * 2 + i64::from(o.sga.sg_active_0);
@@ -390,15 +390,13 @@ both! { REFERENCE_SHOWN show_reference {
     "agreement" "agreed" => |o: &axis::Outputs| o.agreement.agreed;
     "agreement" "code" => |o: &axis::Outputs| o.agreement.code.number();
     "agreement" "se_active" => |o: &axis::Outputs| o.agreement.se_active;
-    "reference" "axis" => |o: &axis::Outputs| ordinal(&AXES, o.reference.axis);
+    "reference" "axis" => |o: &axis::Outputs| o.reference.axis as i32;
     "reference" "nst_reference_reached" => |o: &axis::Outputs| o.reference.nst_reference_reached;
     "reference" "safely_referenced" => |o: &axis::Outputs| o.sga.safely_referenced;
     "reference" "message" => |o: &axis::Outputs| o.alarms.contains(Alarm::NotSafelyReferenced);
     "messages" "beyond_limit" => |o: &axis::Outputs| o.alarms.contains(Alarm::EndStop);
     "messages" "apart" => |o: &axis::Outputs| o.alarms.contains(Alarm::StaticDifference);
 } {} }
-
-use super::numbers::STOPS as STOPS_PHASES;
 
 /// The stop whose alarm is raised in the cycle.
 fn raised(out: &axis::Outputs) -> i64 {
