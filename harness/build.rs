@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 
 fn main() {
     let here = std::env::var("CARGO_MANIFEST_DIR").expect("cargo sets it");
-    let spec = Path::new(&here).join("../spec");
+    let families = Path::new(&here).join("../spec/families");
     println!("cargo:rerun-if-changed=build.rs");
-    println!("cargo:rerun-if-changed={}", spec.display());
+    println!("cargo:rerun-if-changed={}", families.display());
     let mut files: Vec<PathBuf> = Vec::new();
-    for family in entries(&spec)
+    for family in entries(&families)
         .into_iter()
         .filter(|f| f.join("family.toml").is_file())
     {

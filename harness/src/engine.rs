@@ -3,14 +3,14 @@
 use std::collections::BTreeMap;
 use std::time::Instant;
 
+use stillpoint_lang::bind::Bound;
+use stillpoint_lang::eval::{Frame, UNSET};
+use stillpoint_lang::ir;
 use stillpoint_model::table::{Generated, Interpreted, properties};
 use stillpoint_model::{
     Cluster, Error, Form, Judgement, Limits, Options, Progress, Property, Replay, Report, System,
     Trace, Twin, Verdict, explore, explore_together,
 };
-use stillpoint_spec::bind::Bound;
-use stillpoint_spec::eval::{Frame, UNSET};
-use stillpoint_spec::ir;
 
 use crate::keep::beside;
 use crate::recorded;

@@ -9,9 +9,9 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
+use stillpoint_lang::bind::Bound;
 use stillpoint_model::table::{Generated, Interpreted, properties};
 use stillpoint_model::{Error, Form, Options, Property, Verdict, explore};
-use stillpoint_spec::bind::Bound;
 
 use crate::engine::Outcome;
 use crate::subject::Task;

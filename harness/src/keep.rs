@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use stillpoint_lang::bind::Bound;
 use stillpoint_model::Checkpoint;
-use stillpoint_spec::bind::Bound;
 
 const ENDING: &str = "checkpoint";
 

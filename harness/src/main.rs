@@ -5,10 +5,10 @@ mod cli;
 use std::process::ExitCode;
 
 /// The data of the families, so that a machine file can lie anywhere.
-const FAMILIES: &[stillpoint_spec::files::Carried] =
+const FAMILIES: &[stillpoint_lang::files::Carried] =
     include!(concat!(env!("OUT_DIR"), "/family_data.rs"));
 
 fn main() -> ExitCode {
-    stillpoint_spec::files::provide(FAMILIES);
+    stillpoint_lang::files::provide(FAMILIES);
     cli::main()
 }

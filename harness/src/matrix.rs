@@ -31,7 +31,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 pub use read::{ReadError, find_root, read};
 pub use show::{html, text, to_json};
-use stillpoint_spec::catalogue::{Catalogue, Kind, Requirement, Scope, requirement_id};
+use stillpoint_lang::catalogue::{Catalogue, Kind, Requirement, Scope, requirement_id};
 
 /// What a piece of evidence is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

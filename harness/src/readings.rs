@@ -4,10 +4,10 @@ use std::fmt::Write;
 use std::time::Instant;
 
 use serde_json::{Value, json};
+use stillpoint_lang::bind::Bound;
+use stillpoint_lang::diag::Diagnostics;
+use stillpoint_lang::ir::{Node, Space};
 use stillpoint_model::{Error, Judgement, Options, Progress};
-use stillpoint_spec::bind::Bound;
-use stillpoint_spec::diag::Diagnostics;
-use stillpoint_spec::ir::{Node, Space};
 
 use crate::check::{Checked, Settings};
 use crate::engine::label;

@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
+use stillpoint_lang::bind::Bound;
+use stillpoint_lang::ir::Node;
 use stillpoint_model::{Judgement, Verdict};
-use stillpoint_spec::bind::Bound;
-use stillpoint_spec::ir::Node;
 
 /// Compares what the properties record with their judgements, which stand in the same order. Where they differ the
 /// verdict becomes `Violated`; the answer says why, by property number.

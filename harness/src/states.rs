@@ -5,11 +5,11 @@ use std::ops::Range;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use stillpoint_lang::bind::Bound;
+use stillpoint_lang::ir::{Ty, Var};
 use stillpoint_model::table::{Generated, Interpreted};
 use stillpoint_model::{Choices, Domain, Error, Fault, Options, System, reachable};
 use stillpoint_show::graph::{Edge, Graph, Node};
-use stillpoint_spec::bind::Bound;
-use stillpoint_spec::ir::{Ty, Var};
 
 /// How many cycles are gone through at most, by the evaluator of the system.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use stillpoint_spec::analysis::Analysis;
-use stillpoint_spec::bind::{BindError, Bound};
-use stillpoint_spec::diag::{Diagnostic, Diagnostics, Result};
-use stillpoint_spec::machine::{self, Machine, Run, families};
-use stillpoint_spec::{Spec, read_text};
+use stillpoint_lang::analysis::Analysis;
+use stillpoint_lang::bind::{BindError, Bound};
+use stillpoint_lang::diag::{Diagnostic, Diagnostics, Result};
+use stillpoint_lang::{Spec, read_text};
+use stillpoint_machine::{self as machine, Machine, Run, families};
 
 /// Chosen options of readings, by id; what is missing has the recommended one.
 pub type Readings = BTreeMap<String, String>;
@@ -168,7 +168,7 @@ pub fn of_runs(
 fn bind(
     path: &Path,
     source: &Arc<str>,
-    system: stillpoint_spec::ir::System,
+    system: stillpoint_lang::ir::System,
     params: &BTreeMap<String, Vec<i64>>,
     readings: &Readings,
 ) -> Result<Bound> {

@@ -1,9 +1,9 @@
 //! The timing diagrams of replayed runs.
 
+use stillpoint_lang::bind::Bound;
+use stillpoint_lang::eval::UNSET;
+use stillpoint_lang::ir::{LazyKind, Ty};
 use stillpoint_show::diagram::{Diagram, Lane};
-use stillpoint_spec::bind::Bound;
-use stillpoint_spec::eval::UNSET;
-use stillpoint_spec::ir::{LazyKind, Ty};
 
 use crate::engine::{Cycle, lazy};
 

@@ -1,8 +1,8 @@
 //! The tables of a report: single faults and reaction times, from the properties that name a topic.
 
 use serde_json::{Value, json};
+use stillpoint_lang::ir::{Form, Topic};
 use stillpoint_model::Verdict;
-use stillpoint_spec::ir::{Form, Topic};
 
 use crate::check::Checked;
 use crate::report::{verdict_name, wrapped};

@@ -1,8 +1,8 @@
 //! Specification tables as systems to explore: interpreted, or through their generated step functions.
 
-use stillpoint_spec::bind::Bound;
-use stillpoint_spec::eval;
-use stillpoint_spec::ir;
+use stillpoint_lang::bind::Bound;
+use stillpoint_lang::eval;
+use stillpoint_lang::ir;
 use stillpoint_tables::Table;
 
 use crate::parts::Component;
@@ -181,20 +181,20 @@ impl System for Interpreted<'_> {
 /// Of the variables that merely count down the one with the most values.
 fn timer(bound: &Bound) -> Option<usize> {
     let size = |k: &usize| i64::from(bound.states[*k].1) - i64::from(bound.states[*k].0);
-    let all = stillpoint_spec::timers::countdowns(&bound.system);
+    let all = stillpoint_lang::timers::countdowns(&bound.system);
     all.into_iter().max_by_key(size)
 }
 
 /// The parts that share nothing but inputs, each run by the interpreter as if there were no others.
 fn components(bound: &Bound) -> Vec<Component<'_>> {
-    let component = |part: stillpoint_spec::parts::Part| {
+    let component = |part: stillpoint_lang::parts::Part| {
         let system = Interpreted {
             instances: part.instances,
             ..Interpreted::new(bound)
         };
         Component::new(part.states, part.atoms, system)
     };
-    let found = stillpoint_spec::parts::parts(&bound.system);
+    let found = stillpoint_lang::parts::parts(&bound.system);
     found.into_iter().map(component).collect()
 }
 

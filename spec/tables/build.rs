@@ -2,10 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use stillpoint_spec::{Spec, codegen};
+use stillpoint_lang::{Spec, codegen};
 
 /// Folders with specification files, relative to `spec/`.
-const FOLDERS: [&str; 3] = ["sinumerik-840d", "heidenhain-fs", "bench"];
+const FOLDERS: [&str; 3] = ["families/sinumerik-840d", "families/heidenhain-fs", "bench"];
 
 fn main() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");

@@ -22,7 +22,7 @@ const YARDSTICKS: [(&str, &str, &str); 2] = [
         "dense",
     ),
     (
-        "spec/sinumerik-840d/faults.toml",
+        "spec/families/sinumerik-840d/faults.toml",
         "sinumerik-840d/faults/fault_selection",
         "sparse",
     ),

@@ -171,7 +171,7 @@ fn the_family_of_the_book_works() {
     }
     assert_eq!(files, 3);
     assert_eq!(replay(&sessions(&text), &folder.0, |_| true), 1);
-    let (status, said) = run(&folder.0, &["check", "spec/demo/limiter.toml"]);
+    let (status, said) = run(&folder.0, &["check", "spec/families/demo/limiter.toml"]);
     assert_eq!(status, Some(0), "{said}");
     let machine =
         std::fs::read_to_string(folder.0.join("spec/machines/press.toml")).expect("a file");

@@ -202,7 +202,7 @@ fn bad_specification_files_are_refused_with_place_and_fix() {
 #[test]
 fn bad_options_are_refused() {
     let file = "spec/bench/two-axis.toml";
-    let axis = "spec/sinumerik-840d/axis.toml";
+    let axis = "spec/families/sinumerik-840d/axis.toml";
     let cases: [&[&str]; 12] = [
         &["check", file, "--memory", "much"],
         &["check", file, "--memory", "0"],
@@ -313,7 +313,7 @@ fn limits_end_a_check_honestly() {
 #[test]
 fn an_option_of_a_reading_changes_results() {
     // Only RESET_AFTER_END lets a STOP D end in standstill however often RESET comes.
-    let file = "spec/sinumerik-840d/axis.toml";
+    let file = "spec/families/sinumerik-840d/axis.toml";
     let results = |readings: &[&str]| {
         let mut arguments = vec!["check", file, "--json", "--time", "10min"];
         arguments.extend(readings);
@@ -332,7 +332,7 @@ fn an_option_of_a_reading_changes_results() {
 
 #[test]
 fn reductions_keep_verdicts_and_say_what_they_did() {
-    let file = "spec/sinumerik-840d/reaction.toml";
+    let file = "spec/families/sinumerik-840d/reaction.toml";
     let plain = json(&stillpoint(&["check", file, "--json", "--readings", "all"]));
     let output = stillpoint(&[
         "check",

@@ -70,7 +70,7 @@ fn the_report_is_the_same_with_1_2_and_4_processes() {
 #[test]
 #[ignore = "deep: a minute"]
 fn the_report_of_an_axis_is_the_same_with_2_and_4_processes() {
-    same("spec/sinumerik-840d/axis.toml", &["2", "4"]);
+    same("spec/families/sinumerik-840d/axis.toml", &["2", "4"]);
 }
 
 /// A process that is killed when the test ends.
@@ -165,7 +165,7 @@ fn mistakes_are_told() {
     let (mut first, _errors, address) = listening(file, "2");
     let other = run(&[
         "check",
-        "spec/sinumerik-840d/comparison.toml",
+        "spec/families/sinumerik-840d/comparison.toml",
         "--join",
         &address,
     ]);

@@ -89,7 +89,7 @@ fn wrong_arguments_are_named() {
         assert_eq!(output.status.code(), Some(2), "{arguments:?}");
         String::from_utf8(output.stderr).expect("UTF-8")
     };
-    let axis = "spec/sinumerik-840d/axis.toml";
+    let axis = "spec/families/sinumerik-840d/axis.toml";
     assert!(error(&["export", axis, "--to", "vhdl"]).contains("promela, murphi, smv, btor2"));
     assert!(error(&["export", axis, "--to", "json"]).contains("stop, stop_pair"));
     assert!(
@@ -113,7 +113,7 @@ fn wrong_arguments_are_named() {
 fn tla_is_a_module_and_its_configuration() {
     let arguments = [
         "export",
-        "spec/sinumerik-840d/axis.toml",
+        "spec/families/sinumerik-840d/axis.toml",
         "--system",
         "selection",
         "--to",
@@ -152,7 +152,7 @@ fn tla_is_a_module_and_its_configuration() {
 fn btor2_can_carry_one_property() {
     let all = [
         "export",
-        "spec/sinumerik-840d/axis.toml",
+        "spec/families/sinumerik-840d/axis.toml",
         "--system",
         "selection",
         "--to",

@@ -110,8 +110,8 @@ fn proven_is_what_was_explored_with_the_times_of_the_axis() {
 
 /// A copy of the milling machine and of its family in which a text of the chains is replaced.
 fn changed(name: &str, from: &str, to: &str) -> String {
-    let replace = [("spec/sinumerik-840d/reaction-chain.toml", from, to)];
-    copied(name, MILLING, "spec/sinumerik-840d", &replace)
+    let replace = [("spec/families/sinumerik-840d/reaction-chain.toml", from, to)];
+    copied(name, MILLING, "spec/families/sinumerik-840d", &replace)
 }
 
 #[test]

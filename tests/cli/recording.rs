@@ -7,7 +7,7 @@ use stillpoint::families::sinumerik::vocabulary;
 use stillpoint::recording::csv::{self, Columns};
 use stillpoint::recording::{Recording, Role, Target, ndjson};
 use stillpoint::simulate::{self, Scenario};
-use stillpoint_spec::machine::{self, Machine};
+use stillpoint_machine::{self as machine, Machine};
 
 use crate::common::{Folder, root, status, stderr, stdout, stillpoint};
 
@@ -112,8 +112,8 @@ fn every_input_can_be_set_and_read() {
 /// The enable bits by which a machine file's functions reach the monitors are those of the family's data.
 #[test]
 fn the_functions_have_the_bits_of_the_family() {
-    let text =
-        std::fs::read_to_string(root().join("spec/sinumerik-840d/family.toml")).expect("readable");
+    let text = std::fs::read_to_string(root().join("spec/families/sinumerik-840d/family.toml"))
+        .expect("readable");
     let table: toml::Table = text.parse().expect("TOML");
     let functions = table["function"].as_array().expect("a list");
     for function in functions {

@@ -71,7 +71,7 @@ fn a_page_needs_nothing_from_elsewhere() {
 
 #[test]
 fn equal_input_gives_equal_bytes() {
-    let file = "spec/sinumerik-840d/reaction.toml";
+    let file = "spec/families/sinumerik-840d/reaction.toml";
     let folder = folder("equal");
     let first = reports(file, 0, &["--threads", "1"], &folder);
     assert_eq!(first, reports(file, 0, &["--threads", "1"], &folder));
@@ -83,7 +83,7 @@ fn equal_input_gives_equal_bytes() {
 
 #[test]
 fn the_same_properties_in_every_format() {
-    let file = "spec/sinumerik-840d/reaction.toml";
+    let file = "spec/families/sinumerik-840d/reaction.toml";
     let (html, markdown) = reports(file, 0, &[], &folder("formats"));
     let output = check(&[file, "--json"]);
     let json: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");

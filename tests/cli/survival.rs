@@ -10,7 +10,7 @@ use serde_json::Value;
 use crate::common::root;
 
 const BINARY: &str = env!("CARGO_BIN_EXE_stillpoint");
-const SUBJECT: &str = "spec/sinumerik-840d/faults.toml";
+const SUBJECT: &str = "spec/families/sinumerik-840d/faults.toml";
 
 /// A folder that goes away with the value.
 struct Folder(PathBuf);
@@ -148,7 +148,7 @@ fn too_little_memory_or_time_leaves_something_to_continue_from() {
 #[test]
 fn checkpoints_of_something_else_are_refused() {
     let folder = Folder::new("refused");
-    let subject = "spec/sinumerik-840d/comparison.toml";
+    let subject = "spec/families/sinumerik-840d/comparison.toml";
     let option = folder.option().map(str::to_owned);
     assert_eq!(
         run(subject, &[&option[0], &option[1]]).status.code(),

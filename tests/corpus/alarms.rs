@@ -15,7 +15,7 @@ use toml::{Table, Value};
 
 /// The entries of a list in a file of the family, by their number.
 fn table(file: &str, list: &str, key: &str) -> BTreeMap<i64, Table> {
-    let path = root().join("spec/sinumerik-840d").join(file);
+    let path = root().join("spec/families/sinumerik-840d").join(file);
     let text = std::fs::read_to_string(&path).expect("the table is part of the repository");
     let parsed: Table = text.parse().expect("the table is TOML");
     let entries = parsed[list].as_array().expect("a list").iter();

@@ -193,7 +193,7 @@ fn a_broken_link_is_found() {
 fn made() -> &'static [Written] {
     static MADE: OnceLock<Vec<Written>> = OnceLock::new();
     MADE.get_or_init(|| {
-        pages(&root().join("spec/sinumerik-840d")).unwrap_or_else(|e| panic!("{e}"))
+        pages(&root().join("spec/families/sinumerik-840d")).unwrap_or_else(|e| panic!("{e}"))
     })
 }
 
@@ -208,7 +208,7 @@ fn the_pages_of_the_safety_functions_are_up_to_date() {
     let different = differences(&root().join("docs/src/functions/sinumerik-840d"), made);
     assert!(
         different.is_empty(),
-        "{}\nrun: stillpoint pages spec/sinumerik-840d --output docs/src/functions",
+        "{}\nrun: stillpoint pages spec/families/sinumerik-840d --output docs/src/functions",
         different.join("\n")
     );
 }

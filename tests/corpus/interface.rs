@@ -9,7 +9,7 @@ use stillpoint_tests::root;
 use toml::{Table, Value};
 
 fn table() -> Table {
-    let path = root().join("spec/sinumerik-840d/signals.toml");
+    let path = root().join("spec/families/sinumerik-840d/signals.toml");
     let text = std::fs::read_to_string(&path).expect("the table is part of the repository");
     text.parse().expect("the table is TOML")
 }

@@ -6,8 +6,8 @@ use std::collections::BTreeSet;
 use serde::Deserialize;
 use stillpoint::check::{Checked, Settings, check, exit_status, summarise};
 use stillpoint::subject::{self, Readings, Subject};
+use stillpoint_machine as machine;
 use stillpoint_model::Verdict;
-use stillpoint_spec::machine;
 use stillpoint_tests::peer::each;
 use stillpoint_tests::root;
 
@@ -66,8 +66,12 @@ fn shipped() -> String {
 /// The explorations of the library for a machine with this text.
 fn library(text: &str) -> Subject {
     let path = root().join(MACHINE);
-    let machine = machine::load_bytes(&path, text.as_bytes().to_vec(), &root().join("spec"))
-        .unwrap_or_else(|e| panic!("{e}"));
+    let machine = machine::load_bytes(
+        &path,
+        text.as_bytes().to_vec(),
+        &root().join("spec/families"),
+    )
+    .unwrap_or_else(|e| panic!("{e}"));
     let runs: Vec<_> = (machine.runs.iter())
         .filter(|run| run.file.ends_with(LIBRARY))
         .cloned()

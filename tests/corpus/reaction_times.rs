@@ -5,12 +5,12 @@ use std::collections::BTreeMap;
 use stillpoint::check::{Settings, check, exit_status, summarise, violations};
 use stillpoint::engine;
 use stillpoint::subject::{self, Readings, Subject};
+use stillpoint_lang::Spec;
+use stillpoint_lang::bind::Bound;
 use stillpoint_model::{Options, Verdict};
-use stillpoint_spec::Spec;
-use stillpoint_spec::bind::Bound;
 use stillpoint_tests::root;
 
-const FILE: &str = "spec/sinumerik-840d/reaction.toml";
+const FILE: &str = "spec/families/sinumerik-840d/reaction.toml";
 
 fn report(subject: &Subject) -> serde_json::Value {
     let settings = Settings {
@@ -105,7 +105,7 @@ fn a_bound_that_is_not_as_recorded_fails_the_check() {
             "monitors",
             "ramp",
         ] {
-            let place = root().join(format!("spec/sinumerik-840d/{used}.toml"));
+            let place = root().join(format!("spec/families/sinumerik-840d/{used}.toml"));
             let place = place.canonicalize().expect("the file");
             changed = changed.replacen(
                 &format!("\"{used}.toml\""),

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use stillpoint::matrix::{Matrix, Status, find_root, read, text, to_json};
-use stillpoint_spec::catalogue::{self, Scope};
+use stillpoint_lang::catalogue::{self, Scope};
 use stillpoint_tests::root;
 
 fn matrix() -> Matrix {
@@ -14,7 +14,8 @@ fn matrix() -> Matrix {
 #[test]
 fn every_requirement_has_its_row_and_every_named_id_exists() {
     let matrix = matrix();
-    let catalogue = catalogue::load(&root().join("spec")).unwrap_or_else(|e| panic!("{e}"));
+    let catalogue =
+        catalogue::load(&root().join("spec/families")).unwrap_or_else(|e| panic!("{e}"));
     let listed: Vec<&str> = matrix
         .rows
         .iter()
@@ -82,7 +83,7 @@ const STILL_OPEN: &[&str] = &[];
 /// No gap without being listed. What is listed and closed leaves the list.
 #[test]
 fn the_open_core_requirements_are_the_listed_ones() {
-    let path = root().join("spec/sinumerik-840d/requirements-functions.toml");
+    let path = root().join("spec/families/sinumerik-840d/requirements-functions.toml");
     let text = std::fs::read_to_string(&path).expect("the catalogue is part of the repository");
     let catalogue: toml::Table = text.parse().expect("the catalogue is TOML");
     let ids: BTreeSet<&str> = catalogue["requirement"]

@@ -4,9 +4,9 @@
 //! the state after the cycle, each bad signal and each output must be what the interpreter says.
 
 use stillpoint::export::btor2::{RANGE, btor2};
-use stillpoint_spec::bind::Bound;
-use stillpoint_spec::eval::Frame;
-use stillpoint_spec::ir::{Form, Property};
+use stillpoint_lang::bind::Bound;
+use stillpoint_lang::eval::Frame;
+use stillpoint_lang::ir::{Form, Property};
 use stillpoint_tests::btor2::{Model, Values, Variable, bits};
 use stillpoint_tests::peer::{Folder, has_system, load};
 use stillpoint_tests::random::Random;

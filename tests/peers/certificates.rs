@@ -112,7 +112,7 @@ fn the_stored_certificate_is_what_is_written_today() {
 fn shipped_and_seeded_systems_are_certified_with_their_verdicts() {
     let mut subjects = files("tests/must-fail", "toml");
     for name in ["axis", "reaction"] {
-        subjects.push(root().join(format!("spec/sinumerik-840d/{name}.toml")));
+        subjects.push(root().join(format!("spec/families/sinumerik-840d/{name}.toml")));
     }
     let (mut compared, mut violated) = (0, 0);
     for file in subjects {
@@ -169,7 +169,7 @@ fn least(mut work: impl FnMut()) -> std::time::Duration {
 
 #[test]
 fn a_certificate_costs_at_most_twice_the_check() {
-    let file = root().join("spec/sinumerik-840d/axis.toml");
+    let file = root().join("spec/families/sinumerik-840d/axis.toml");
     let subject = subject::load(&file, &BTreeMap::new()).unwrap_or_else(|e| panic!("{e}"));
     let settings = Settings {
         threads: 1,

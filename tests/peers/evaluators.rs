@@ -6,12 +6,12 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use stillpoint_lang::Spec;
+use stillpoint_lang::bind::Bound;
+use stillpoint_lang::eval::Frame;
+use stillpoint_lang::ir;
 use stillpoint_model::table::{Generated, Interpreted};
 use stillpoint_model::{Choices, Domain, Fault, Form, Options, Property, System, Verdict, explore};
-use stillpoint_spec::Spec;
-use stillpoint_spec::bind::Bound;
-use stillpoint_spec::eval::Frame;
-use stillpoint_spec::ir;
 use stillpoint_tables::Table;
 use stillpoint_tests::{exceptions, specification_files};
 

@@ -10,8 +10,8 @@ use stillpoint::export::murphi::murphi;
 use stillpoint::export::smv::smv;
 use stillpoint::export::tla::tla;
 use stillpoint::subject::Subject;
+use stillpoint_lang::ir::Form;
 use stillpoint_model::{Report, Verdict};
-use stillpoint_spec::ir::Form;
 use stillpoint_tests::files;
 use stillpoint_tests::peer::{Folder, each, explored, fetched, load, tools};
 

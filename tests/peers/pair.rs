@@ -9,8 +9,8 @@ use stillpoint_monitors::mutant::Mutant;
 use stillpoint_tests::root;
 
 const FILES: [&str; 2] = [
-    "spec/sinumerik-840d/pair.toml",
-    "spec/sinumerik-840d/pair-reference.toml",
+    "spec/families/sinumerik-840d/pair.toml",
+    "spec/families/sinumerik-840d/pair-reference.toml",
 ];
 
 /// The parts of both systems, in the order of the slices.

@@ -7,8 +7,8 @@ use std::path::Path;
 
 use stillpoint::export::murphi::{RANGE, murphi};
 use stillpoint::subject::{Subject, Task};
+use stillpoint_lang::ir::Form;
 use stillpoint_model::Verdict;
-use stillpoint_spec::ir::Form;
 use stillpoint_tests::peer::{Folder, each, explored, has_system, load, tools};
 use stillpoint_tests::{exceptions, files, specification_files};
 

@@ -6,8 +6,8 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use stillpoint::export::promela::{Promela, promela};
+use stillpoint_lang::ir::Form;
 use stillpoint_model::Verdict;
-use stillpoint_spec::ir::Form;
 use stillpoint_tests::peer::{Folder, each, explored, has_system, load, tools};
 use stillpoint_tests::{exceptions, files, root, specification_files};
 

@@ -13,10 +13,10 @@ use stillpoint::recording::csv::{self, Columns};
 use stillpoint::recording::{Recording, Signal, Target as Machinery, ndjson};
 use stillpoint::simulate::{self, Scenario};
 use stillpoint::subject::{self, Readings};
-use stillpoint_spec::Spec;
-use stillpoint_spec::diag::Diagnostics;
-use stillpoint_spec::lang::{parse_decl, parse_effect, parse_expr, parse_type};
-use stillpoint_spec::machine::{self, Machine, families};
+use stillpoint_lang::Spec;
+use stillpoint_lang::diag::Diagnostics;
+use stillpoint_lang::syntax::{parse_decl, parse_effect, parse_expr, parse_type};
+use stillpoint_machine::{self as machine, Machine, families};
 
 use crate::random::Random;
 use crate::{files, root};

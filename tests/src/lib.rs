@@ -35,13 +35,11 @@ pub fn files(folder: &str, extension: &str) -> Vec<PathBuf> {
 /// The specification files that ship with the project: those of the folders for which code is generated. A family without
 /// `family.toml` is under construction and not among them.
 pub fn specification_files() -> Vec<PathBuf> {
-    let folders = std::fs::read_dir(root().join("spec")).expect("the folder spec");
+    let families = std::fs::read_dir(root().join("spec/families")).expect("the families");
+    let families = families.map(|entry| entry.expect("an entry").path());
+    let families = families.filter(|folder| folder.join("family.toml").exists());
     let mut found = Vec::new();
-    for folder in folders {
-        let folder = folder.expect("an entry").path();
-        if !folder.join("family.toml").exists() && !folder.ends_with("bench") {
-            continue;
-        }
+    for folder in families.chain([root().join("spec/bench")]) {
         for entry in std::fs::read_dir(&folder).expect("a folder") {
             let path = entry.expect("an entry").path();
             let is_toml = path.extension().is_some_and(|e| e == "toml");

@@ -1,6 +1,6 @@
 //! The cells of a cycle, and all combinations of the inputs that it reads, by backtracking.
 
-use stillpoint_spec::bind::Bound;
+use stillpoint_lang::bind::Bound;
 
 use crate::states::Radix;
 

@@ -10,8 +10,8 @@ use std::panic::resume_unwind;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::thread::ScopedJoinHandle;
 
-use stillpoint_spec::bind::Bound;
-use stillpoint_spec::ir::Form;
+use stillpoint_lang::bind::Bound;
+use stillpoint_lang::ir::Form;
 
 use crate::cycle::{Cycle, PairCycle, Pairing};
 use crate::format::{Body, Task, Verdict};

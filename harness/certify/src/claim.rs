@@ -1,6 +1,6 @@
 //! What a claim about one property needs: its runs are replayed here, and what has to hold in each cycle is told.
 
-use stillpoint_spec::ir::{Form, Node};
+use stillpoint_lang::ir::{Form, Node};
 
 use crate::check::{Checker, Duty, Leads, pairing};
 use crate::cycle::{Pairing, Player};

@@ -1,7 +1,7 @@
 //! The cycles of a system, made by the interpreter: all of those a state has, and those of a given run.
 
-use stillpoint_spec::bind::Bound;
-use stillpoint_spec::eval::Frame;
+use stillpoint_lang::bind::Bound;
+use stillpoint_lang::eval::Frame;
 
 use crate::cells::{Cells, Layout};
 use crate::format::Run;

@@ -1,7 +1,7 @@
 //! Which cells matter later in a cycle.
 
-use stillpoint_spec::bind::Bound;
-use stillpoint_spec::ir::{Node, Space};
+use stillpoint_lang::bind::Bound;
+use stillpoint_lang::ir::{Node, Space};
 
 use crate::cells::Layout;
 

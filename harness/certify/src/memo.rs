@@ -6,7 +6,7 @@
 
 use std::collections::HashMap;
 
-use stillpoint_spec::eval::Memory;
+use stillpoint_lang::eval::Memory;
 
 use crate::cells::Cells;
 use crate::later::Later;

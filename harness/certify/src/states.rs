@@ -1,6 +1,6 @@
 //! States as numbers, and a set of them.
 
-use stillpoint_spec::bind::Bound;
+use stillpoint_lang::bind::Bound;
 
 /// The number of a state: its variables are the digits, the first one the highest.
 #[derive(Debug, Clone)]

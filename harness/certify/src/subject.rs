@@ -4,10 +4,10 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
-use stillpoint_spec::Spec;
-use stillpoint_spec::bind::Bound;
-use stillpoint_spec::diag::Diagnostics;
-use stillpoint_spec::machine;
+use stillpoint_lang::Spec;
+use stillpoint_lang::bind::Bound;
+use stillpoint_lang::diag::Diagnostics;
+use stillpoint_machine as machine;
 
 use crate::Failure;
 use crate::format::{Header, Kind, Property, Source, Task, Verdict};
@@ -88,7 +88,7 @@ impl Subject {
         let system = &bound.system;
         self.header.readings.extend(bound.readings());
         let parameters = system.params.iter().zip(&bound.values);
-        let property = |p: &stillpoint_spec::ir::Property| Property {
+        let property = |p: &stillpoint_lang::ir::Property| Property {
             id: p.index.map_or(p.id.clone(), |i| format!("{}[{i}]", p.id)),
             text: p.text.clone(),
             written: (p.written.iter())
@@ -171,7 +171,7 @@ impl Subject {
 }
 
 fn bind(
-    system: Result<stillpoint_spec::ir::System, Diagnostics>,
+    system: Result<stillpoint_lang::ir::System, Diagnostics>,
     params: &BTreeMap<String, Vec<i64>>,
     readings: &BTreeMap<String, String>,
 ) -> Result<Bound, Failure> {
@@ -179,7 +179,7 @@ fn bind(
 }
 
 fn source(path: &Path) -> Result<Source, Failure> {
-    let bytes = stillpoint_spec::files::read(path)
+    let bytes = stillpoint_lang::files::read(path)
         .map_err(|e| unreadable(format!("{}: {e}", path.display())))?;
     let digits = Sha256::digest(&bytes);
     Ok(Source {

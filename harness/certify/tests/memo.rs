@@ -7,8 +7,8 @@ use stillpoint_certify::cycle::Cycle;
 use stillpoint_certify::format::Kind;
 use stillpoint_certify::states::Radix;
 use stillpoint_certify::subject::Subject;
-use stillpoint_spec::bind::Bound;
-use stillpoint_spec::eval::Frame;
+use stillpoint_lang::bind::Bound;
+use stillpoint_lang::eval::Frame;
 
 /// Numbers at random, the same ones each time (xorshift).
 struct Random(u64);

@@ -8,8 +8,8 @@ use stillpoint_certify::format::{Body, Header, Kind, Proof, Run, bodies, open};
 use stillpoint_certify::states::{Places, Radix};
 use stillpoint_certify::subject::Subject;
 use stillpoint_certify::{Failure, write};
-use stillpoint_spec::bind::Bound;
-use stillpoint_spec::eval::Frame;
+use stillpoint_lang::bind::Bound;
+use stillpoint_lang::eval::Frame;
 
 /// The systems of a file.
 fn load(file: &str) -> Subject {

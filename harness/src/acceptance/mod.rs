@@ -11,9 +11,9 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
-use stillpoint_spec::files;
-use stillpoint_spec::machine::Machine;
-use stillpoint_spec::machine::acceptance::{Expect, Protocol, Simulated, Test};
+use stillpoint_lang::files;
+use stillpoint_machine::Machine;
+use stillpoint_machine::acceptance::{Expect, Protocol, Simulated, Test};
 
 pub use run::{Ran, Unfit, on_the_machine, run};
 pub use show::document;

@@ -1,7 +1,7 @@
 //! The results on the simulated axis, as a part of the protocol.
 
+use stillpoint_machine::acceptance::Test;
 use stillpoint_show::document::{Block, Inline, Tone};
-use stillpoint_spec::machine::acceptance::Test;
 
 use super::show::anchor;
 use super::{Ran, on_the_machine};

@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use serde_json::{Value, json};
+use stillpoint_lang::diag::Diagnostics;
+use stillpoint_machine::Machine;
+use stillpoint_machine::acceptance::{Simulated, Test};
 use stillpoint_show::diagram::Diagram;
-use stillpoint_spec::diag::Diagnostics;
-use stillpoint_spec::machine::Machine;
-use stillpoint_spec::machine::acceptance::{Simulated, Test};
 
 use crate::simulate::{self, Scenario};
 

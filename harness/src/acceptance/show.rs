@@ -1,9 +1,9 @@
 //! The protocol as a document to be printed, filled in and signed.
 
+use stillpoint_machine::acceptance::{Protocol, Test};
+use stillpoint_machine::units::Dimension;
+use stillpoint_machine::{Machine, Shown};
 use stillpoint_show::document::{Block, Document, Inline, Tone};
-use stillpoint_spec::machine::acceptance::{Protocol, Test};
-use stillpoint_spec::machine::units::Dimension;
-use stillpoint_spec::machine::{Machine, Shown};
 
 use super::results::results;
 use super::{Checksums, Ran, Since, expected, latest, selected};

@@ -3,8 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use serde_json::{Value, json};
-use stillpoint_spec::machine::acceptance::{Protocol, Test};
-use stillpoint_spec::machine::{Axis, AxisKind, Machine, Shown};
+use stillpoint_machine::acceptance::{Protocol, Test};
+use stillpoint_machine::{Axis, AxisKind, Machine, Shown};
 use toml::Spanned;
 
 /// A difference between two configurations.

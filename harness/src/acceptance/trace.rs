@@ -1,7 +1,7 @@
 //! The trace that a test expects, as a timing diagram.
 
+use stillpoint_machine::acceptance::Test;
 use stillpoint_show::diagram::{Diagram, Lane, Mark};
-use stillpoint_spec::machine::acceptance::Test;
 
 use super::latest;
 

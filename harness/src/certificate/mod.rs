@@ -15,10 +15,10 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use stillpoint_certify::format::{Body, Kind, Proof, Run, Task, Verdict};
 use stillpoint_certify::states::Radix;
 use stillpoint_certify::{subject, write};
+use stillpoint_lang::bind::Bound;
+use stillpoint_lang::ir::Form;
 use stillpoint_model::table::{Generated, Interpreted};
 use stillpoint_model::{self as model, Judgement, Trace};
-use stillpoint_spec::bind::Bound;
-use stillpoint_spec::ir::Form;
 
 use crate::atomic::write_with;
 use crate::check::Checked;

@@ -5,9 +5,9 @@ use std::collections::{BTreeMap, HashMap};
 use stillpoint_certify::cycle::{PairCycle, Pairing};
 use stillpoint_certify::format::{Body, Run, Task, Verdict};
 use stillpoint_certify::states::Radix;
+use stillpoint_lang::bind::Bound;
+use stillpoint_lang::ir::Form;
 use stillpoint_model::System;
-use stillpoint_spec::bind::Bound;
-use stillpoint_spec::ir::Form;
 
 use super::cycle::Cycle;
 use super::ranks::{Edge, distances, ranks};

@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use stillpoint::acceptance::{checksums, document, run as simulate, selected, since, to_json};
-use stillpoint_spec::machine::acceptance::{Protocol, Simulated};
-use stillpoint_spec::machine::{self, Machine, families};
+use stillpoint_machine::acceptance::{Protocol, Simulated};
+use stillpoint_machine::{self as machine, Machine, families};
 
 use super::{Failure, emit, tell_data, write};
 

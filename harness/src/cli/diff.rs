@@ -13,10 +13,10 @@ use stillpoint::recording::{self, Target, ndjson};
 use stillpoint::replay;
 use stillpoint::simulate;
 use stillpoint::subject::{self, Readings};
+use stillpoint_machine as machine;
 use stillpoint_model::{Limits, Options};
 use stillpoint_monitors::mutant::Mutant;
 use stillpoint_show::diagram::Diagram;
-use stillpoint_spec::machine;
 
 use super::interrupt::Interruptible;
 use super::limits::LimitOptions;

@@ -28,8 +28,8 @@ use miette::MietteHandlerOpts;
 use stillpoint::atomic::write_with;
 use stillpoint::report::counted;
 use stillpoint::subject;
-use stillpoint_spec::diag::Diagnostics;
-use stillpoint_spec::machine::{self, Machine};
+use stillpoint_lang::diag::Diagnostics;
+use stillpoint_machine::{self as machine, Machine};
 
 /// Exit status for bad input: nothing was run.
 const BAD_INPUT: u8 = 2;
@@ -68,12 +68,12 @@ enum Command {
     Diff(diff::Arguments),
     /// Walk through the state space in the browser, on a page that only this computer sees
     #[command(
-        after_help = "Prints the address of the page and serves it until the command is ended.\n\nExamples:\n  stillpoint explore spec/machines/milling-840d.toml\n  stillpoint explore spec/sinumerik-840d/axis.toml --system stop --port 8080"
+        after_help = "Prints the address of the page and serves it until the command is ended.\n\nExamples:\n  stillpoint explore spec/machines/milling-840d.toml\n  stillpoint explore spec/families/sinumerik-840d/axis.toml --system stop --port 8080"
     )]
     Explore(explore::Arguments),
     /// Write a system in the format of another tool
     #[command(
-        after_help = "Examples:\n  stillpoint export spec/bench/two-axis.toml --to promela --output two-axis.pml\n  stillpoint export spec/sinumerik-840d/axis.toml --system stop --to dot | dot -Tsvg"
+        after_help = "Examples:\n  stillpoint export spec/bench/two-axis.toml --to promela --output two-axis.pml\n  stillpoint export spec/families/sinumerik-840d/axis.toml --system stop --to dot | dot -Tsvg"
     )]
     Export(export::Arguments),
     /// The protocol of the acceptance test for exactly this machine, and what of it to repeat after a change
@@ -107,7 +107,7 @@ enum Command {
     },
     /// Write the pages of the book about the safety functions of a family
     #[command(
-        after_help = "Exit status: 0; 1 if --check finds a difference; 2 bad input.\n\nExamples:\n  stillpoint pages spec/sinumerik-840d --output docs/src/functions\n  stillpoint pages spec/sinumerik-840d --output docs/src/functions --check"
+        after_help = "Exit status: 0; 1 if --check finds a difference; 2 bad input.\n\nExamples:\n  stillpoint pages spec/families/sinumerik-840d --output docs/src/functions\n  stillpoint pages spec/families/sinumerik-840d --output docs/src/functions --check"
     )]
     Pages(pages::Arguments),
     /// Print completions of commands and options for a shell
@@ -143,7 +143,7 @@ pub fn main() -> ExitCode {
         }
     };
     if let Some(folder) = arguments.family_data {
-        stillpoint_spec::files::prefer(folder);
+        stillpoint_lang::files::prefer(folder);
     }
     let status = match arguments.command {
         Command::Acceptance(arguments) => acceptance::run(&arguments),

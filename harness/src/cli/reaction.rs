@@ -6,7 +6,7 @@ use clap::Args;
 use stillpoint::check::{Settings, check};
 use stillpoint::reaction::{self, Error, Wishes};
 use stillpoint::subject::{self, Readings};
-use stillpoint_spec::machine::{self, Run, families};
+use stillpoint_machine::{self as machine, Run, families};
 
 use super::interrupt::Interruptible;
 use super::limits::LimitOptions;

@@ -6,7 +6,7 @@ use clap::Args;
 use stillpoint::families;
 use stillpoint::recording::{csv, ndjson};
 use stillpoint::simulate::{self, Scenario};
-use stillpoint_spec::machine;
+use stillpoint_machine as machine;
 
 use super::{Failure, emit, tell_data, write};
 

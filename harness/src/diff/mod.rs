@@ -50,7 +50,7 @@ pub struct Compared {
 pub enum DiffError {
     /// The input is wrong.
     #[error(transparent)]
-    Input(#[from] stillpoint_spec::diag::Diagnostics),
+    Input(#[from] stillpoint_lang::diag::Diagnostics),
     /// The two sides do not fit each other.
     #[error("{0}")]
     Sides(String),

@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use stillpoint_spec::Spec;
-use stillpoint_spec::bind::Bound;
-use stillpoint_spec::files;
-use stillpoint_spec::ir::System;
+use stillpoint_lang::Spec;
+use stillpoint_lang::bind::Bound;
+use stillpoint_lang::files;
+use stillpoint_lang::ir::System;
 
 use super::random::Random;
 use super::{DiffError, peer};

@@ -1,10 +1,10 @@
 //! The product of a table and its monitor: one system that drives both with the same inputs and compares them.
 
+use stillpoint_lang::bind::Bound;
+use stillpoint_lang::eval::Frame;
+use stillpoint_lang::ir::{LazyKind, Ty};
 use stillpoint_model::{Choices, Domain, Fault, System, Trace};
 use stillpoint_show::diagram::{Diagram, Lane, Mark};
-use stillpoint_spec::bind::Bound;
-use stillpoint_spec::eval::Frame;
-use stillpoint_spec::ir::{LazyKind, Ty};
 use stillpoint_tables::Table;
 
 use super::peer::{Numbers, Peer};

@@ -4,7 +4,7 @@
 
 use std::collections::BTreeMap;
 
-use stillpoint_spec::bind::Bound;
+use stillpoint_lang::bind::Bound;
 
 use super::pairing::parameters_of;
 use super::product::is;

@@ -4,7 +4,7 @@ use std::sync::{MutexGuard, TryLockError};
 
 use serde::Deserialize;
 use serde_json::{Value, json};
-use stillpoint_spec::bind::Bound;
+use stillpoint_lang::bind::Bound;
 
 use super::Explorer;
 use super::jump::{jump, options};

@@ -3,11 +3,11 @@
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::ops::ControlFlow;
 
+use stillpoint_lang::bind::Bound;
+use stillpoint_lang::eval::{Frame, UNSET};
+use stillpoint_lang::ir::Form;
 use stillpoint_model::table::Interpreted;
 use stillpoint_model::{Fault, Held, cycles};
-use stillpoint_spec::bind::Bound;
-use stillpoint_spec::eval::{Frame, UNSET};
-use stillpoint_spec::ir::Form;
 
 use super::path::Choice;
 use super::truth::Teller;

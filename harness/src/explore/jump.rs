@@ -1,8 +1,8 @@
 //! A run that shows a property: its counterexample or its witness, found by exploring.
 
+use stillpoint_lang::bind::Bound;
+use stillpoint_lang::ir::Form;
 use stillpoint_model::{Error, Limits, Options, Trace, Verdict};
-use stillpoint_spec::bind::Bound;
-use stillpoint_spec::ir::Form;
 
 use super::Bounds;
 use super::path::{MOST_CYCLES, Path};

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use stillpoint_spec::bind::Bound;
-use stillpoint_spec::ir::{Form, Property};
+use stillpoint_lang::bind::Bound;
+use stillpoint_lang::ir::{Form, Property};
 
 use super::truth::truth;
 use crate::engine::Cycle;

@@ -27,7 +27,7 @@ use std::sync::Mutex;
 use std::time::Duration;
 
 use sha2::{Digest, Sha256};
-use stillpoint_spec::bind::Bound;
+use stillpoint_lang::bind::Bound;
 
 use crate::export::system_names;
 use crate::subject::{Subject, Task};

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use stillpoint_spec::bind::Bound;
-use stillpoint_spec::eval::Frame;
+use stillpoint_lang::bind::Bound;
+use stillpoint_lang::eval::Frame;
 
 use super::walk::size;
 

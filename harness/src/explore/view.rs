@@ -4,12 +4,12 @@ use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 
 use serde_json::{Value, json};
+use stillpoint_lang::bind::Bound;
+use stillpoint_lang::eval::UNSET;
+use stillpoint_lang::ir::{LazyKind, Ty, Var};
 use stillpoint_model::Fault;
 use stillpoint_model::table::Interpreted;
 use stillpoint_show::diagram::{Diagram, Mark};
-use stillpoint_spec::bind::Bound;
-use stillpoint_spec::eval::UNSET;
-use stillpoint_spec::ir::{LazyKind, Ty, Var};
 
 use super::classes::{Class, Classes, MOST_CYCLES, classes};
 use super::live::{Live, Standing, live};

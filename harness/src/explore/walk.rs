@@ -1,8 +1,8 @@
 //! A walk along a path: which choices were read, which states were passed.
 
+use stillpoint_lang::bind::Bound;
 use stillpoint_model::table::Interpreted;
 use stillpoint_model::{Choices, Replay, System, Trace};
-use stillpoint_spec::bind::Bound;
 
 use super::path::{Choice, Path};
 use crate::engine::{Cycle, replay};

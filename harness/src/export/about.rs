@@ -1,6 +1,6 @@
 //! What every exported model says of itself at its top.
 
-use stillpoint_spec::bind::Bound;
+use stillpoint_lang::bind::Bound;
 
 /// Title, system, values of the parameters and chosen readings: a line each.
 pub fn about(bound: &Bound, title: &str) -> Vec<String> {

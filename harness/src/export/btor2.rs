@@ -8,8 +8,8 @@
 use std::collections::HashMap;
 use std::fmt::Write;
 
-use stillpoint_spec::bind::Bound;
-use stillpoint_spec::ir::BinaryOp;
+use stillpoint_lang::bind::Bound;
+use stillpoint_lang::ir::BinaryOp;
 
 use super::Unsupported;
 use super::about::{about, not_carried};

@@ -10,8 +10,8 @@ mod build;
 mod expression;
 mod term;
 
-use stillpoint_spec::bind::Bound;
-use stillpoint_spec::ir::{Form, Property};
+use stillpoint_lang::bind::Bound;
+use stillpoint_lang::ir::{Form, Property};
 
 pub use term::{Id, Op, Sort, Terms};
 

@@ -6,9 +6,9 @@
 
 use std::fmt::Write;
 
+use stillpoint_lang::bind::Bound;
 use stillpoint_model::{Error, Options};
 use stillpoint_show::graph::Graph;
-use stillpoint_spec::bind::Bound;
 
 use crate::states::{Budget, control_states};
 

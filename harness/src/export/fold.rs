@@ -1,8 +1,8 @@
 //! A system with its parameter values put in: constants folded, small named expressions inlined, ranges known.
 
-use stillpoint_spec::bind::Bound;
-use stillpoint_spec::fold::Folder;
-use stillpoint_spec::ir::{BinaryOp, Form, Node, Space, Stmt};
+use stillpoint_lang::bind::Bound;
+use stillpoint_lang::fold::Folder;
+use stillpoint_lang::ir::{BinaryOp, Form, Node, Space, Stmt};
 
 use super::Unsupported;
 

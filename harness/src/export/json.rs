@@ -1,8 +1,8 @@
 //! A resolved system as JSON: everything named and written out, for tools of one's own.
 
 use serde_json::{Value, json};
-use stillpoint_spec::bind::{Bound, Bounds};
-use stillpoint_spec::ir::{Form, LazyKind, Ty, Var};
+use stillpoint_lang::bind::{Bound, Bounds};
+use stillpoint_lang::ir::{Form, LazyKind, Ty, Var};
 
 use super::text::{effect, expression};
 

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use stillpoint_spec::ir::{Node, Space};
+use stillpoint_lang::ir::{Node, Space};
 
 use super::fold::Folded;
 

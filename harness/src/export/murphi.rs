@@ -8,8 +8,8 @@
 
 use std::fmt::Write;
 
-use stillpoint_spec::bind::Bound;
-use stillpoint_spec::ir::{BinaryOp, Var};
+use stillpoint_lang::bind::Bound;
+use stillpoint_lang::ir::{BinaryOp, Var};
 
 use super::Unsupported;
 use super::about::{about, not_carried};
@@ -75,7 +75,7 @@ fn header(out: &mut String, circuit: &Circuit, title: &str) {
 
 fn type_of(var: &Var, (lo, hi): (i32, i32)) -> String {
     match var.ty {
-        stillpoint_spec::ir::Ty::Bool => "boolean".to_owned(),
+        stillpoint_lang::ir::Ty::Bool => "boolean".to_owned(),
         _ => format!("{lo}..{hi}"),
     }
 }

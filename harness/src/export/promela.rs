@@ -15,8 +15,8 @@ mod value;
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-use stillpoint_spec::bind::{Bound, Bounds};
-use stillpoint_spec::ir::{Form, Stmt, Ty, Var};
+use stillpoint_lang::bind::{Bound, Bounds};
+use stillpoint_lang::ir::{Form, Stmt, Ty, Var};
 
 use super::Unsupported;
 use super::fold::Folded;

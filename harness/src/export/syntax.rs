@@ -1,6 +1,6 @@
 //! How a language writes expressions.
 
-use stillpoint_spec::ir::BinaryOp;
+use stillpoint_lang::ir::BinaryOp;
 
 /// The operators of a language. Operands come as text that binds as tightly as any, and so must go the result.
 ///

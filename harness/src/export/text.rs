@@ -2,7 +2,7 @@
 //!
 //! As in a property, a state variable is its value after the step and `PREV(x)` the one before.
 
-use stillpoint_spec::ir::{BinaryOp, Node, Space, Stmt, System, Ty};
+use stillpoint_lang::ir::{BinaryOp, Node, Space, Stmt, System, Ty};
 
 use super::types::{type_of, variable};
 

@@ -9,8 +9,8 @@
 
 use std::fmt::Write;
 
-use stillpoint_spec::bind::{Bound, Bounds};
-use stillpoint_spec::ir::{BinaryOp, Ty, Var};
+use stillpoint_lang::bind::{Bound, Bounds};
+use stillpoint_lang::ir::{BinaryOp, Ty, Var};
 
 use super::Unsupported;
 use super::about::{about, not_carried};

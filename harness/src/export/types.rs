@@ -1,6 +1,6 @@
 //! Types of resolved expressions.
 
-use stillpoint_spec::ir::{BinaryOp, Node, Space, System, Ty, Var};
+use stillpoint_lang::ir::{BinaryOp, Node, Space, System, Ty, Var};
 
 /// The variable of a cell; none if there is no such cell.
 pub fn variable(system: &System, space: Space, k: u32) -> Option<&Var> {

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use stillpoint_spec::ir::{Ty, Var};
+use stillpoint_lang::ir::{Ty, Var};
 
 use super::about::one_line;
 use super::circuit::{Circuit, Claim, Id, Op};

@@ -6,7 +6,7 @@
 pub mod heidenhain;
 pub mod sinumerik;
 
-use stillpoint_spec::machine::{Axis as MachineAxis, AxisKind, Machine};
+use stillpoint_machine::{Axis as MachineAxis, AxisKind, Machine};
 
 use crate::plant::{Axis, Door};
 use crate::recording::vocabulary::Unit;

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use serde::Deserialize;
-use stillpoint_spec::read_text;
+use stillpoint_lang::read_text;
 use toml::{Table, Value};
 
 use super::ids::is_sentence;

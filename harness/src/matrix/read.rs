@@ -3,8 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-use stillpoint_spec::catalogue;
-use stillpoint_spec::diag::Diagnostics;
+use stillpoint_lang::catalogue;
+use stillpoint_lang::diag::Diagnostics;
 use toml::{Table, Value};
 
 use super::ids::ids;
@@ -37,13 +37,13 @@ pub fn find_root(start: &Path) -> Option<PathBuf> {
     Some(found.to_owned())
 }
 
-/// Reads the catalogues and tables of `spec/`, and of the Rust files of the repository the documented items and the clauses
+/// Reads the catalogues and tables of `spec/families/`, and of the Rust files of the repository the documented items and the clauses
 /// of `impl/src`, the inventory of `proofs/src`, and the test functions of every crate; then the files that tests run.
 ///
 /// # Errors
 /// A folder or file that is missing, unreadable or of another form.
 pub fn read(root: &Path) -> Result<Sources, ReadError> {
-    for folder in ["spec", "impl/src", "proofs/src"] {
+    for folder in ["spec/families", "impl/src", "proofs/src"] {
         if !root.join(folder).is_dir() {
             let message = format!(
                 "{} has no folder {folder}; name the repository with --root",
@@ -53,7 +53,7 @@ pub fn read(root: &Path) -> Result<Sources, ReadError> {
         }
     }
     let mut sources = Sources {
-        catalogue: catalogue::load(&root.join("spec"))?,
+        catalogue: catalogue::load(&root.join("spec/families"))?,
         ..Sources::default()
     };
     let list = &sources.catalogue.requirements;
@@ -63,7 +63,11 @@ pub fn read(root: &Path) -> Result<Sources, ReadError> {
         .filter_map(|r| r.id.split('-').next().map(str::to_owned))
         .collect();
     for family in &families {
-        families::read(&root.join("spec").join(family), family, &mut sources)?;
+        families::read(
+            &root.join("spec/families").join(family),
+            family,
+            &mut sources,
+        )?;
     }
     code(root, &prefixes, &mut sources)?;
     must_fail(root, &mut sources.tests)?;
@@ -196,8 +200,7 @@ fn must_fail(root: &Path, tests: &mut Named) -> Result<(), ReadError> {
 
 /// The machine files that must be refused, by the ids that the refusal prints: a test compares this snapshot with the refusals.
 fn refused(root: &Path, prefixes: &BTreeSet<String>, tests: &mut Named) -> Result<(), ReadError> {
-    let list =
-        root.join("spec/tests/specification/snapshots/specification__machine__bad_input.snap");
+    let list = root.join("spec/machine/tests/snapshots/machine_files__bad_input.snap");
     if !list.is_file() {
         return Ok(());
     }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use serde_json::{Value, json};
-use stillpoint_spec::catalogue::Scope;
+use stillpoint_lang::catalogue::Scope;
 
 use super::{Matrix, Row, Sentence, Shown, Status, area};
 

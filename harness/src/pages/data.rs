@@ -5,10 +5,10 @@ use std::path::Path;
 use std::sync::Arc;
 
 use serde::Deserialize;
-use stillpoint_spec::diag::{Diagnostic, Diagnostics, Result, nearest};
-use stillpoint_spec::machine::data::FamilyData;
-use stillpoint_spec::outline::{Machine, Outline, System};
-use stillpoint_spec::{Spec, read_text};
+use stillpoint_lang::diag::{Diagnostic, Diagnostics, Result, nearest};
+use stillpoint_lang::outline::{Machine, Outline, System};
+use stillpoint_lang::{Spec, read_text};
+use stillpoint_machine::data::FamilyData;
 use toml::Spanned;
 
 /// The file and what it says.
@@ -97,7 +97,7 @@ pub(super) fn load(folder: &Path) -> Result<Family> {
     })?;
     let family = Family {
         data,
-        known: stillpoint_spec::machine::data::load(folder)?,
+        known: stillpoint_machine::data::load(folder)?,
         tables: tables(folder)?,
     };
     let mut check = Check {

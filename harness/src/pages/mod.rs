@@ -11,9 +11,9 @@ mod tables;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
+use stillpoint_lang::catalogue;
+use stillpoint_lang::diag::{Diagnostic, Diagnostics};
 use stillpoint_show::document::{Block, Column, Document, Inline, Table};
-use stillpoint_spec::catalogue;
-use stillpoint_spec::diag::{Diagnostic, Diagnostics};
 
 use data::Family;
 

@@ -3,16 +3,16 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
+use stillpoint_lang::bind::Bound;
+use stillpoint_lang::catalogue::{Catalogue, requirement_id};
+use stillpoint_lang::outline::{Machine, Outline, Property};
+use stillpoint_machine::acceptance::Test;
+use stillpoint_machine::reaction::{Basis, Chain, Reactions};
+use stillpoint_machine::units::Dimension;
+use stillpoint_machine::{self as machine, families};
 use stillpoint_model::Options;
 use stillpoint_show::document::{Block, Document, Inline};
 use stillpoint_show::graph::{Edge, Graph};
-use stillpoint_spec::bind::Bound;
-use stillpoint_spec::catalogue::{Catalogue, requirement_id};
-use stillpoint_spec::machine::acceptance::Test;
-use stillpoint_spec::machine::reaction::{Basis, Chain, Reactions};
-use stillpoint_spec::machine::units::Dimension;
-use stillpoint_spec::machine::{self, families};
-use stillpoint_spec::outline::{Machine, Outline, Property};
 
 use super::PagesError;
 use super::data::{Family, Figure, Page};

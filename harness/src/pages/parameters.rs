@@ -1,7 +1,7 @@
 //! The page with everything that a machine file of a family may say.
 
+use stillpoint_machine::data::{Allowed, Datum, FamilyData};
 use stillpoint_show::document::{Block, Document, Inline, Table};
-use stillpoint_spec::machine::data::{Allowed, Datum, FamilyData};
 
 /// The name of the page.
 pub(super) const NAME: &str = "machine-file.md";

@@ -2,9 +2,9 @@
 
 use std::collections::BTreeSet;
 
+use stillpoint_lang::outline::{Function, Machine, Named, Outline, Port, Property, Rule};
+use stillpoint_machine::data::Datum;
 use stillpoint_show::document::{Block, Inline, Table};
-use stillpoint_spec::machine::data::Datum;
-use stillpoint_spec::outline::{Function, Machine, Named, Outline, Port, Property, Rule};
 
 /// A cell of a table.
 pub(super) type Cell = Vec<Inline>;
@@ -59,7 +59,7 @@ pub(super) fn parameters(data: &[&Datum]) -> Option<Block> {
             "" => d.text.clone(),
             elements => format!("{} ({elements})", d.text),
         };
-        let both = |of: fn(&stillpoint_spec::machine::data::Allowed) -> &String| match &d.rotary {
+        let both = |of: fn(&stillpoint_machine::data::Allowed) -> &String| match &d.rotary {
             Some(rotary) => words(&format!("{}\nrotary: {}", of(&d.linear), of(rotary))),
             None => words(of(&d.linear)),
         };

@@ -8,12 +8,12 @@ mod travel;
 use std::collections::BTreeMap;
 
 use serde_json::{Value, json};
+use stillpoint_lang::catalogue::{self, Catalogue};
+use stillpoint_lang::diag::Diagnostics;
+use stillpoint_machine::Machine;
+use stillpoint_machine::reaction::{Basis, Chain, Claim, Reactions, Step};
+use stillpoint_machine::units::Dimension;
 use stillpoint_model::Verdict;
-use stillpoint_spec::catalogue::{self, Catalogue};
-use stillpoint_spec::diag::Diagnostics;
-use stillpoint_spec::machine::Machine;
-use stillpoint_spec::machine::reaction::{Basis, Chain, Claim, Reactions, Step};
-use stillpoint_spec::machine::units::Dimension;
 
 pub use show::document;
 pub use text::text;
@@ -104,7 +104,7 @@ pub fn check_wishes(machine: &Machine, wishes: &Wishes) -> std::result::Result<(
             return Err(Error::Other(message));
         }
     }
-    type Of = fn(stillpoint_spec::machine::reaction::Dimensions) -> Dimension;
+    type Of = fn(stillpoint_machine::reaction::Dimensions) -> Dimension;
     let speed: (&str, &Vec<_>, Of) = ("speed", &wishes.speed, |d| d.speed);
     let acceleration: (&str, &Vec<_>, Of) =
         ("acceleration", &wishes.acceleration, |d| d.acceleration);
@@ -135,7 +135,7 @@ pub fn check_wishes(machine: &Machine, wishes: &Wishes) -> std::result::Result<(
 }
 
 fn value(text: &str, dimension: Dimension) -> Option<i64> {
-    stillpoint_spec::machine::units::parse(text, dimension).ok()
+    stillpoint_machine::units::parse(text, dimension).ok()
 }
 
 /// The last value that is meant for this axis and fits it.

@@ -1,7 +1,7 @@
 //! The chains as a document.
 
+use stillpoint_machine::Machine;
 use stillpoint_show::document::{Block, Document, Inline, Table, Tone};
-use stillpoint_spec::machine::Machine;
 
 use super::{Judged, Proof, Result, basis, cycles, time, way};
 use crate::check::Checked;
@@ -215,9 +215,9 @@ fn chain(judged: &Judged, machine: &Machine, result: &Result) -> Block {
 }
 
 fn grounds(
-    of: stillpoint_spec::machine::reaction::Basis,
+    of: stillpoint_machine::reaction::Basis,
     proof: &Proof,
-    claim: Option<&stillpoint_spec::machine::reaction::Claim>,
+    claim: Option<&stillpoint_machine::reaction::Claim>,
 ) -> Vec<Inline> {
     let tone = match proof {
         Proof::Proven(_) => Tone::Good,

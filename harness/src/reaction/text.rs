@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use stillpoint_spec::machine::Machine;
+use stillpoint_machine::Machine;
 
 use super::{Judged, Proof, Result, basis, cycles, time, way};
 

@@ -1,6 +1,6 @@
 //! How far an axis travels while a reaction takes place. Exact integers, rounded up.
 
-use stillpoint_spec::machine::reaction::{Outcome, Step};
+use stillpoint_machine::reaction::{Outcome, Step};
 
 /// Speed and acceleration that a way is counted at.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -63,7 +63,7 @@ fn up(a: i128, b: i128) -> i128 {
 
 #[cfg(test)]
 mod tests {
-    use stillpoint_spec::machine::reaction::Basis;
+    use stillpoint_machine::reaction::Basis;
 
     use super::*;
 

@@ -17,8 +17,8 @@ use std::path::Path;
 use std::sync::Arc;
 
 use serde::Deserialize;
-use stillpoint_spec::diag::{Diagnostic, Diagnostics, Result, nearest};
-use stillpoint_spec::read_text;
+use stillpoint_lang::diag::{Diagnostic, Diagnostics, Result, nearest};
+use stillpoint_lang::read_text;
 
 use super::{Kind, Recording, Target, Value};
 

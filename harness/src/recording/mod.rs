@@ -13,7 +13,7 @@ use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
-use stillpoint_spec::diag::{Diagnostic, Diagnostics, nearest};
+use stillpoint_lang::diag::{Diagnostic, Diagnostics, nearest};
 
 /// The name of the format, in the first line of a file.
 pub const FORMAT: &str = "stillpoint-trace";
@@ -28,7 +28,7 @@ const LONGEST: u64 = 1 << 30;
 ///
 /// # Errors
 /// Not there, not readable, not a regular file, longer than 1 GiB, not UTF-8.
-pub fn read_file(path: &Path) -> stillpoint_spec::diag::Result<Arc<str>> {
+pub fn read_file(path: &Path) -> stillpoint_lang::diag::Result<Arc<str>> {
     let fail = |message: String, help: &str| {
         let name = path.display().to_string();
         Diagnostics::from(Diagnostic::new(&name, &Arc::from(""), None, message).help(help))

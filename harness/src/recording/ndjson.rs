@@ -9,7 +9,7 @@ use std::io;
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
-use stillpoint_spec::diag::{Diagnostics, Result};
+use stillpoint_lang::diag::{Diagnostics, Result};
 
 use super::{FORMAT, Kind, Recording, Role, Signal, Target, VERSION, Value};
 

@@ -1,9 +1,9 @@
 //! Properties and their images under exchanges of instances.
 
+use stillpoint_lang::bind::Bound;
+use stillpoint_lang::ir::Form;
+use stillpoint_lang::symmetry::{Symmetry, claim, symmetries};
 use stillpoint_model::{Group, Judgement, Permutation, Verdict};
-use stillpoint_spec::bind::Bound;
-use stillpoint_spec::ir::Form;
-use stillpoint_spec::symmetry::{Symmetry, claim, symmetries};
 
 /// The symmetries of a system, and what they make of its properties.
 pub(super) struct Images {

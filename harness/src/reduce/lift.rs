@@ -1,9 +1,9 @@
 //! Runs of a slice as runs of the whole system.
 
+use stillpoint_lang::bind::Bound;
+use stillpoint_lang::slice::Slice;
 use stillpoint_model::table::Interpreted;
 use stillpoint_model::{Judgement, Replay, System, Trace};
-use stillpoint_spec::bind::Bound;
-use stillpoint_spec::slice::Slice;
 
 /// A loop of a slice is closed in the whole system within this many cycles, or the run is not told.
 const LONGEST: usize = 100_000;
@@ -73,7 +73,7 @@ pub(super) fn shown(bound: &Bound, judged: &Judgement) -> bool {
 /// The interpreter on its way along a run.
 struct Run<'a> {
     system: Interpreted<'a>,
-    frame: stillpoint_spec::eval::Frame,
+    frame: stillpoint_lang::eval::Frame,
     state: Vec<i32>,
     after: Vec<i32>,
 }

@@ -9,13 +9,13 @@ use std::collections::BTreeMap;
 use std::str::FromStr;
 use std::time::Instant;
 
+use stillpoint_lang::bind::Bound;
+use stillpoint_lang::slice::{Slice, Slicer};
 use stillpoint_model::table::{Generated, Interpreted};
 use stillpoint_model::{
     Error, Group, Judgement, Narrow, Options, Part, Progress, Report, Storage, Symmetric, Trace,
     Verdict,
 };
-use stillpoint_spec::bind::Bound;
-use stillpoint_spec::slice::{Slice, Slicer};
 
 use crate::engine::{self, Evaluator, Judged, Outcome, label, undecided};
 use crate::keep::beside;

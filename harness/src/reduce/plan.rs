@@ -1,7 +1,7 @@
 //! What is explored together.
 
-use stillpoint_spec::ir::Form;
-use stillpoint_spec::slice::{Cone, Slicer};
+use stillpoint_lang::ir::Form;
+use stillpoint_lang::slice::{Cone, Slicer};
 
 use super::Reductions;
 use super::images::Images;

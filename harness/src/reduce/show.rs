@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use serde_json::{Value, json};
-use stillpoint_spec::bind::Bound;
+use stillpoint_lang::bind::Bound;
 
 use super::{Explored, Reduction, Reductions};
 use crate::engine::Evaluator;

@@ -7,8 +7,8 @@
 
 mod show;
 
+use stillpoint_machine::Machine;
 use stillpoint_show::diagram::Diagram;
-use stillpoint_spec::machine::Machine;
 
 use crate::families::{self, Owner, Rig};
 use crate::recording::{Recording, Role, Value, vocabulary};

@@ -1,7 +1,7 @@
 //! What was configured: the values of a machine file, or the parameters of a specification.
 
+use stillpoint_machine::{AxisKind, Machine, Shown};
 use stillpoint_show::document::{Block, Inline};
-use stillpoint_spec::machine::{AxisKind, Machine, Shown};
 
 use super::document::{code, paragraph, section, table, words};
 use crate::subject::Subject;

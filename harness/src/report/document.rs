@@ -5,10 +5,10 @@ use std::time::Instant;
 
 use stillpoint_certify::format::{Kind, Source};
 use stillpoint_certify::subject as certified;
+use stillpoint_lang::ir::Topic;
 use stillpoint_model::{Options, Verdict};
 use stillpoint_show::document::{Block, Document, Inline, Table, Tone};
 use stillpoint_show::graph::Graph;
-use stillpoint_spec::ir::Topic;
 
 use super::{
     configuration, counted, counts, exploration, findings, grouped, inventory, properties, result,

@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 
 use serde_json::{Value, json};
+use stillpoint_lang::bind::Bound;
+use stillpoint_lang::ir::Topic;
 use stillpoint_model::{Trace, Verdict};
-use stillpoint_spec::bind::Bound;
-use stillpoint_spec::ir::Topic;
 
 use super::{params, reduced, verdict_name};
 use crate::check::{Checked, Summary, Unfired};

@@ -8,9 +8,9 @@ mod json;
 mod properties;
 mod text;
 
+use stillpoint_lang::bind::Bound;
 use stillpoint_model::{Storage, Trace, Verdict};
 use stillpoint_show::diagram::{Diagram, Mark};
-use stillpoint_spec::bind::Bound;
 
 use crate::check::{Checked, Summary, Unfired, exit_status};
 use crate::engine::replay;

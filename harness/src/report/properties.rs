@@ -1,8 +1,8 @@
 //! The properties of all runs, each told once.
 
+use stillpoint_lang::ir::Property;
 use stillpoint_model::{Trace, Verdict};
 use stillpoint_show::document::Block;
-use stillpoint_spec::ir::Property;
 
 use super::document::{badge, code, ids, paragraph, table, words};
 use super::{counted, diagram};

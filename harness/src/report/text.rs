@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
+use stillpoint_lang::ir::Topic;
 use stillpoint_model::{Storage, Verdict};
-use stillpoint_spec::ir::Topic;
 
 use super::properties::{Row, rows};
 use super::{

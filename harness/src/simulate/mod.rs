@@ -18,7 +18,7 @@ pub use run::run;
 pub use scenario::{Condition, DoorChange, Event, Expect, Is, Scenario, Start, What};
 pub use summary::{Judged, Simulation, Stop};
 
-use stillpoint_spec::machine::{AxisKind, Machine};
+use stillpoint_machine::{AxisKind, Machine};
 
 use crate::families;
 use crate::recording::{Kind, Role, Signal, vocabulary};

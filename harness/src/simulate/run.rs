@@ -1,6 +1,6 @@
 //! The cycles of a simulation.
 
-use stillpoint_spec::machine::Machine;
+use stillpoint_machine::Machine;
 
 use super::scenario::{DoorChange, Event, Scenario, What};
 use super::summary::{Simulation, summarise};

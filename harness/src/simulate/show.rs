@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
+use stillpoint_machine::AxisKind;
 use stillpoint_show::diagram::{Curve, Diagram, Lane, Mark, Panel, Role};
-use stillpoint_spec::machine::AxisKind;
 
 use super::resolve::time;
 use super::summary::{Shown, Simulation, numbers};

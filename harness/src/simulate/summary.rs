@@ -1,7 +1,7 @@
 //! What a simulation has shown: stops with their reason, standstill and over-travel, and whether the expectations hold.
 
-use stillpoint_spec::machine::units::Dimension;
-use stillpoint_spec::machine::{Axis, AxisKind, Machine};
+use stillpoint_machine::units::Dimension;
+use stillpoint_machine::{Axis, AxisKind, Machine};
 
 use super::scenario::{Expect, Scenario};
 use crate::families::{Drive, Said, Windows, Words};

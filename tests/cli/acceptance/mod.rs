@@ -10,8 +10,8 @@ use serde_json::Value;
 use crate::common::{copied, stdout, stillpoint};
 
 const MILLING: &str = "spec/machines/milling-840d.toml";
-const FAMILY: &str = "spec/sinumerik-840d";
-const CATALOGUE: &str = "spec/sinumerik-840d/acceptance.toml";
+const FAMILY: &str = "spec/families/sinumerik-840d";
+const CATALOGUE: &str = "spec/families/sinumerik-840d/acceptance.toml";
 
 fn json(arguments: &[&str]) -> Value {
     let mut all = vec!["acceptance"];

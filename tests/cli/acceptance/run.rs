@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 
 use stillpoint::acceptance::{Ran, run};
-use stillpoint_spec::machine::acceptance::{Protocol, Simulated, Test};
-use stillpoint_spec::machine::{self, Machine};
+use stillpoint_machine::acceptance::{Protocol, Simulated, Test};
+use stillpoint_machine::{self as machine, Machine};
 
 use super::{CATALOGUE, FAMILY, MILLING, json, milling};
 use crate::common::{copied, stderr, stdout, stillpoint};
@@ -124,8 +124,9 @@ fn every_kind_of_test_is_run_on_one_of_two_machines() {
             .iter()
             .map(|t| kind(&t.id)),
     );
-    let catalogue =
-        std::fs::read_to_string(crate::common::root().join("spec/sinumerik-840d/acceptance.toml"));
+    let catalogue = std::fs::read_to_string(
+        crate::common::root().join("spec/families/sinumerik-840d/acceptance.toml"),
+    );
     let catalogue: toml::Table = toml::from_str(&catalogue.expect("readable")).expect("TOML");
     let tests = catalogue["test"].as_array().expect("tests");
     let scenarios = tests.iter().filter(|t| t.get("simulate").is_some());

@@ -11,9 +11,9 @@ use stillpoint::explore::path::Path;
 use stillpoint::explore::walk::walk;
 use stillpoint::explore::{Bounds, identity};
 use stillpoint::subject::{self, Readings, Task};
+use stillpoint_lang::bind::Bound;
+use stillpoint_lang::ir::Form;
 use stillpoint_model::{Options, Verdict, initials, table::Interpreted};
-use stillpoint_spec::bind::Bound;
-use stillpoint_spec::ir::Form;
 
 use crate::common::root;
 
@@ -32,7 +32,7 @@ fn tasks() -> Vec<Task> {
         .map(|entry| entry.expect("an entry").path())
         .collect();
     files.sort();
-    files.push(root().join("spec/sinumerik-840d/reaction.toml"));
+    files.push(root().join("spec/families/sinumerik-840d/reaction.toml"));
     let load =
         |file: &std::path::PathBuf| subject::load(file, &Readings::new()).expect("good").tasks;
     files.iter().flat_map(load).collect()
@@ -174,7 +174,7 @@ fn along_the_runs_that_exploring_finds_the_properties_say_what_it_says() {
                         for (k, (a, b)) in
                             one.frame.inputs.iter().zip(&two.frame.inputs).enumerate()
                         {
-                            let unread = [*a, *b].contains(&stillpoint_spec::eval::UNSET);
+                            let unread = [*a, *b].contains(&stillpoint_lang::eval::UNSET);
                             assert!(a == b || unread || of.contains(&k), "{what}");
                         }
                     }

@@ -109,7 +109,7 @@ fn properties_follow_the_walk_to_the_counterexample_that_exploring_finds() {
 #[test]
 fn a_run_that_is_not_found_within_the_limit_is_not_called_impossible() {
     let served = Served::start(&[
-        "spec/sinumerik-840d/axis.toml",
+        "spec/families/sinumerik-840d/axis.toml",
         "--time",
         "1ms",
         "--threads",

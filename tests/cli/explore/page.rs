@@ -202,7 +202,7 @@ fn of_many_outcomes_some_are_shown_and_a_filter_finds_others() {
     if !available() {
         return;
     }
-    let served = Served::start(&["spec/sinumerik-840d/axis.toml", "--system", "stop"]);
+    let served = Served::start(&["spec/families/sinumerik-840d/axis.toml", "--system", "stop"]);
     let mut page = Page::open("filter", 1280, 900);
     page.visit(&served.url);
     shows(&mut page, "0", 0);
@@ -240,7 +240,10 @@ fn nothing_is_wider_than_a_small_screen() {
     if !available() {
         return;
     }
-    for (name, file) in [("small", FILE), ("axis", "spec/sinumerik-840d/axis.toml")] {
+    for (name, file) in [
+        ("small", FILE),
+        ("axis", "spec/families/sinumerik-840d/axis.toml"),
+    ] {
         let served = Served::start(&[file]);
         let mut page = Page::open(name, 400, 800);
         page.visit(&served.url);

@@ -90,8 +90,13 @@ fn a_witness_that_exists_with_no_values_is_missing() {
     let machine = "spec/machines/milling-840d.toml";
     let goal = "lost_sbh.dead AND NOT lost_sg.dead AND selection[2].mode = SBH_PEND";
     let never = "lost_sbh.dead AND NOT lost_sbh.dead AND selection[2].mode = SBH_PEND";
-    let change = [("spec/sinumerik-840d/monitoring.toml", goal, never)];
-    let copy = copied("missing-witness", machine, "spec/sinumerik-840d", &change);
+    let change = [("spec/families/sinumerik-840d/monitoring.toml", goal, never)];
+    let copy = copied(
+        "missing-witness",
+        machine,
+        "spec/families/sinumerik-840d",
+        &change,
+    );
     std::fs::write(&copy, SMALLEST).expect("written");
     let output = stillpoint(&["check", &copy, "--json"]);
     assert_eq!(status(&output), 1);

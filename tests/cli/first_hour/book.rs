@@ -9,7 +9,7 @@ fn read(path: &str) -> String {
 
 /// The families of the workspace whose folder has this file, in the order of their names.
 fn families_with(file: &str) -> Vec<String> {
-    let entries = std::fs::read_dir(root().join("spec")).expect("the folder");
+    let entries = std::fs::read_dir(root().join("spec/families")).expect("the folder");
     let folders = entries.map(|e| e.expect("an entry").path());
     let with = folders.filter(|f| f.join("family.toml").is_file() && f.join(file).is_file());
     let mut names: Vec<String> = with
@@ -78,7 +78,7 @@ fn every_parameter_has_its_place_in_the_book() {
             summary.contains(&format!("(functions/{family}/machine-file.md)")),
             "{family}"
         );
-        let data = stillpoint_spec::machine::data::load(&root().join("spec").join(&family));
+        let data = stillpoint_machine::data::load(&root().join("spec/families").join(&family));
         let data = data.unwrap_or_else(|e| panic!("{e}"));
         assert!(data.parameters.len() > 10, "{family}");
         for parameter in &data.parameters {

@@ -55,15 +55,21 @@ fn an_unknown_family_lists_those_of_the_binary() {
 fn other_family_data_are_named_or_told() {
     let machine = "spec/machines/milling-840d.toml";
     let change = [(
-        "spec/sinumerik-840d/family.toml",
+        "spec/families/sinumerik-840d/family.toml",
         "linear   = { range = [\"0.001 mm\", \"100 mm\"], default = \"1 mm\" }",
         "linear   = { range = [\"0.001 mm\", \"0.002 mm\"], default = \"0.002 mm\" }",
     )];
-    let copy = copied("other-family", machine, "spec/sinumerik-840d", &change);
+    let copy = copied(
+        "other-family",
+        machine,
+        "spec/families/sinumerik-840d",
+        &change,
+    );
     let data = Path::new(&copy)
         .ancestors()
         .nth(2)
-        .expect("the folder of families");
+        .expect("the folder of the specification")
+        .join("families");
     let folder = elsewhere("other-family");
     let file = folder.write("m.toml", &format!("{SMALLEST}STANDSTILL_TOL = \"1 mm\"\n"));
     assert_eq!(status(&away(&folder, &["validate", &file])), 0);

@@ -256,7 +256,7 @@ fn a_parameter_that_no_test_reads_is_a_fault_of_the_catalogue() {
     let machine = changed(
         "hfs-acceptance-unread",
         &[(
-            "spec/heidenhain-fs/acceptance.toml",
+            "spec/families/heidenhain-fs/acceptance.toml",
             "SMP560_10 = ",
             "SMP560_11 = ",
         )],

@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
+use stillpoint_machine::{self as machine, Machine};
 use stillpoint_monitors::heidenhain::parameters as monitors;
 use stillpoint_monitors::kernel::{ConfigError, Cycles, Speed};
-use stillpoint_spec::machine::{self, Machine};
 
 /// Where a parameter goes.
 struct Datum {
@@ -126,7 +126,7 @@ fn load(text: String) -> Machine {
     machine::load_bytes(
         Path::new("conversion.toml"),
         text.into_bytes(),
-        &root.join("spec"),
+        &root.join("spec/families"),
     )
     .unwrap_or_else(|e| panic!("{e}"))
 }

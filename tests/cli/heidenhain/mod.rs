@@ -25,5 +25,5 @@ fn json(arguments: &[&str]) -> Value {
 
 /// A copy of the machine and of its family in which texts of some files are replaced.
 fn changed(name: &str, replace: &[(&str, &str, &str)]) -> String {
-    copied(name, MACHINE, "spec/heidenhain-fs", replace)
+    copied(name, MACHINE, "spec/families/heidenhain-fs", replace)
 }

@@ -24,7 +24,7 @@ fn all_chains() -> &'static Value {
     CHAINS.get_or_init(|| json(&["reaction", MACHINE]))
 }
 
-const CHAINS: &str = "spec/heidenhain-fs/reaction-chain.toml";
+const CHAINS: &str = "spec/families/heidenhain-fs/reaction-chain.toml";
 
 #[test]
 fn both_channels_and_every_function_have_chains() {

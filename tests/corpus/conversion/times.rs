@@ -3,12 +3,12 @@
 use std::path::Path;
 
 use stillpoint::families::sinumerik::production;
+use stillpoint_machine as machine;
 use stillpoint_monitors::kernel::Cycles;
 use stillpoint_monitors::sinumerik::axis::Local;
 use stillpoint_monitors::sinumerik::level::Level;
 use stillpoint_monitors::sinumerik::pair::{Inputs, Outputs, Pair};
 use stillpoint_monitors::sinumerik::parameters::Parameters;
-use stillpoint_spec::machine;
 use stillpoint_tests::root;
 
 use super::{Random, axis, converted, cycles, exact, pair};
@@ -161,7 +161,7 @@ fn times_of_a_machine_file_are_rounded_once() {
         let machine = machine::load_bytes(
             Path::new("times.toml"),
             text.clone().into_bytes(),
-            &root().join("spec"),
+            &root().join("spec/families"),
         )
         .unwrap_or_else(|e| panic!("{e}\n{text}"));
         let axes = production::axes(&machine).unwrap_or_else(|e| panic!("{e}\n{text}"));

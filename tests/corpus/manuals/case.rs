@@ -113,7 +113,10 @@ fn root() -> PathBuf {
 
 /// The last line of the text of a family's manual, by which a mistyped line is seen.
 pub fn last_line(family: &str) -> usize {
-    let path = root().join("spec").join(family).join("manual.toml");
+    let path = root()
+        .join("spec/families")
+        .join(family)
+        .join("manual.toml");
     let text = std::fs::read_to_string(path).expect("the manual of the family");
     let table: Table = toml::from_str(&text).expect("TOML");
     let manuals = table["manual"].as_table().expect("manuals by their keys");
@@ -133,7 +136,7 @@ pub fn load(family: &str) -> Vec<Case> {
     files.sort();
     assert!(!files.is_empty(), "no case of {family}");
     let last_line = last_line(family);
-    let known: BTreeSet<String> = stillpoint_spec::catalogue::load(&root().join("spec"))
+    let known: BTreeSet<String> = stillpoint_lang::catalogue::load(&root().join("spec/families"))
         .expect("the catalogues")
         .requirements
         .into_iter()

@@ -24,13 +24,13 @@ use std::sync::{Arc, Mutex};
 
 use stillpoint::diff::peer::{Peer, peer};
 use stillpoint::diff::product::Product;
+use stillpoint_lang::Spec;
+use stillpoint_lang::bind::Bound;
+use stillpoint_lang::ir::{LazyKind, Ty};
 use stillpoint_monitors::heidenhain::key_filter::{self, Keys};
 use stillpoint_monitors::heidenhain::parameters;
 use stillpoint_monitors::heidenhain::types::Unit;
 use stillpoint_monitors::kernel::{ConfigError, Cycles};
-use stillpoint_spec::Spec;
-use stillpoint_spec::bind::Bound;
-use stillpoint_spec::ir::{LazyKind, Ty};
 use toml::{Table, Value};
 
 use super::case::{Given, Runner};
@@ -81,7 +81,7 @@ fn specification(name: &str) -> Result<Arc<Spec>, String> {
     if let Some(spec) = read.get(name) {
         return Ok(Arc::clone(spec));
     }
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../spec/heidenhain-fs");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../spec/families/heidenhain-fs");
     let spec = Arc::new(Spec::load(&folder.join(name)).map_err(|e| e.to_string())?);
     read.insert(name.to_owned(), Arc::clone(&spec));
     Ok(spec)

@@ -6,11 +6,11 @@ use std::sync::Arc;
 
 use stillpoint::engine::{self, Outcome, label, replay};
 use stillpoint::reduce::{self, Reductions};
+use stillpoint_lang::Spec;
+use stillpoint_lang::bind::Bound;
+use stillpoint_lang::eval::Frame;
+use stillpoint_lang::ir::Form;
 use stillpoint_model::{Options, Verdict};
-use stillpoint_spec::Spec;
-use stillpoint_spec::bind::Bound;
-use stillpoint_spec::eval::Frame;
-use stillpoint_spec::ir::Form;
 
 mod random;
 mod shipped;

@@ -5,8 +5,8 @@ use std::sync::OnceLock;
 
 use stillpoint::engine::Outcome;
 use stillpoint::reduce::Reductions;
-use stillpoint_spec::Spec;
-use stillpoint_spec::bind::Bound;
+use stillpoint_lang::Spec;
+use stillpoint_lang::bind::Bound;
 use stillpoint_tests::peer::each;
 use stillpoint_tests::{exceptions, files, specification_files};
 

@@ -4,10 +4,10 @@ use std::time::Duration;
 
 use stillpoint::export::promela;
 use stillpoint::reduce::{self, Reduction, Reductions};
+use stillpoint_lang::bind::Bound;
+use stillpoint_lang::slice::Slicer;
+use stillpoint_lang::symmetry::symmetries;
 use stillpoint_model::Verdict;
-use stillpoint_spec::bind::Bound;
-use stillpoint_spec::slice::Slicer;
-use stillpoint_spec::symmetry::symmetries;
 
 use super::{SLICE, SYMMETRY, TIMERS, compare, full, options, reduced, systems};
 

@@ -10,7 +10,7 @@ use super::{TIMERS, YARDSTICK, compare, reduced};
 fn timers_as_intervals_change_nothing_but_memory() {
     let stored = each(shipped(), |(bound, whole)| {
         let name = &bound.system.name;
-        if stillpoint_spec::timers::countdowns(&bound.system).is_empty() {
+        if stillpoint_lang::timers::countdowns(&bound.system).is_empty() {
             return false;
         }
         let part = reduced(bound, false, TIMERS);

@@ -10,11 +10,11 @@ mod sinumerik;
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 
+use stillpoint_lang::bind::Bound;
 use stillpoint_model::Domain;
 use stillpoint_monitors::contract::{Contract, Next};
 use stillpoint_monitors::kernel::{ConfigError, Cycles, Speed};
 use stillpoint_monitors::mutant::{Mutant, Wrong};
-use stillpoint_spec::bind::Bound;
 
 use super::product::Values;
 use adapter::Adapter;

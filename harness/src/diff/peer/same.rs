@@ -1,11 +1,11 @@
 //! The peer of a monitor that its table describes in the same words: each number of the monitor goes to the port, state variable
 //! or parameter of its name. What is called otherwise, or is not on both sides, is said one by one.
 
+use stillpoint_lang::ir::LazyKind;
 use stillpoint_model::Domain;
 use stillpoint_monitors::contract::{Contract, Next};
 use stillpoint_monitors::fields::{Kind, get, set};
 use stillpoint_monitors::mutant::Mutant;
-use stillpoint_spec::ir::LazyKind;
 
 use super::adapter::Adapter;
 use super::cells::{Number, cell, load, numbers, stored};

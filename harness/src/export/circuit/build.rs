@@ -1,6 +1,6 @@
 //! From rules to terms: the cycle is run once with terms for values.
 
-use stillpoint_spec::ir::{BinaryOp, Form, Node, Space, Stmt, Ty};
+use stillpoint_lang::ir::{BinaryOp, Form, Node, Space, Stmt, Ty};
 
 use super::{Circuit, Claim, Id, Op, Terms};
 use crate::export::Unsupported;

@@ -1,6 +1,6 @@
 //! Expressions as terms.
 
-use stillpoint_spec::ir::{BinaryOp, Node, Space, Ty};
+use stillpoint_lang::ir::{BinaryOp, Node, Space, Ty};
 
 use super::build::Builder;
 use super::{Id, Op};

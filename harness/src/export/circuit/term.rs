@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use stillpoint_spec::ir::BinaryOp;
+use stillpoint_lang::ir::BinaryOp;
 
 use crate::export::Unsupported;
 use crate::export::fold::{Range, arithmetic, hull};

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-use stillpoint_spec::ir::{BinaryOp, Form, Node, Stmt};
+use stillpoint_lang::ir::{BinaryOp, Form, Node, Stmt};
 
 use super::{COMBINATION, Emitter, FEW, SMALL, Shared, Used, comment, scratch, wide};
 use crate::export::known::{Known, Status, read_anywhere};

@@ -1,6 +1,6 @@
 //! Expressions: what has to be chosen before they have a value, and their text.
 
-use stillpoint_spec::ir::{BinaryOp, Node, Space};
+use stillpoint_lang::ir::{BinaryOp, Node, Space};
 
 use super::{Emitter, SMALL, choose, scratch, wide};
 use crate::export::known::Status;

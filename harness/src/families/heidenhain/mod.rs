@@ -7,7 +7,7 @@ mod program;
 mod simulated;
 mod values;
 
-use stillpoint_spec::machine::{Axis as MachineAxis, Machine};
+use stillpoint_machine::{Axis as MachineAxis, Machine};
 
 use super::{Drive, Feed, Monitors, Owner, Rig, Said, Start, Windows, Words};
 use crate::plant::Axis;

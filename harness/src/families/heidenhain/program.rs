@@ -3,11 +3,11 @@
 
 use std::collections::BTreeMap;
 
+use stillpoint_lang::bind::Bound;
+use stillpoint_lang::eval::Frame;
+use stillpoint_lang::ir::LazyKind;
+use stillpoint_machine::Machine;
 use stillpoint_monitors::heidenhain::safe_plc::CC_CYCLE_MS;
-use stillpoint_spec::bind::Bound;
-use stillpoint_spec::eval::Frame;
-use stillpoint_spec::ir::LazyKind;
-use stillpoint_spec::machine::Machine;
 
 use super::values::CC;
 

@@ -3,9 +3,9 @@
 
 mod group;
 
+use stillpoint_machine::Machine;
 use stillpoint_monitors::heidenhain::types::{GroupState, Kind, Phase, Stop, Unit};
 use stillpoint_monitors::heidenhain::{axis_release, channel, output_enable, som, stop, switch_on};
-use stillpoint_spec::machine::Machine;
 
 use super::axis::{Axis, OfGroup, Seen};
 use super::names::{self, Bit};

@@ -1,12 +1,12 @@
 //! The values of a machine file in the units of the monitors, checked by them.
 
+use stillpoint_machine::{Axis, Group, Machine, Settings};
 use stillpoint_monitors::heidenhain::types::Kind;
 use stillpoint_monitors::heidenhain::{
     axis_release, channel, comparison, deceleration, operating_stop, output_enable, parameters,
     position_limit, reference, speed, stop, stop_path,
 };
 use stillpoint_monitors::kernel::{ConfigError, Cycles, Distance, Percent, Speed};
-use stillpoint_spec::machine::{Axis, Group, Machine, Settings};
 
 /// The two channels.
 pub(super) const CC: usize = 1;

@@ -8,8 +8,8 @@ mod simulated;
 mod table;
 pub mod vocabulary;
 
+use stillpoint_machine::{Axis as MachineAxis, Machine};
 use stillpoint_monitors::sinumerik::alarm::Alarm;
-use stillpoint_spec::machine::{Axis as MachineAxis, Machine};
 
 use super::{Drive, Feed, Monitors, Owner, Rig, Said, Start, Windows, Words};
 use crate::plant::Axis;

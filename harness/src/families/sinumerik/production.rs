@@ -1,9 +1,9 @@
 //! The axes of a machine file on the production monitors: machine data in the units of the monitors, checked by them.
 
+use stillpoint_machine::{Axis, AxisKind, Machine};
 use stillpoint_monitors::sinumerik::parameters::{
     Configuration, ControlModule, Encoders, Installation, Parameters,
 };
-use stillpoint_spec::machine::{Axis, AxisKind, Machine};
 
 /// The enable bits of the functions, by their names in a machine file (MD36901 / MD1301).
 pub const FUNCTIONS: [(&str, u32); 15] = [
@@ -78,7 +78,7 @@ type Fit<T> = Result<T, &'static str>;
 
 impl Values<'_> {
     fn cells(&self, name: &'static str) -> &[i64] {
-        let of = |settings: &'_ stillpoint_spec::machine::Settings| settings.contains_key(name);
+        let of = |settings: &'_ stillpoint_machine::Settings| settings.contains_key(name);
         let settings = match of(&self.axis.values) {
             true => &self.axis.values,
             false => &self.machine.control,

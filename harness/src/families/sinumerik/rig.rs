@@ -1,10 +1,10 @@
 //! One axis alone, driven by its signals: the pair of both channels, with the tables of each beside it.
 
+use stillpoint_machine::Machine;
 use stillpoint_monitors::kernel::Position;
 use stillpoint_monitors::sinumerik::axis::{self, Local};
 use stillpoint_monitors::sinumerik::interface::Sge;
 use stillpoint_monitors::sinumerik::pair::{Config, Inputs, Outputs, Pair, State};
-use stillpoint_spec::machine::Machine;
 
 use super::production;
 use super::table::{Basis, Tables};

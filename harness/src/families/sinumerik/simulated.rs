@@ -1,5 +1,6 @@
 //! The machine in a simulation: each axis with its monitors, what its two channels see, and the safe logic of the doors.
 
+use stillpoint_machine::{Door as Guard, Machine};
 use stillpoint_monitors::kernel::{Position, Speed};
 use stillpoint_monitors::sinumerik::axis::{self, Local};
 use stillpoint_monitors::sinumerik::channel;
@@ -9,7 +10,6 @@ use stillpoint_monitors::sinumerik::level::Level;
 use stillpoint_monitors::sinumerik::pair::{Config, Inputs, Outputs, Pair, State};
 use stillpoint_monitors::sinumerik::parameters::Parameters;
 use stillpoint_monitors::sinumerik::selection::Monitored;
-use stillpoint_spec::machine::{Door as Guard, Machine};
 
 use super::door::{Logic as DoorLogic, Seen};
 use super::production::{self, Produced};

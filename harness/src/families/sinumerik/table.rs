@@ -3,12 +3,12 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use stillpoint_lang::Spec;
+use stillpoint_lang::bind::Bound;
+use stillpoint_machine::Machine;
 use stillpoint_monitors::sinumerik::axis::{self, Local};
 use stillpoint_monitors::sinumerik::channel;
 use stillpoint_monitors::sinumerik::pair::{Inputs, Outputs, State};
-use stillpoint_spec::Spec;
-use stillpoint_spec::bind::Bound;
-use stillpoint_spec::machine::Machine;
 
 use super::production::Produced;
 use super::rig::side_of;

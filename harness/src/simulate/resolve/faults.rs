@@ -1,6 +1,6 @@
 //! Faults of encoders, signals and the drive.
 
-use stillpoint_spec::machine::AxisKind;
+use stillpoint_machine::AxisKind;
 use toml::Spanned;
 
 use super::Resolver;

@@ -9,10 +9,10 @@ use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
-use stillpoint_spec::diag::{Diagnostic, Diagnostics, Result, nearest};
-use stillpoint_spec::machine::Machine;
-use stillpoint_spec::machine::units::{self, Dimension};
-use stillpoint_spec::read_text;
+use stillpoint_lang::diag::{Diagnostic, Diagnostics, Result, nearest};
+use stillpoint_lang::read_text;
+use stillpoint_machine::Machine;
+use stillpoint_machine::units::{self, Dimension};
 use toml::Spanned;
 
 use super::file::{File, Names, Text};

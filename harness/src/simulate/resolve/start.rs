@@ -1,7 +1,7 @@
 //! Where the axes start and how they move.
 
-use stillpoint_spec::machine::AxisKind;
-use stillpoint_spec::machine::units::{self, Dimension};
+use stillpoint_machine::AxisKind;
+use stillpoint_machine::units::{self, Dimension};
 
 use super::{Resolver, Round};
 use crate::families::Windows;

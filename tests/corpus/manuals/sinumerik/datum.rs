@@ -5,9 +5,9 @@ use crate::manuals::case::Given;
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::{Arc, Mutex};
+use stillpoint_machine::Machine;
 use stillpoint_monitors::sinumerik::parameters::{DATA, Datum, Parameters, Unit};
 use stillpoint_monitors::units::Axis;
-use stillpoint_spec::machine::Machine;
 use toml::{Table, Value};
 
 /// Machine data of the monitors that a machine file does not hold under their own name.
@@ -213,7 +213,7 @@ fn family_file(name: &str) -> Result<Arc<Table>, String> {
     if let Some(table) = read.get(name) {
         return Ok(Arc::clone(table));
     }
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../spec/sinumerik-840d");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../spec/families/sinumerik-840d");
     let path = folder.join(name).with_extension("toml");
     let text = std::fs::read_to_string(path).map_err(|e| e.to_string())?;
     let table: Table = text.parse().map_err(|e| format!("{e}"))?;

@@ -6,8 +6,8 @@ mod single;
 mod story;
 
 use crate::manuals::case::{Given, Runner};
+use stillpoint_machine::Machine;
 use stillpoint_monitors::sinumerik::parameters::{Configuration, Parameters};
-use stillpoint_spec::machine::Machine;
 
 /// The runners by name; every one is used by a case.
 pub const RUNNERS: &[(&str, Runner)] = &[
@@ -58,10 +58,10 @@ fn load(control: &str, axis: &str) -> Result<Machine, String> {
 /// The machine of a file.
 fn read(text: &str) -> Result<Machine, String> {
     let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    stillpoint_spec::machine::load_bytes(
+    stillpoint_machine::load_bytes(
         &root.join("tests/corpus/case.toml"),
         text.as_bytes().to_vec(),
-        &root.join("spec"),
+        &root.join("spec/families"),
     )
     .map_err(|e| format!("{e:?}"))
 }

@@ -1,8 +1,8 @@
 //! The groups of a channel: the kernel of each, what the other groups make of it, and what the safe PLC asks of it.
 
+use stillpoint_machine::Machine;
 use stillpoint_monitors::heidenhain::types::{GroupState, Kind, Stop};
 use stillpoint_monitors::heidenhain::{agreement, axis_release, channel, gate, group, neighbour};
-use stillpoint_spec::machine::Machine;
 
 use super::{Before, Channel};
 use crate::families::Now;

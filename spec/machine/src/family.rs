@@ -1,0 +1,319 @@
+//! The data of a family that machine files are read with: parameters, functions, plausibility rules, systems to explore.
+//! They stand in `<family>/family.toml`; nothing of them is known to the code.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use indexmap::IndexMap;
+use serde::Deserialize;
+use toml::Spanned;
+
+use super::AxisKind;
+use super::units::Dimension;
+use stillpoint_lang::syntax::ast::Expr;
+
+/// Everything that `family.toml` says, checked.
+#[derive(Debug)]
+pub(super) struct Family {
+    /// Its folder, which holds the specification files too.
+    pub folder: PathBuf,
+    /// The file and its text, for diagnostics about the data themselves.
+    pub file: String,
+    pub source: Arc<str>,
+    pub title: String,
+    pub max_axes: usize,
+    /// The greatest number of axis groups that a machine file may declare.
+    pub max_groups: usize,
+    pub monitoring_cycle: Formula,
+    /// TRUE for an axis whose stops act on every axis of the machine; none: there is no such axis.
+    pub coupled_to_all: Option<Formula>,
+    pub functions: Vec<Function>,
+    pub control: IndexMap<String, Param>,
+    pub axis: IndexMap<String, Param>,
+    /// Parameters of an axis group. With them a machine file declares its groups, and a door names groups in place of axes.
+    pub group: Option<IndexMap<String, Param>>,
+    pub door: IndexMap<String, Param>,
+    /// Named expressions over the values of an axis, in order.
+    pub lets: Vec<(String, Formula)>,
+    /// Named expressions over the values of a group and of what belongs to it, in order.
+    pub group_lets: Vec<(String, Formula)>,
+    pub rules: Vec<Rule>,
+    pub explore: Vec<Explore>,
+    /// The names that expressions may read.
+    pub known: Known,
+    /// Machines of the tables that a machine file may replace by its own `[logic]`.
+    pub logic: IndexMap<String, Slot>,
+}
+
+impl Family {
+    /// A named expression over the values of an axis or of a group.
+    pub fn named(&self, name: &str) -> Option<&Formula> {
+        let mut all = self.lets.iter().chain(&self.group_lets);
+        all.find(|(known, _)| known == name)
+            .map(|(_, formula)| formula)
+    }
+}
+
+/// The names that expressions of each scope may read.
+#[derive(Debug, Default)]
+pub(super) struct Known {
+    pub control: Vec<String>,
+    pub axis: Vec<String>,
+    /// A door and one axis behind it.
+    pub door: Vec<String>,
+    /// A group, a door with everything behind it, or the machine.
+    pub whole: Vec<String>,
+    /// Whether machine files declare groups.
+    pub groups: bool,
+    /// The times, and what is made of them, by the roundings of the parameters in them.
+    pub roundings: BTreeMap<String, Vec<Rounding>>,
+}
+
+impl Known {
+    /// The different roundings of the times that the expression reads.
+    pub fn roundings(&self, formula: &Formula) -> Vec<Rounding> {
+        let mut found = Vec::new();
+        super::eval::names(&formula.expr, &mut |name| {
+            for rounding in self.roundings.get(name).into_iter().flatten() {
+                if !found.contains(rounding) {
+                    found.push(*rounding);
+                }
+            }
+        });
+        found
+    }
+
+    /// Named expressions have the roundings of what they read.
+    pub fn inherit(&mut self, lets: &[(String, Formula)]) {
+        for (name, formula) in lets {
+            let roundings = self.roundings(formula);
+            self.roundings.insert(name.clone(), roundings);
+        }
+    }
+
+    /// The names for what is explored.
+    pub fn of_explored(&self, each: Scope, members: usize) -> &[String] {
+        match each {
+            Scope::Axis => &self.axis,
+            Scope::Group if members > 0 => &self.axis,
+            _ => &self.whole,
+        }
+    }
+}
+
+/// A machine of the tables that a machine file may replace.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Slot {
+    /// The specification file that declares it.
+    pub file: String,
+    /// What it is, in a few words.
+    pub text: String,
+}
+
+/// A safety function that can be enabled for an axis.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Function {
+    pub name: String,
+    /// Its bit in the enable word.
+    #[allow(dead_code)] // part of the data; the tests compare it with the machine data table
+    pub bit: u32,
+    /// The Boolean that expressions know it by, and its index there.
+    pub variable: String,
+    #[serde(default)]
+    pub index: usize,
+    /// Whether one of the explored systems contains it.
+    pub explored: bool,
+    pub text: String,
+    pub id: Vec<String>,
+}
+
+/// What a parameter measures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum Quantity {
+    Length,
+    Angle,
+    Grid,
+    Pitch,
+    Speed,
+    /// A speed in revolutions, whatever the kind of axis.
+    Rotation,
+    Time,
+    Percent,
+    Frequency,
+    Count,
+    Choice,
+    Bool,
+    /// Groups that come before this one, by name; inside a bit for each, in the order of the machine file.
+    Groups,
+}
+
+impl Quantity {
+    /// The dimension for an axis of this kind; choices and Booleans are plain numbers inside.
+    pub fn dimension(self, kind: AxisKind) -> Dimension {
+        match (self, kind) {
+            (Self::Length, AxisKind::Linear) => Dimension::Length,
+            (Self::Length, AxisKind::Rotary) | (Self::Angle, _) => Dimension::Angle,
+            (Self::Grid, _) => Dimension::Grid,
+            (Self::Pitch, _) => Dimension::Pitch,
+            (Self::Speed, AxisKind::Linear) => Dimension::Speed,
+            (Self::Speed, AxisKind::Rotary) | (Self::Rotation, _) => Dimension::Rotation,
+            (Self::Time, _) => Dimension::Time,
+            (Self::Percent, _) => Dimension::Percent,
+            (Self::Frequency, _) => Dimension::Frequency,
+            (Self::Count | Self::Choice | Self::Bool | Self::Groups, _) => Dimension::Count,
+        }
+    }
+}
+
+/// A parameter of the control, an axis, a group or a door.
+#[derive(Debug)]
+pub(super) struct Param {
+    pub quantity: Quantity,
+    /// The manual's names: `MD36930 $MA_SAFE_STANDSTILL_TOL`; empty for what is no machine datum.
+    pub manual: String,
+    /// What it is, in a few words.
+    pub text: String,
+    /// Requirement ids.
+    pub id: Vec<String>,
+    /// Number of values; 0 for a scalar.
+    pub count: usize,
+    /// What the values of an array are, for messages: `SG1 to SG4`.
+    pub elements: String,
+    pub choices: Vec<(String, i64)>,
+    /// The kinds of axes that have it, as a machine file names them; empty: all.
+    pub kinds: Vec<String>,
+    /// The finest step that the control takes, in base units; 1 where it is a base unit.
+    pub step: i64,
+    /// How a time becomes whole cycles.
+    pub cycles: Rounding,
+    pub linear: Limits,
+    pub rotary: Limits,
+}
+
+/// How a time becomes whole cycles: one rule for each parameter, wherever its value goes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum Rounding {
+    /// Nothing happens before the time is over.
+    #[default]
+    Up,
+    /// What has to happen in the time does not come later.
+    Down,
+}
+
+impl Rounding {
+    /// `time` in whole cycles; both positive or 0.
+    pub fn cycles(self, time: i64, cycle: i64) -> i64 {
+        time / cycle + i64::from(self == Self::Up && time % cycle != 0)
+    }
+}
+
+/// The allowed range and the default of a parameter, in base units.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Limits {
+    pub min: i64,
+    pub max: i64,
+    pub default: i64,
+}
+
+impl Param {
+    pub fn limits(&self, kind: AxisKind) -> &Limits {
+        match kind {
+            AxisKind::Linear => &self.linear,
+            AxisKind::Rotary => &self.rotary,
+        }
+    }
+
+    /// Whether an axis of the kind with this name has it; what is no axis has no kind.
+    pub fn is_of(&self, kind: &str) -> bool {
+        kind.is_empty() || self.kinds.is_empty() || self.kinds.iter().any(|k| k == kind)
+    }
+
+    /// Whether the manual calls it so: `MD36930`, `MD1330` or `$MA_SAFE_STANDSTILL_TOL`.
+    pub fn is_called(&self, name: &str) -> bool {
+        let mut names = self.manual.split(['/', ' ']).filter(|n| !n.is_empty());
+        names.any(|n| n == name)
+    }
+
+    /// The value as a user writes it.
+    pub fn show(&self, value: i64, kind: AxisKind) -> String {
+        match self.quantity {
+            Quantity::Choice => self
+                .choices
+                .iter()
+                .find(|(_, code)| *code == value)
+                .map_or_else(|| value.to_string(), |(name, _)| format!("\"{name}\"")),
+            Quantity::Bool => (value != 0).to_string(),
+            Quantity::Groups if value == 0 => "none".to_owned(),
+            _ => self.quantity.dimension(kind).show(value),
+        }
+    }
+}
+
+/// An expression of the data and the place of its text.
+#[derive(Debug)]
+pub(super) struct Formula {
+    pub text: Spanned<String>,
+    pub expr: Expr,
+}
+
+/// What a rule or a system speaks about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum Scope {
+    Control,
+    Axis,
+    Door,
+    Group,
+    Machine,
+}
+
+/// A plausibility rule: `when` must not hold.
+#[derive(Debug)]
+pub(super) struct Rule {
+    pub of: Scope,
+    pub id: Vec<String>,
+    pub alarm: Option<u32>,
+    /// The values of `k`; one pass with k = 0 where there are none.
+    pub each: Vec<i64>,
+    pub when: Formula,
+    /// The key whose place is shown: `POS_LIMIT_PLUS[k]` or `functions`.
+    pub at: String,
+    pub text: String,
+    pub fix: String,
+}
+
+/// A system to explore for an axis, a group of axes, a door or the machine.
+#[derive(Debug)]
+pub(super) struct Explore {
+    pub file: String,
+    pub system: String,
+    pub each: Scope,
+    pub when: Formula,
+    pub text: String,
+    /// Where the system is coarser than the axis beside its times; may be empty.
+    pub note: String,
+    /// For a group: how many axes the system has, each with values of its own; 0: any, the group has one value of each.
+    pub members: usize,
+    /// The length of a cycle of the system, where it is not the monitoring cycle.
+    pub cycle: Option<Formula>,
+    pub params: Vec<Binding>,
+}
+
+/// How parameters of a system follow from the values of an axis.
+#[derive(Debug)]
+pub(super) enum Binding {
+    /// The parameter is the value of the expression.
+    Value(String, Formula),
+    /// A time: whole monitoring cycles, rounded as its parameters say, up where there are none; divided by the common step
+    /// where the system is scaled.
+    Time(String, Formula, Rounding),
+    /// Each of the parameters is the position of one value of a list among its different values, from 0.
+    Rank(String, Vec<String>),
+    /// Each of the parameters is the value of the expression for one member of the group.
+    Member(Formula, Vec<String>),
+}

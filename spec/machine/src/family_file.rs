@@ -1,0 +1,497 @@
+//! Reads `family.toml` and checks it: names, ranges, expressions.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use indexmap::IndexMap;
+use serde::Deserialize;
+use toml::Spanned;
+
+use super::AxisKind;
+use super::document::Findings;
+use super::eval;
+use super::family::{
+    Binding, Explore, Family, Formula, Function, Known, Limits, Param, Quantity, Rounding, Rule,
+    Scope, Slot,
+};
+use super::value::{Raw, number};
+use stillpoint_lang::diag::Result;
+use stillpoint_lang::read_text;
+use stillpoint_lang::syntax::parse_expr;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct FamilyFile {
+    name: Spanned<String>,
+    title: String,
+    max_axes: usize,
+    #[serde(default)]
+    max_groups: usize,
+    monitoring_cycle: Spanned<String>,
+    coupled_to_all: Option<Spanned<String>>,
+    #[serde(default)]
+    function: Vec<Function>,
+    #[serde(default)]
+    control: IndexMap<String, ParamData>,
+    axis: IndexMap<String, ParamData>,
+    group: Option<IndexMap<String, ParamData>>,
+    #[serde(default)]
+    door: IndexMap<String, ParamData>,
+    #[serde(default, rename = "let")]
+    lets: IndexMap<String, Spanned<String>>,
+    #[serde(default)]
+    group_let: IndexMap<String, Spanned<String>>,
+    #[serde(default)]
+    logic: IndexMap<String, Slot>,
+    #[serde(default)]
+    plausibility: Vec<RuleData>,
+    explore: Vec<ExploreData>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ParamData {
+    #[serde(default)]
+    md: Vec<u32>,
+    #[serde(default)]
+    name: String,
+    text: String,
+    quantity: Spanned<Quantity>,
+    #[serde(default)]
+    count: usize,
+    #[serde(default)]
+    elements: String,
+    range: Option<(Spanned<toml::Value>, Spanned<toml::Value>)>,
+    default: Option<Spanned<toml::Value>>,
+    linear: Option<LimitsData>,
+    rotary: Option<LimitsData>,
+    #[serde(default)]
+    choice: IndexMap<String, i64>,
+    #[serde(default)]
+    kinds: Vec<String>,
+    #[serde(default = "one")]
+    step: i64,
+    cycles: Option<Spanned<Rounding>>,
+    id: Vec<String>,
+}
+
+const fn one() -> i64 {
+    1
+}
+
+#[derive(Deserialize, Clone)]
+#[serde(deny_unknown_fields)]
+struct LimitsData {
+    range: Option<(Spanned<toml::Value>, Spanned<toml::Value>)>,
+    default: Spanned<toml::Value>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RuleData {
+    of: Scope,
+    id: Vec<String>,
+    alarm: Option<u32>,
+    #[serde(default)]
+    each: Vec<i64>,
+    when: Spanned<String>,
+    at: String,
+    text: String,
+    fix: String,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ExploreData {
+    file: String,
+    system: String,
+    each: Scope,
+    when: Spanned<String>,
+    text: String,
+    #[serde(default)]
+    time: IndexMap<String, Spanned<String>>,
+    /// Times that no parameter gives, such as one that the manual fixes, to be rounded down.
+    #[serde(default)]
+    down: Vec<Spanned<String>>,
+    #[serde(default)]
+    param: IndexMap<String, Spanned<String>>,
+    #[serde(default)]
+    rank: IndexMap<Spanned<String>, Vec<String>>,
+    #[serde(default)]
+    member: IndexMap<Spanned<String>, Vec<String>>,
+    #[serde(default)]
+    members: usize,
+    cycle: Option<Spanned<String>>,
+    #[serde(default)]
+    note: String,
+}
+
+/// What the expressions about an axis may read beside parameters, functions and lets.
+const OF_AXIS: [&str; 6] = [
+    "kind",
+    "LINEAR",
+    "ROTARY",
+    "spindle",
+    "enabled_any",
+    "monitoring_cycle",
+];
+
+/// A list of groups is one cell.
+const MOST_GROUPS: usize = 62;
+
+/// The names of the families under `root`, sorted: folders with a `family.toml`.
+pub(super) fn families(root: &Path) -> Vec<String> {
+    let folders = stillpoint_lang::files::list(root)
+        .unwrap_or_default()
+        .into_iter();
+    folders
+        .filter(|folder| stillpoint_lang::files::is_file(&folder.join("family.toml")))
+        .filter_map(|folder| folder.file_name()?.to_str().map(str::to_owned))
+        .collect()
+}
+
+/// Reads the data of the family in `folder`.
+///
+/// # Errors
+/// Everything in the file that is not as [`super::family`] describes it.
+pub(super) fn load(folder: &Path) -> Result<Family> {
+    let path = folder.join("family.toml");
+    let file = path.display().to_string();
+    let source = read_text(&path, "family file")?;
+    let mut check = Check {
+        findings: Findings::new(&file, &source),
+    };
+    match check.family(folder, &file, &source) {
+        Some(family) => check.findings.finish(family),
+        None => Err(check.findings.into_diagnostics()),
+    }
+}
+
+/// Reads one file of a family's data and collects what is wrong in it.
+pub(super) struct Check {
+    pub findings: Findings,
+}
+
+impl Check {
+    /// `None` leaves at least one finding.
+    fn family(&mut self, folder: &Path, file: &str, source: &Arc<str>) -> Option<Family> {
+        let data: FamilyFile = match toml::from_str(source) {
+            Ok(data) => data,
+            Err(error) => {
+                let help = "compare with the other entries of this file";
+                self.findings
+                    .add(error.span(), error.message(), "here", help);
+                return None;
+            }
+        };
+        if folder
+            .file_name()
+            .is_some_and(|n| *n != *data.name.get_ref().as_str())
+        {
+            self.findings.add(
+                data.name.span(),
+                format!(
+                    "the family '{}' stands in another folder",
+                    data.name.get_ref()
+                ),
+                "",
+                "give the folder the name of the family",
+            );
+        }
+        if data.max_groups > MOST_GROUPS {
+            let message = format!("max_groups is {}", data.max_groups);
+            let help = format!("at most {MOST_GROUPS}: a list of groups has a bit for each");
+            self.findings.add(None, message, "", help);
+        }
+        let control = self.params(data.control);
+        let axis = self.params(data.axis);
+        let group = data.group.map(|group| self.params(group));
+        let door = self.params(data.door);
+        let owned = |params: &IndexMap<String, Param>| params.keys().cloned().collect::<Vec<_>>();
+        let mut known = Known {
+            control: owned(&control),
+            axis: OF_AXIS.map(str::to_owned).to_vec(),
+            groups: group.is_some(),
+            ..Known::default()
+        };
+        let all = [&control, &axis].into_iter().chain(&group).chain([&door]);
+        for (name, param) in all.flatten() {
+            if param.quantity == Quantity::Time {
+                known.roundings.insert(name.clone(), vec![param.cycles]);
+            }
+        }
+        let monitoring_cycle = self.formula(data.monitoring_cycle, &known.control);
+        known.axis.extend(owned(&control));
+        known.axis.extend(owned(&axis));
+        let functions = data.function.iter();
+        known.axis.extend(functions.map(|f| f.variable.clone()));
+        let lets = self.lets(data.lets, &mut known.axis);
+        known.inherit(&lets);
+        let coupled_to_all = match data.coupled_to_all {
+            Some(text) => Some(self.formula(text, &known.axis)?),
+            None => None,
+        };
+        known.door = known.axis.clone();
+        known.door.extend(owned(&door));
+        known.whole = known.door.clone();
+        known.whole.extend(group.iter().flat_map(owned));
+        let group_lets = self.lets(data.group_let, &mut known.whole);
+        known.inherit(&group_lets);
+        known.axis.push("k".to_owned());
+        known.whole.push("k".to_owned());
+        let rules = data.plausibility.into_iter();
+        let rules = rules.filter_map(|r| self.rule(r, &known)).collect();
+        let explore = data.explore.into_iter();
+        let explore = explore.filter_map(|e| self.explore(e, &known)).collect();
+        Some(Family {
+            folder: folder.to_owned(),
+            file: file.to_owned(),
+            source: source.clone(),
+            title: data.title,
+            max_axes: data.max_axes,
+            max_groups: data.max_groups,
+            monitoring_cycle: monitoring_cycle?,
+            coupled_to_all,
+            functions: data.function,
+            control,
+            axis,
+            group,
+            door,
+            lets,
+            group_lets,
+            rules,
+            explore,
+            known,
+            logic: data.logic,
+        })
+    }
+
+    /// Named expressions, each of which may read those before it.
+    fn lets(
+        &mut self,
+        data: IndexMap<String, Spanned<String>>,
+        known: &mut Vec<String>,
+    ) -> Vec<(String, Formula)> {
+        let mut lets = Vec::new();
+        for (name, text) in data {
+            let formula = self.formula(text, known);
+            known.push(name.clone());
+            lets.extend(formula.map(|f| (name, f)));
+        }
+        lets
+    }
+
+    fn params(&mut self, data: IndexMap<String, ParamData>) -> IndexMap<String, Param> {
+        let mut params = IndexMap::new();
+        for (key, data) in data {
+            params.insert(key, self.param(data));
+        }
+        params
+    }
+
+    fn param(&mut self, data: ParamData) -> Param {
+        let numbers: Vec<String> = data.md.iter().map(|n| format!("MD{n}")).collect();
+        let manual = format!("{} {}", numbers.join("/"), data.name);
+        let common = data.default.map(|default| LimitsData {
+            range: data.range,
+            default,
+        });
+        let mut param = Param {
+            quantity: data.quantity.into_inner(),
+            manual: manual.trim().to_owned(),
+            text: data.text,
+            id: data.id,
+            count: data.count,
+            elements: data.elements,
+            choices: data.choice.into_iter().collect(),
+            kinds: data.kinds,
+            step: data.step.max(1),
+            cycles: data
+                .cycles
+                .as_ref()
+                .map_or_else(Rounding::default, |c| *c.get_ref()),
+            linear: Limits::default(),
+            rotary: Limits::default(),
+        };
+        if let Some(cycles) = data.cycles.filter(|_| param.quantity != Quantity::Time) {
+            let help = "only a time becomes cycles: leave it out";
+            self.findings
+                .add(cycles.span(), "this is no time", "", help);
+        }
+        if let Some(limits) = data.linear.or_else(|| common.clone()) {
+            param.linear = self.limits(&param, limits, AxisKind::Linear);
+        }
+        if let Some(limits) = data.rotary.or(common) {
+            param.rotary = self.limits(&param, limits, AxisKind::Rotary);
+        }
+        param
+    }
+
+    fn limits(&mut self, param: &Param, data: LimitsData, kind: AxisKind) -> Limits {
+        let codes = param.choices.iter().map(|(_, code)| *code);
+        let (min, max) = match (param.quantity, &data.range) {
+            (Quantity::Bool, None) => (0, 1),
+            (Quantity::Groups, None) => (0, i64::MAX),
+            (Quantity::Choice, None) => {
+                (codes.clone().min().unwrap_or(0), codes.max().unwrap_or(0))
+            }
+            (_, Some((min, max))) => (self.value(param, min, kind), self.value(param, max, kind)),
+            (_, None) => {
+                let help = "write range = [least, greatest]";
+                self.findings
+                    .add(data.default.span(), "the range is missing", "", help);
+                (0, 0)
+            }
+        };
+        let default = self.value(param, &data.default, kind);
+        if !(min..=max).contains(&default) {
+            let help = "the least value, the default and the greatest value must rise";
+            self.findings.add(
+                data.default.span(),
+                "the default is outside the range",
+                "",
+                help,
+            );
+        }
+        Limits { min, max, default }
+    }
+
+    fn value(&mut self, param: &Param, value: &Spanned<toml::Value>, kind: AxisKind) -> i64 {
+        match number(&Raw::from(value.get_ref()), param, kind) {
+            Ok(value) => value,
+            Err(refusal) => {
+                self.findings
+                    .add(value.span(), refusal.message, refusal.label, refusal.help);
+                0
+            }
+        }
+    }
+
+    /// Parses an expression and checks that the names in it are `known`.
+    pub fn formula(&mut self, text: Spanned<String>, known: &[String]) -> Option<Formula> {
+        let expr = match parse_expr(text.get_ref()) {
+            Ok(expr) => expr,
+            Err(error) => {
+                self.findings
+                    .add(text.span(), error.message, "in this expression", error.help);
+                return None;
+            }
+        };
+        let mut unknown = None;
+        eval::names(&expr, &mut |name| {
+            if !known.iter().any(|k| k == name) {
+                unknown.get_or_insert(name.to_owned());
+            }
+        });
+        if let Some(name) = unknown {
+            let help = match stillpoint_lang::diag::nearest(&name, known.iter().map(String::as_str))
+            {
+                Some(near) => format!("did you mean '{near}'?"),
+                None => "parameters, functions and lets of this file can be read".to_owned(),
+            };
+            let message = format!("unknown name '{name}'");
+            self.findings
+                .add(text.span(), message, "in this expression", help);
+            return None;
+        }
+        Some(Formula { text, expr })
+    }
+
+    fn rule(&mut self, data: RuleData, known: &Known) -> Option<Rule> {
+        let known = match data.of {
+            Scope::Control => &known.control,
+            Scope::Axis => &known.axis,
+            Scope::Door => &known.door,
+            Scope::Group | Scope::Machine => &known.whole,
+        };
+        Some(Rule {
+            of: data.of,
+            id: data.id,
+            alarm: data.alarm,
+            each: if data.each.is_empty() {
+                vec![0]
+            } else {
+                data.each
+            },
+            when: self.formula(data.when, known)?,
+            at: data.at,
+            text: data.text,
+            fix: data.fix,
+        })
+    }
+
+    /// What one entry of `[[explore]]` says.
+    pub fn explore(&mut self, data: ExploreData, known: &Known) -> Option<Explore> {
+        if data.each == Scope::Control {
+            let help = "write each = \"axis\", \"group\", \"door\" or \"machine\"";
+            let message = "no systems are explored for the control alone";
+            self.findings.add(data.when.span(), message, "", help);
+        }
+        if data.each == Scope::Group && data.members == 0 && !known.groups {
+            let help = "write members = 3, or declare the parameters of a group";
+            let message = "how many axes has the system?";
+            self.findings.add(data.when.span(), message, "", help);
+        }
+        let roundings = |formula: &Formula| known.roundings(formula);
+        let known = known.of_explored(data.each, data.members);
+        let cycle = match data.cycle {
+            Some(text) => Some(self.formula(text, known)?),
+            None => None,
+        };
+        let mut params = Vec::new();
+        for (name, text) in data.param {
+            params.push(Binding::Value(name, self.formula(text, known)?));
+        }
+        for name in &data.down {
+            if !data.time.contains_key(name.get_ref()) {
+                let message = format!("'{}' is no time here", name.get_ref());
+                let help = "name one of the keys of time";
+                self.findings.add(name.span(), message, "", help);
+            }
+        }
+        for (name, text) in data.time {
+            let span = text.span();
+            let formula = self.formula(text, known)?;
+            let down = data.down.iter().any(|d| *d.get_ref() == name);
+            let rounding = match roundings(&formula).as_slice() {
+                [] if down => Rounding::Down,
+                [] => Rounding::Up,
+                [own] if down && *own != Rounding::Down => {
+                    let message = "the parameter has a rounding of its own";
+                    self.findings.add(span, message, "", "leave it out of down");
+                    return None;
+                }
+                [one] => *one,
+                _ => {
+                    let message = "one of these times is rounded up to whole cycles, another down";
+                    let help = "write it under param, with CYCLES(...) for up and / monitoring_cycle for down";
+                    self.findings.add(span, message, "", help);
+                    return None;
+                }
+            };
+            params.push(Binding::Time(name, formula, rounding));
+        }
+        for (list, names) in data.rank {
+            if !known.contains(list.get_ref()) {
+                let message = format!("unknown name '{}'", list.get_ref());
+                self.findings
+                    .add(list.span(), message, "", "name a list of values");
+            }
+            params.push(Binding::Rank(list.into_inner(), names));
+        }
+        for (text, names) in data.member {
+            params.push(Binding::Member(self.formula(text, known)?, names));
+        }
+        Some(Explore {
+            file: data.file,
+            system: data.system,
+            each: data.each,
+            when: self.formula(data.when, known)?,
+            text: data.text,
+            note: data.note,
+            members: data.members,
+            cycle,
+            params,
+        })
+    }
+}

@@ -1,0 +1,388 @@
+//! From the values of the axes, groups and doors to the explorations that cover the machine.
+
+use std::collections::BTreeMap;
+
+use super::eval::Values;
+use super::family::{Binding, Explore, Family, Rounding, Scope};
+use super::plausible::{Judged, evaluate};
+use super::{Axis, Door, Group, Run};
+use stillpoint_lang::diag::{Diagnostic, Diagnostics, Result};
+
+/// A scaled system has at most this many steps in its longest time.
+const STEPS: i64 = 2;
+
+/// What a machine consists of.
+#[derive(Clone, Copy)]
+pub(super) struct Parts<'a> {
+    pub axes: &'a [Axis],
+    pub groups: &'a [Group],
+    pub doors: &'a [Door],
+}
+
+/// The groups of coupled axes and the runs.
+pub(super) struct Plan {
+    pub groups: Vec<Vec<String>>,
+    pub runs: Vec<Run>,
+}
+
+/// Plans the runs of a machine.
+///
+/// # Errors
+/// Faults of the family's data.
+pub(super) fn plan(
+    family: &Family,
+    explored: &[Explore],
+    parts: Parts<'_>,
+    judged: &Judged,
+) -> Result<Plan> {
+    let coupled = coupled(family, parts.axes, judged)?;
+    let mut planned: Vec<Planned> = Vec::new();
+    let mut files = BTreeMap::new();
+    for explore in explored {
+        let scaled = is_scaled(family, explore, &mut files)?;
+        for subject in subjects(family, explore, parts, &coupled, judged)? {
+            // A group whose members differ is explored with the values of each.
+            for of in 0..subject.members.len() {
+                let run = bind(family, explore, scaled, judged.cycle, &subject, of)?;
+                merge(&mut planned, run);
+            }
+        }
+    }
+    let name = |k: &usize| parts.axes.get(*k).map(|a| a.name.clone());
+    let names = |group: &Vec<usize>| group.iter().filter_map(name).collect();
+    let declared = |group: &Group| group.axes.iter().map(|a| a.get_ref().clone()).collect();
+    Ok(Plan {
+        groups: match family.group {
+            Some(_) => parts.groups.iter().map(declared).collect(),
+            None => coupled.iter().map(names).collect(),
+        },
+        runs: planned.into_iter().map(Planned::titled).collect(),
+    })
+}
+
+/// An exploration, and what it stands for.
+struct Planned {
+    run: Run,
+    each: Scope,
+    /// Whether the values are those of one member among several.
+    of_member: bool,
+    /// The axes, groups or doors it stands for.
+    names: Vec<String>,
+}
+
+impl Planned {
+    /// The run with the names in its title.
+    fn titled(mut self) -> Run {
+        let (one, several) = match (self.each, self.of_member) {
+            (Scope::Axis, _) | (Scope::Group, true) => ("axis", "axes"),
+            (Scope::Group, false) => ("group", "groups"),
+            (Scope::Door, _) => ("door", "doors"),
+            (Scope::Machine | Scope::Control, _) => return self.run,
+        };
+        let noun = if self.names.len() == 1 { one } else { several };
+        self.run.title = format!("{}, {noun} {}", self.run.title, self.names.join(", "));
+        self.run
+    }
+}
+
+/// An axis or a whole and its values.
+type Member<'a> = (&'a str, &'a Values);
+
+/// What a system is explored for.
+struct Subject<'a> {
+    /// One member, or for a system of several axes all of them.
+    members: Vec<Member<'a>>,
+    /// The axes it stands for.
+    axes: Vec<String>,
+}
+
+/// Everything that `explore` is meant for.
+fn subjects<'a>(
+    family: &Family,
+    explore: &Explore,
+    parts: Parts<'a>,
+    coupled: &[Vec<usize>],
+    judged: &'a Judged,
+) -> Result<Vec<Subject<'a>>> {
+    let all = parts.axes.iter().map(|a| a.name.clone()).collect();
+    let names = |list: &[toml::Spanned<String>]| list.iter().map(|a| a.get_ref().clone()).collect();
+    let wholes: Vec<(Member<'a>, Vec<String>)> = match explore.each {
+        Scope::Group if explore.members == 0 => (parts.groups.iter().zip(&judged.groups))
+            .map(|(group, values)| ((group.name.as_str(), values), names(&group.axes)))
+            .collect(),
+        Scope::Door => (parts.doors.iter().zip(&judged.doors))
+            .map(|(door, values)| ((door.name.as_str(), values), names(&door.axes)))
+            .collect(),
+        Scope::Machine => vec![(("", &judged.machine), all)],
+        Scope::Axis | Scope::Group | Scope::Control => Vec::new(),
+    };
+    let mut list = Vec::new();
+    for ((name, values), axes) in wholes {
+        if evaluate(family, &explore.when, values, judged.cycle)? != 0 {
+            let members = vec![(name, values)];
+            list.push(Subject { members, axes });
+        }
+    }
+    let singles: Vec<Vec<usize>>;
+    let (candidates, size) = match explore.each {
+        Scope::Group => (coupled, explore.members),
+        Scope::Axis => {
+            singles = (0..parts.axes.len()).map(|k| vec![k]).collect();
+            (&singles[..], 1)
+        }
+        _ => (&[][..], 0),
+    };
+    for candidate in candidates {
+        let members = members(family, explore, parts.axes, judged, candidate)?;
+        if members.len() == size && size > 0 {
+            let axes = members.iter().map(|(name, _)| (*name).to_owned()).collect();
+            list.push(Subject { members, axes });
+        }
+    }
+    Ok(list)
+}
+
+/// The axes of `candidate` that `explore` is meant for.
+fn members<'a>(
+    family: &Family,
+    explore: &Explore,
+    axes: &'a [Axis],
+    judged: &'a Judged,
+    candidate: &[usize],
+) -> Result<Vec<Member<'a>>> {
+    let mut members = Vec::new();
+    for k in candidate {
+        if let (Some(axis), Some(values)) = (axes.get(*k), judged.axes.get(*k)) {
+            if evaluate(family, &explore.when, values, judged.cycle)? != 0 {
+                members.push((axis.name.as_str(), values));
+            }
+        }
+    }
+    Ok(members)
+}
+
+/// The connected groups of axes: those that interpolate, and those whose stop acts on the whole channel.
+fn coupled(family: &Family, axes: &[Axis], judged: &Judged) -> Result<Vec<Vec<usize>>> {
+    let mut label: Vec<usize> = (0..axes.len()).collect();
+    for (i, axis) in axes.iter().enumerate() {
+        let everyone = match (&family.coupled_to_all, judged.axes.get(i)) {
+            (Some(formula), Some(values)) => evaluate(family, formula, values, judged.cycle)? != 0,
+            _ => false,
+        };
+        for (j, other) in axes.iter().enumerate() {
+            let named = axis
+                .interpolates_with
+                .iter()
+                .any(|n| *n.get_ref() == other.name);
+            if everyone || named {
+                let (from, to) = (label[i].max(label[j]), label[i].min(label[j]));
+                label
+                    .iter_mut()
+                    .filter(|l| **l == from)
+                    .for_each(|l| *l = to);
+            }
+        }
+    }
+    let mut groups: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    for (k, l) in label.into_iter().enumerate() {
+        groups.entry(l).or_default().push(k);
+    }
+    Ok(groups.into_values().filter(|g| g.len() > 1).collect())
+}
+
+/// Whether the specification file declares the system with scaled timers; `files` keeps what was read.
+///
+/// # Errors
+/// The file or the system does not exist.
+fn is_scaled<'e>(
+    family: &Family,
+    explore: &'e Explore,
+    files: &mut BTreeMap<&'e str, toml::Table>,
+) -> Result<bool> {
+    let fault = |message: String| -> Diagnostics {
+        Diagnostic::new(&family.file, &family.source, None, message)
+            .help("this is an error of the family's data, not of the machine file")
+            .into()
+    };
+    let path = family.folder.join(&explore.file);
+    if !files.contains_key(explore.file.as_str()) {
+        let text = stillpoint_lang::files::read_to_string(&path)
+            .map_err(|e| fault(format!("cannot read {}: {e}", path.display())))?;
+        let table = toml::from_str(&text).map_err(|e| {
+            fault(format!(
+                "{} is not valid TOML: {}",
+                path.display(),
+                e.message()
+            ))
+        })?;
+        files.insert(&explore.file, table);
+    }
+    let system = files
+        .get(explore.file.as_str())
+        .and_then(|file| file.get("system"))
+        .and_then(|s| s.get(&explore.system))
+        .ok_or_else(|| {
+            fault(format!(
+                "{} has no system '{}'",
+                path.display(),
+                explore.system
+            ))
+        })?;
+    Ok(system.get("timers").and_then(toml::Value::as_str) == Some("scaled"))
+}
+
+/// A time bound to a parameter, before and after rounding.
+struct Time {
+    name: String,
+    exact: bool,
+    cycles: i64,
+    rounding: Rounding,
+}
+
+/// The run of `explore` for a subject, with the values of the member at `of`.
+fn bind(
+    family: &Family,
+    explore: &Explore,
+    scaled: bool,
+    cycle: i64,
+    subject: &Subject<'_>,
+    of: usize,
+) -> Result<Planned> {
+    let members = &subject.members;
+    let mut run = Run {
+        title: explore.text.clone(),
+        axes: subject.axes.clone(),
+        file: family.folder.join(&explore.file),
+        system: explore.system.clone(),
+        cycle,
+        params: BTreeMap::new(),
+        sources: BTreeMap::new(),
+        abstractions: Vec::new(),
+    };
+    let planned = |run| Planned {
+        run,
+        each: explore.each,
+        of_member: explore.members > 0,
+        names: members.iter().map(|(name, _)| (*name).to_owned()).collect(),
+    };
+    let Some((_, values)) = members.get(of) else {
+        return Ok(planned(run));
+    };
+    let cycle = match &explore.cycle {
+        Some(formula) => evaluate(family, formula, values, cycle)?.max(1),
+        None => cycle,
+    };
+    run.cycle = cycle;
+    if !explore.note.is_empty() {
+        run.abstractions.push(explore.note.clone());
+    }
+    let mut times = Vec::new();
+    for binding in &explore.params {
+        match binding {
+            Binding::Value(name, formula) => {
+                let value = evaluate(family, formula, values, cycle)?;
+                run.params.insert(name.clone(), vec![value]);
+                let source = formula.text.get_ref().clone();
+                run.sources.insert(name.clone(), source);
+            }
+            Binding::Time(name, formula, rounding) => {
+                let time = evaluate(family, formula, values, cycle)?;
+                let source = formula.text.get_ref().clone();
+                run.sources.insert(name.clone(), source);
+                times.push(Time {
+                    name: name.clone(),
+                    exact: time % cycle == 0,
+                    cycles: rounding.cycles(time, cycle),
+                    rounding: *rounding,
+                });
+            }
+            Binding::Rank(list, names) => {
+                let ranks = ranks(values.get(list).map_or(&[], Vec::as_slice));
+                let cells = ranks.into_iter().map(|rank| vec![rank]);
+                run.params.extend(names.iter().cloned().zip(cells));
+                let sources = names.iter().map(|name| (name.clone(), list.clone()));
+                run.sources.extend(sources);
+                let text = format!("{list} by the order of its values only");
+                run.abstractions.push(text);
+            }
+            Binding::Member(formula, names) => {
+                for (name, (_, values)) in names.iter().zip(members) {
+                    let value = evaluate(family, formula, values, cycle)?;
+                    run.params.insert(name.clone(), vec![value]);
+                    let source = formula.text.get_ref().clone();
+                    run.sources.insert(name.clone(), source);
+                }
+            }
+        }
+    }
+    let longest = times.iter().map(|t| t.cycles).max().unwrap_or(0);
+    let step = if scaled { up(longest, STEPS).max(1) } else { 1 };
+    run.abstractions.extend(times_text(&times, step, cycle));
+    let steps = times
+        .into_iter()
+        .map(|t| (t.name, vec![up(t.cycles, step)]));
+    run.params.extend(steps);
+    Ok(planned(run))
+}
+
+/// `a / b`, rounded up; both positive or 0.
+fn up(a: i64, b: i64) -> i64 {
+    a / b + i64::from(a % b != 0)
+}
+
+/// What the times lost, by the rule of each: `None` when each is a whole number of cycles and not scaled.
+fn times_text(times: &[Time], step: i64, cycle: i64) -> Option<String> {
+    let cycle = super::units::Dimension::Time.show(cycle);
+    let list = |times: &mut dyn Iterator<Item = String>| times.collect::<Vec<_>>().join(", ");
+    if step > 1 {
+        let entry = |t: &Time| format!("{} {} cycles = {}", t.name, t.cycles, up(t.cycles, step));
+        return Some(format!(
+            "times in steps of {step} cycles of {cycle}, rounded up: {}",
+            list(&mut times.iter().map(entry))
+        ));
+    }
+    let mut texts = Vec::new();
+    for (rounding, word) in [(Rounding::Up, "up"), (Rounding::Down, "down")] {
+        let rounded = times.iter().filter(|t| !t.exact && t.rounding == rounding);
+        let text = list(&mut rounded.map(|t| format!("{} = {} cycles", t.name, t.cycles)));
+        if !text.is_empty() {
+            texts.push(format!("times rounded {word} to cycles of {cycle}: {text}"));
+        }
+    }
+    (!texts.is_empty()).then(|| texts.join("; "))
+}
+
+/// The position of each value among the different values, from 0.
+fn ranks(values: &[i64]) -> Vec<i64> {
+    let mut sorted = values.to_vec();
+    sorted.sort_unstable();
+    sorted.dedup();
+    values
+        .iter()
+        .map(|v| sorted.iter().take_while(|s| *s < v).fold(0, |n, _| n + 1))
+        .collect()
+}
+
+/// Adds a run, or what it stands for to the one that explores the same.
+fn merge(list: &mut Vec<Planned>, new: Planned) {
+    let same = list.iter_mut().find(|known| {
+        let (a, b) = (&known.run, &new.run);
+        (&a.file, &a.system, a.cycle, &a.params) == (&b.file, &b.system, b.cycle, &b.params)
+            && (known.each, known.of_member) == (new.each, new.of_member)
+            && (!new.of_member || known.names == new.names)
+    });
+    let Some(known) = same else {
+        list.push(new);
+        return;
+    };
+    let add = |into: &mut Vec<String>, from: Vec<String>| {
+        for text in from {
+            if !into.contains(&text) {
+                into.push(text);
+            }
+        }
+    };
+    add(&mut known.names, new.names);
+    add(&mut known.run.axes, new.run.axes);
+    add(&mut known.run.abstractions, new.run.abstractions);
+}
