@@ -211,7 +211,7 @@ pub fn summarise(subject: &Subject, checked: &[Checked]) -> Vec<Summary> {
         let judgements = properties.zip(&done.outcome.report.properties);
         for (k, (property, judged)) in judgements.enumerate() {
             let new = Summary {
-                id: property.id.clone(),
+                id: task.guarantee.as_ref().unwrap_or(&property.id).clone(),
                 verdict: judged.verdict,
                 length: judged.length,
                 excluded: done.excluded.contains_key(&k),

@@ -13,6 +13,7 @@ pub mod excluded;
 pub mod explore;
 pub mod export;
 pub mod families;
+pub mod guarantees;
 pub mod keep;
 pub mod matrix;
 pub mod pages;

@@ -20,6 +20,8 @@ pub struct Task {
     pub title: String,
     /// The axes it stands for; empty for a specification file.
     pub axes: Vec<String>,
+    /// The guarantee of the machine file that it decides.
+    pub guarantee: Option<String>,
     /// Where it is coarser than the machine.
     pub abstractions: Vec<String>,
     /// The system with its parameter values.
@@ -89,6 +91,7 @@ fn of_spec(path: &Path, text: Arc<str>, readings: &Readings) -> Result<Subject> 
             Ok(analysis) => tasks.push(Task {
                 title: bound.system.text.clone(),
                 axes: Vec::new(),
+                guarantee: None,
                 abstractions: Vec::new(),
                 bound,
                 analysis,
@@ -149,6 +152,7 @@ pub fn of_runs(
         tasks.push(Task {
             title: run.title.clone(),
             axes: run.axes.clone(),
+            guarantee: run.guarantee.clone(),
             abstractions: run.abstractions.clone(),
             bound,
             analysis,

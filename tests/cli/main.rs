@@ -3,6 +3,7 @@
 //! One test binary for all of them, of the package that has the binary: only there cargo tells where it lies.
 
 mod acceptance;
+mod adding;
 mod book;
 mod certify;
 mod commands;
@@ -12,6 +13,7 @@ mod explore;
 mod export_and_trace;
 mod first_hour;
 mod heidenhain;
+mod numbers;
 mod reaction;
 mod recording;
 mod report;

@@ -5,6 +5,7 @@ mod alarms;
 mod book;
 mod conversion;
 mod fuzz;
+mod guarantees;
 mod interface;
 mod machines;
 mod manuals;

@@ -15,6 +15,7 @@ use super::{
     word,
 };
 use crate::check::{Checked, Settings, Summary, exit_status, violations};
+use crate::guarantees::{answers, time, unasked};
 use crate::readings::Compared;
 use crate::states::{Budget, control_states};
 use crate::subject::{Subject, Task};
@@ -130,6 +131,7 @@ pub fn document(
             blocks.push(section(title, anchor, inside));
         }
     };
+    part("This machine", "machine", guaranteed(subject, checked));
     part(
         "Counterexamples",
         "counterexamples",
@@ -266,7 +268,7 @@ fn verdict(subject: &Subject, checked: &[Checked], summaries: &[Summary]) -> Blo
     }
     Block::Verdict {
         tone,
-        head: result(summaries, checked).to_owned(),
+        head: result(subject, summaries, checked).to_owned(),
         text: words(text),
     }
 }
@@ -284,6 +286,43 @@ fn figures(checked: &[Checked], summaries: &[Summary]) -> Block {
             "cycles to the farthest state",
         ),
     ])
+}
+
+/// What the machine file asks of its machine, each with its answer.
+fn guaranteed(subject: &Subject, checked: &[Checked]) -> Vec<Block> {
+    let answers = answers(subject, checked);
+    if answers.is_empty() {
+        return unasked(subject).map(paragraph).into_iter().collect();
+    }
+    let rows = answers.iter().flat_map(|answer| {
+        answer.runs.iter().map(move |run| {
+            let values = run.values.iter();
+            let values = values.map(|v| format!("{} = {}", v.name, v.value));
+            vec![
+                code(&answer.guarantee.name),
+                badge(run.verdict, false),
+                words(format!(
+                    "{}\n{}",
+                    answer.guarantee.text, answer.guarantee.source
+                )),
+                words(run.task.axes.join(", ")),
+                words(
+                    run.bound
+                        .map_or_else(String::new, |b| format!("at most {}", time(b))),
+                ),
+                words(values.collect::<Vec<_>>().join("\n")),
+            ]
+        })
+    });
+    let heads = [
+        "guarantee",
+        "verdict",
+        "in plain words",
+        "axes",
+        "tightest bound",
+        "values it depends on",
+    ];
+    vec![table(&heads, rows.collect())]
 }
 
 fn counterexamples(subject: &Subject, checked: &[Checked]) -> Vec<Block> {

@@ -11,6 +11,7 @@ use super::{params, reduced, verdict_name};
 use crate::check::{Checked, Summary, Unfired};
 use crate::engine::Evaluator;
 use crate::excluded::Exclusion;
+use crate::guarantees::{Answer, answers};
 use crate::reduce;
 use crate::subject::Subject;
 use crate::topics;
@@ -91,10 +92,33 @@ pub fn to_json(subject: &Subject, checked: &[Checked], summaries: &[Summary]) ->
         "properties": summaries.iter().map(|s| json!({
             "id": s.id, "verdict": verdict_name(s.verdict), "length": s.length, "excluded": s.excluded,
         })).collect::<Vec<_>>(),
+        "guarantees": guarantees(subject, checked),
         "faults": topics::to_json(subject, checked, Topic::Fault),
         "reactions": topics::to_json(subject, checked, Topic::Reaction),
         "runs": runs,
     })
+}
+
+/// What the machine file asks of its machine, each with its answer; times in microseconds.
+fn guarantees(subject: &Subject, checked: &[Checked]) -> Vec<Value> {
+    let answer = |answer: &Answer<'_>| {
+        let runs = answer.runs.iter().map(|run| {
+            let values = run.values.iter();
+            let values: BTreeMap<&str, &str> = values
+                .map(|v| (v.name.as_str(), v.value.as_str()))
+                .collect();
+            json!({
+                "axes": run.task.axes, "verdict": verdict_name(run.verdict), "bound_us": run.bound,
+                "values": values, "abstractions": run.task.abstractions,
+            })
+        });
+        let asked = answer.guarantee;
+        json!({
+            "name": asked.name, "pattern": asked.pattern, "door": asked.door, "text": asked.text,
+            "source": asked.source, "verdict": verdict_name(answer.verdict), "runs": runs.collect::<Vec<_>>(),
+        })
+    };
+    answers(subject, checked).iter().map(answer).collect()
 }
 
 /// The parameters that exclude a witness.

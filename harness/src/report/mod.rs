@@ -14,6 +14,7 @@ use stillpoint_show::diagram::{Diagram, Mark};
 
 use crate::check::{Checked, Summary, Unfired, exit_status};
 use crate::engine::replay;
+use crate::guarantees::unasked;
 use crate::subject::Subject;
 use crate::timing;
 
@@ -118,9 +119,14 @@ fn reduced(done: &Checked) -> bool {
 }
 
 /// The result in a few words.
-fn result(summaries: &[Summary], checked: &[Checked]) -> &'static str {
+fn result(subject: &Subject, summaries: &[Summary], checked: &[Checked]) -> &'static str {
+    let guarantees = subject.machine.as_ref().map_or(0, |m| m.guarantees.len());
     match exit_status(summaries, checked) {
         0 if summaries.is_empty() => "EXPLORED, no property is stated",
+        0 if unasked(subject).is_some() => {
+            "NO GUARANTEE IS ASKED, the properties of its family hold"
+        }
+        0 if guarantees > 0 => "ALL GUARANTEES HOLD",
         0 => "ALL PROPERTIES HOLD",
         1 if !summaries.iter().any(|s| s.verdict == Verdict::Violated) => {
             "VIOLATED: a witness that must exist does not"

@@ -7,10 +7,12 @@ use stillpoint_model::{Storage, Verdict};
 
 use super::properties::{Row, rows};
 use super::{
-    counted, counts, diagram, findings, grouped, params, reduced, result, storage_name, word,
+    counted, counts, diagram, findings, grouped, params, reduced, result, storage_name,
+    verdict_name, word,
 };
 use crate::check::{Checked, Settings, Summary, Unfired, violations};
 use crate::engine::Evaluator;
+use crate::guarantees::{answers, time, unasked};
 use crate::reduce;
 use crate::subject::{Subject, Task};
 use crate::topics;
@@ -25,6 +27,7 @@ const WIDTH: usize = 100;
 pub fn text(subject: &Subject, checked: &[Checked], summaries: &[Summary], all: bool) -> String {
     let mut out = String::new();
     headline(&mut out, subject, checked, summaries);
+    guaranteed(&mut out, subject, checked);
     if let Some(machine) = &subject.machine {
         for sentence in machine.coverage() {
             let _ = writeln!(out, "{sentence}");
@@ -78,6 +81,46 @@ pub fn text(subject: &Subject, checked: &[Checked], summaries: &[Summary], all: 
     out
 }
 
+/// What the machine file asks of its machine, each with its answer.
+fn guaranteed(out: &mut String, subject: &Subject, checked: &[Checked]) {
+    if let Some(what) = unasked(subject) {
+        wrapped(out, "", &what);
+        out.push('\n');
+    }
+    let answers = answers(subject, checked);
+    if answers.is_empty() {
+        return;
+    }
+    out.push_str("This machine:\n");
+    for answer in &answers {
+        let head = format!(
+            "  {:<12} {}",
+            word(answer.verdict, false),
+            answer.guarantee.name
+        );
+        wrapped(
+            out,
+            &head,
+            &format!("{} [{}]", answer.guarantee.text, answer.guarantee.source),
+        );
+        for run in &answer.runs {
+            let bound = match run.bound {
+                Some(bound) => format!("in at most {}", time(bound)),
+                None => verdict_name(run.verdict).to_owned(),
+            };
+            let values = run.values.iter();
+            let values = values.map(|v| format!("{} = {}", v.name, v.value));
+            let values = values.collect::<Vec<_>>().join("; ");
+            wrapped(
+                out,
+                &format!("{:15}{}: {bound};", "", run.task.axes.join(", ")),
+                &format!("with {values}"),
+            );
+        }
+    }
+    out.push('\n');
+}
+
 /// Witnesses that must exist and do not, though no value of a machine excludes them.
 fn missing(out: &mut String, subject: &Subject, checked: &[Checked]) {
     let rows = rows(subject, checked);
@@ -115,7 +158,7 @@ fn properties(out: &mut String, subject: &Subject, checked: &[Checked]) {
 
 fn headline(out: &mut String, subject: &Subject, checked: &[Checked], summaries: &[Summary]) {
     let complete = checked.iter().all(|c| c.outcome.report.complete);
-    let verdict = result(summaries, checked);
+    let verdict = result(subject, summaries, checked);
     let states: u128 = checked
         .iter()
         .map(|c| u128::from(c.outcome.report.states))

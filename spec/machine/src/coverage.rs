@@ -1,14 +1,16 @@
 //! What is explored together, apart, or not at all, in words.
 
 use super::family::{Explore, Family, Scope};
+use super::guarantee::Guarantee;
 use super::runs::Parts;
-use super::{Axis, Machine};
+use super::{Axis, Door, Machine};
 
 /// What the file describes and no run contains, in words: functions, doors, axes without functions, groups.
 pub(super) fn not_explored(
     family: &Family,
     parts: Parts<'_>,
     coupled: &[Vec<String>],
+    guarantees: &[Guarantee],
 ) -> Vec<String> {
     let (axes, doors) = (parts.axes, parts.doors);
     let mut list = Vec::new();
@@ -54,7 +56,12 @@ pub(super) fn not_explored(
     }
     let with_doors = |e: &Explore| matches!(e.each, Scope::Door | Scope::Machine);
     let explored = family.explore.iter().any(with_doors);
-    for door in doors.iter().filter(|_| !explored) {
+    let asked = |door: &Door| {
+        guarantees
+            .iter()
+            .any(|g| g.door.as_ref() == Some(&door.name))
+    };
+    for door in doors.iter().filter(|door| !explored && !asked(door)) {
         list.push(format!(
             "door {}: its values are checked, not explored",
             door.name

@@ -10,6 +10,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::AxisKind;
+use super::guarantee::Pattern;
 use super::units::Dimension;
 use stillpoint_lang::syntax::ast::Expr;
 
@@ -44,6 +45,8 @@ pub(super) struct Family {
     pub known: Known,
     /// Machines of the tables that a machine file may replace by its own `[logic]`.
     pub logic: IndexMap<String, Slot>,
+    /// What its machine files can guarantee.
+    pub patterns: IndexMap<String, Pattern>,
 }
 
 impl Family {

@@ -14,6 +14,7 @@ use super::family::{
     Binding, Explore, Family, Formula, Function, Known, Limits, Param, Quantity, Rounding, Rule,
     Scope, Slot,
 };
+use super::guarantee;
 use super::value::{Raw, number};
 use stillpoint_lang::diag::Result;
 use stillpoint_lang::read_text;
@@ -50,7 +51,7 @@ struct FamilyFile {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct ParamData {
+pub(super) struct ParamData {
     #[serde(default)]
     md: Vec<u32>,
     #[serde(default)]
@@ -161,10 +162,11 @@ pub(super) fn load(folder: &Path) -> Result<Family> {
     let mut check = Check {
         findings: Findings::new(&file, &source),
     };
-    match check.family(folder, &file, &source) {
-        Some(family) => check.findings.finish(family),
-        None => Err(check.findings.into_diagnostics()),
-    }
+    let Some(mut family) = check.family(folder, &file, &source) else {
+        return Err(check.findings.into_diagnostics());
+    };
+    family.patterns = guarantee::load(folder, &family.known)?;
+    check.findings.finish(family)
 }
 
 /// Reads one file of a family's data and collects what is wrong in it.
@@ -263,6 +265,7 @@ impl Check {
             explore,
             known,
             logic: data.logic,
+            patterns: IndexMap::new(),
         })
     }
 
@@ -281,7 +284,7 @@ impl Check {
         lets
     }
 
-    fn params(&mut self, data: IndexMap<String, ParamData>) -> IndexMap<String, Param> {
+    pub fn params(&mut self, data: IndexMap<String, ParamData>) -> IndexMap<String, Param> {
         let mut params = IndexMap::new();
         for (key, data) in data {
             params.insert(key, self.param(data));

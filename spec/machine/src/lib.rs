@@ -24,6 +24,7 @@ mod family_file;
 #[cfg(test)]
 mod family_tests;
 mod ground;
+pub mod guarantee;
 mod logic;
 mod plausible;
 pub mod reaction;
@@ -44,6 +45,7 @@ use toml::de::{DeTable, DeValue};
 
 use document::Findings;
 use family::{Family, Param};
+use guarantee::Guarantee;
 use logic::Logic;
 use plausible::Judged;
 use runs::Parts;
@@ -79,7 +81,9 @@ pub struct Machine {
     pub axis_groups: Vec<Group>,
     /// Its guard doors, in the order of the file.
     pub doors: Vec<Door>,
-    /// What has to be explored to cover the machine.
+    /// What it must guarantee, in the order of the file.
+    pub guarantees: Vec<Guarantee>,
+    /// What has to be explored to cover the machine; first what decides its guarantees.
     pub runs: Vec<Run>,
     /// What the file describes but no run explores, in words.
     pub not_explored: Vec<String>,
@@ -164,6 +168,8 @@ pub struct Run {
     pub title: String,
     /// The axes it stands for: one, the members of a group, or all axes with the same parameters.
     pub axes: Vec<String>,
+    /// The guarantee that it decides; none: what is true of every machine of the family is shown for this one.
+    pub guarantee: Option<String>,
     /// The specification file.
     pub file: PathBuf,
     /// The system in that file.
@@ -234,6 +240,12 @@ impl Machine {
     pub fn group_shown(&self, group: &Group) -> Vec<Shown> {
         let params = self.basis.family.group.as_ref();
         params.map_or_else(Vec::new, |params| shown(params, &group.values))
+    }
+
+    /// The patterns of guarantees that the family has.
+    pub fn patterns(&self) -> Vec<&str> {
+        let patterns = self.basis.family.patterns.keys();
+        patterns.map(String::as_str).collect()
     }
 
     /// Whether axes of this family have functions to be enabled.
@@ -381,7 +393,9 @@ fn read_source(path: &Path, source: &Arc<str>, families: &Path) -> Result<Machin
         groups: &draft.groups,
         doors: &draft.doors,
     };
-    let plan = runs::plan(&family, &family.explore, parts, &judged)?;
+    let mut plan = runs::plan(&family, &family.explore, parts, &judged)?;
+    let guaranteed = runs::guaranteed(&family, &draft.guarantees, parts, &judged)?;
+    plan.runs.splice(0..0, guaranteed);
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     Ok(Machine {
         name: draft.name.unwrap_or_else(|| stem.into_owned()),
@@ -389,7 +403,7 @@ fn read_source(path: &Path, source: &Arc<str>, families: &Path) -> Result<Machin
         family: name,
         family_title: family.title.clone(),
         monitoring_cycle: judged.cycle,
-        not_explored: coverage::not_explored(&family, parts, &plan.groups),
+        not_explored: coverage::not_explored(&family, parts, &plan.groups, &draft.guarantees),
         groups: plan.groups,
         runs: plan.runs,
         basis: Arc::new(Basis {
@@ -401,6 +415,7 @@ fn read_source(path: &Path, source: &Arc<str>, families: &Path) -> Result<Machin
         axes: draft.axes,
         axis_groups: draft.groups,
         doors: draft.doors,
+        guarantees: draft.guarantees,
     })
 }
 

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use super::eval::Values;
 use super::family::{Binding, Explore, Family, Rounding, Scope};
+use super::guarantee::{Guarantee, asked};
 use super::plausible::{Judged, evaluate};
 use super::{Axis, Door, Group, Run};
 use stillpoint_lang::diag::{Diagnostic, Diagnostics, Result};
@@ -58,6 +59,33 @@ pub(super) fn plan(
         },
         runs: planned.into_iter().map(Planned::titled).collect(),
     })
+}
+
+/// The runs that decide the guarantees of a machine.
+///
+/// # Errors
+/// Faults of the family's data.
+pub(super) fn guaranteed(
+    family: &Family,
+    guarantees: &[Guarantee],
+    parts: Parts<'_>,
+    judged: &Judged,
+) -> Result<Vec<Run>> {
+    let mut planned: Vec<Planned> = Vec::new();
+    let mut files = BTreeMap::new();
+    for asked in asked(family, guarantees, parts, judged) {
+        for explore in &asked.pattern.explore {
+            let scaled = is_scaled(family, explore, &mut files)?;
+            let subject = Subject {
+                members: vec![(asked.axis, &asked.values)],
+                axes: vec![asked.axis.to_owned()],
+            };
+            let mut run = bind(family, explore, scaled, judged.cycle, &subject, 0)?;
+            run.run.guarantee = Some(asked.guarantee.name.clone());
+            merge(&mut planned, run);
+        }
+    }
+    Ok(planned.into_iter().map(Planned::titled).collect())
 }
 
 /// An exploration, and what it stands for.
@@ -252,6 +280,7 @@ fn bind(
     let mut run = Run {
         title: explore.text.clone(),
         axes: subject.axes.clone(),
+        guarantee: None,
         file: family.folder.join(&explore.file),
         system: explore.system.clone(),
         cycle,
@@ -368,6 +397,7 @@ fn merge(list: &mut Vec<Planned>, new: Planned) {
     let same = list.iter_mut().find(|known| {
         let (a, b) = (&known.run, &new.run);
         (&a.file, &a.system, a.cycle, &a.params) == (&b.file, &b.system, b.cycle, &b.params)
+            && a.guarantee == b.guarantee
             && (known.each, known.of_member) == (new.each, new.of_member)
             && (!new.of_member || known.names == new.names)
     });

@@ -2,6 +2,7 @@
 
 mod doors;
 mod groups;
+mod guarantees;
 
 use std::collections::BTreeMap;
 
@@ -11,6 +12,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::document::Findings;
 use super::family::{Family, Param, Quantity};
+use super::guarantee::Guarantee;
 use super::units::{alternatives, quoted};
 use super::value::{Raw, number_in_range};
 use super::{Axis, AxisKind, Door, Group, Place, Setting, Settings};
@@ -34,6 +36,8 @@ pub(super) struct Draft {
     pub groups: Vec<Group>,
     /// The doors whose values could all be read.
     pub doors: Vec<Door>,
+    /// The guarantees whose values could all be read.
+    pub guarantees: Vec<Guarantee>,
 }
 
 /// Reads the tables of a machine file; what is wrong goes to `findings`.
@@ -59,6 +63,7 @@ pub(super) fn read(family: &Family, table: &DeTable<'_>, findings: &mut Findings
         axes: Vec::new(),
         groups: Vec::new(),
         doors: Vec::new(),
+        guarantees: Vec::new(),
     };
     match table.get("axis") {
         Some(value) => draft.axes = reader.axes(value),
@@ -76,6 +81,9 @@ pub(super) fn read(family: &Family, table: &DeTable<'_>, findings: &mut Findings
         draft.doors = reader.doors(value, &draft.groups);
     }
     reader.references(&draft);
+    if let Some(value) = table.get("guarantee") {
+        draft.guarantees = reader.guarantees(value, &draft.axes, &draft.doors);
+    }
     draft
 }
 
@@ -124,6 +132,9 @@ impl Reader<'_> {
         let mut known = vec!["family", "name", "title", "control", "axis", "door"];
         if self.family.group.is_some() {
             known.push("group");
+        }
+        if !self.family.patterns.is_empty() {
+            known.push("guarantee");
         }
         if !self.family.logic.is_empty() {
             known.push("logic");

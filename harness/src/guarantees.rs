@@ -1,0 +1,126 @@
+//! The guarantees of a machine file as they are answered: each with its verdict, its tightest bound and the values it depends on.
+
+use std::collections::BTreeSet;
+
+use stillpoint_machine::Shown;
+use stillpoint_machine::guarantee::Guarantee;
+use stillpoint_model::Verdict;
+
+use crate::check::Checked;
+use crate::subject::{Subject, Task};
+
+/// A guarantee and what was found about it.
+#[derive(Debug)]
+pub struct Answer<'a> {
+    /// What was asked.
+    pub guarantee: &'a Guarantee,
+    /// The worst verdict of its runs.
+    pub verdict: Verdict,
+    /// Each run that decides it.
+    pub runs: Vec<Decided<'a>>,
+}
+
+/// What one run says about a guarantee, for the axes it stands for.
+#[derive(Debug)]
+pub struct Decided<'a> {
+    /// The run.
+    pub task: &'a Task,
+    /// Its verdict.
+    pub verdict: Verdict,
+    /// The longest time that a response takes in any run, in microseconds; none where there is no bound.
+    pub bound: Option<u64>,
+    /// The parameters of its axes that it was computed from, with their values.
+    pub values: Vec<Shown>,
+}
+
+/// The guarantees of a machine, in the order of its file.
+pub fn answers<'a>(subject: &'a Subject, checked: &'a [Checked]) -> Vec<Answer<'a>> {
+    let guarantees = subject.machine.iter().flat_map(|m| &m.guarantees);
+    let answer = |guarantee: &'a Guarantee| {
+        let decided = subject.tasks.iter().zip(checked);
+        let own = decided.filter(|(task, _)| task.guarantee.as_ref() == Some(&guarantee.name));
+        let runs: Vec<Decided> = own
+            .map(|(task, done)| decided_by(subject, guarantee, task, done))
+            .collect();
+        let verdict = runs.iter().map(|run| run.verdict).max_by_key(|v| rank(*v));
+        Answer {
+            guarantee,
+            verdict: verdict.unwrap_or(Verdict::Inconclusive),
+            runs,
+        }
+    };
+    guarantees.map(answer).collect()
+}
+
+/// A guarantee is as good as the worst of what decides it; one that nothing has put to the test is not kept.
+fn rank(verdict: Verdict) -> u8 {
+    match verdict {
+        Verdict::Violated => 4,
+        Verdict::Unreachable => 3,
+        Verdict::Vacuous => 2,
+        Verdict::Inconclusive => 1,
+        Verdict::Holds | Verdict::Reached => 0,
+    }
+}
+
+fn decided_by<'a>(
+    subject: &Subject,
+    guarantee: &Guarantee,
+    task: &'a Task,
+    done: &Checked,
+) -> Decided<'a> {
+    let report = &done.outcome.report;
+    let verdicts = report.properties.iter().map(|p| p.verdict);
+    let faulty = (!report.faults.is_empty()).then_some(Verdict::Violated);
+    let verdict = verdicts.chain(faulty).max_by_key(|v| rank(*v));
+    let cycles = report.properties.iter().filter_map(|p| p.bound).max();
+    let cycle = task.bound.system.cycle_us;
+    Decided {
+        task,
+        verdict: verdict.unwrap_or(Verdict::Inconclusive),
+        bound: cycles.map(|n| n * cycle),
+        values: values(subject, guarantee, task),
+    }
+}
+
+/// The parameters that the expressions of a run read, of its first axis and of the door.
+fn values(subject: &Subject, guarantee: &Guarantee, task: &Task) -> Vec<Shown> {
+    let Some(machine) = &subject.machine else {
+        return Vec::new();
+    };
+    let mut names = BTreeSet::new();
+    for source in task.sources.values() {
+        let word = |c: char| !c.is_ascii_alphanumeric() && c != '_';
+        names.extend(source.split(word).filter(|w| !w.is_empty()));
+    }
+    let axis = machine.axes.iter().find(|a| task.axes.contains(&a.name));
+    let door = machine
+        .doors
+        .iter()
+        .find(|d| Some(&d.name) == guarantee.door.as_ref());
+    let of_axis = axis.map_or_else(Vec::new, |a| machine.axis_shown(a));
+    let of_door = door.map_or_else(Vec::new, |d| machine.door_shown(d));
+    let all = of_axis.into_iter().chain(of_door);
+    all.filter(|shown| names.contains(shown.name.as_str()))
+        .collect()
+}
+
+/// The time as its readers write it: `96 ms`, `1.2 s`.
+pub fn time(micros: u64) -> String {
+    let micros = i64::try_from(micros).unwrap_or(i64::MAX);
+    stillpoint_machine::units::Dimension::Time.show(micros)
+}
+
+/// What is to be asked of a machine that its file asks nothing of; none for a family without patterns, or where something is asked.
+pub fn unasked(subject: &Subject) -> Option<String> {
+    let machine = subject.machine.as_ref()?;
+    let patterns = machine.patterns();
+    (machine.guarantees.is_empty() && !patterns.is_empty()).then(|| {
+        let patterns: Vec<String> = patterns.iter().map(|p| format!("\"{p}\"")).collect();
+        format!(
+            "This file asks nothing of the machine: what follows is true of its family with these values. State what must be true \
+             of this machine: [guarantee.NAME] with pattern = {}.",
+            patterns.join(" or ")
+        )
+    })
+}

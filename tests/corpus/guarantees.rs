@@ -1,0 +1,146 @@
+//! What a machine file guarantees is decided by its values: each dangerous one, alone, breaks a guarantee of the milling machine.
+
+use std::collections::BTreeMap;
+
+use stillpoint::check::{Settings, check};
+use stillpoint::guarantees::answers;
+use stillpoint::subject::{self, Readings};
+use stillpoint_machine::{self as machine, Machine, families};
+use stillpoint_model::Verdict;
+use stillpoint_tests::root;
+
+/// The milling machine with one text of its file replaced.
+fn changed(from: &str, to: &str) -> Machine {
+    let path = root().join("spec/machines/milling-840d.toml");
+    let text = std::fs::read_to_string(&path).expect("the machine");
+    assert!(text.contains(from), "{from}");
+    let text = text.replacen(from, to, 1);
+    machine::load_bytes(&path, text.into_bytes(), &families(&path))
+        .unwrap_or_else(|e| panic!("{to}: {e}"))
+}
+
+/// The verdict on each guarantee, and the tightest bound in milliseconds over its axes.
+fn guaranteed(machine: Machine) -> BTreeMap<String, (Verdict, Option<u64>)> {
+    let runs: Vec<_> = machine
+        .runs
+        .iter()
+        .filter(|r| r.guarantee.is_some())
+        .cloned()
+        .collect();
+    let path = root().join("spec/machines/milling-840d.toml");
+    let subject =
+        subject::of_runs(&path, machine, &runs, &Readings::new()).unwrap_or_else(|e| panic!("{e}"));
+    let checked = check(&subject, &Settings::default(), &mut |_| Box::new(()))
+        .unwrap_or_else(|(t, e)| panic!("{t}: {e}"));
+    let list = answers(&subject, &checked).into_iter().map(|answer| {
+        let bound = answer.runs.iter().filter_map(|run| run.bound).max();
+        (
+            answer.guarantee.name.clone(),
+            (answer.verdict, bound.map(|us| us / 1000)),
+        )
+    });
+    list.collect()
+}
+
+#[test]
+fn guarantees_of_the_milling_machine_hold_with_their_bounds() {
+    let found = guaranteed(changed("", ""));
+    // The signal, the change-over to SG1, the permitted time of the monitor, STOP C, the permitted time again, STOP B.
+    let cycles = |times: &[u64]| times.iter().map(|ms| ms.div_ceil(12)).sum::<u64>();
+    let table = cycles(&[50, 200, 300, 300]);
+    let tool = cycles(&[50, 1500, 2000, 2000]);
+    let bound = |name: &str| found[name].1.expect("a bound") / 12;
+    assert_eq!(found["table"].0, Verdict::Holds);
+    assert_eq!(found["tool"].0, Verdict::Holds);
+    // What the monitors may take on top is at most three cycles each.
+    assert!(
+        (table..=table + 7).contains(&bound("table")),
+        "{table} {}",
+        bound("table")
+    );
+    assert!(
+        (tool..=tool + 7).contains(&bound("tool")),
+        "{tool} {}",
+        bound("tool")
+    );
+}
+
+#[test]
+fn every_dangerous_value_breaks_a_guarantee() {
+    let dangerous = [
+        (
+            "the door selects the fastest stage",
+            "open          = \"SG1\"",
+            "open = \"SG4\"",
+            "table",
+        ),
+        (
+            "SG1 is not slow",
+            "[\"2000 mm/min\", \"5000",
+            "[\"4000 mm/min\", \"5000",
+            "table",
+        ),
+        (
+            "a window of 100 mm",
+            "STANDSTILL_TOL      = \"0.5 mm\"",
+            "STANDSTILL_TOL = \"100 mm\"",
+            "table",
+        ),
+        (
+            "a change-over of a minute",
+            "VELO_SWITCH_DELAY   = \"200 ms\"",
+            "VELO_SWITCH_DELAY = \"60 s\"",
+            "table",
+        ),
+        (
+            "STOP C waits for ten seconds",
+            "STOP_SWITCH_TIME_C  = \"300 ms\"",
+            "STOP_SWITCH_TIME_C = \"10 s\"",
+            "table",
+        ),
+        (
+            "STOP B waits for two seconds",
+            "PULSE_DISABLE_DELAY = \"300 ms\"",
+            "PULSE_DISABLE_DELAY = \"2 s\"",
+            "table",
+        ),
+        (
+            "nothing monitors the spindle",
+            "functions = [\"SBH/SG\", \"external stops\"]",
+            "functions = []",
+            "tool",
+        ),
+        (
+            "the first stage of the spindle is fast",
+            "[\"50 rev/min\", \"800 rev/min\"",
+            "[\"600 rev/min\", \"800 rev/min\"",
+            "tool",
+        ),
+        (
+            "the spindle may turn where it is held",
+            "STANDSTILL_TOL      = \"2 deg\"",
+            "STANDSTILL_TOL = \"90 deg\"",
+            "tool",
+        ),
+        (
+            "a promise that is too short",
+            "within  = \"1 s\"",
+            "within = \"900 ms\"",
+            "table",
+        ),
+        (
+            "a signal that takes its time",
+            "signal  = \"50 ms\"",
+            "signal = \"500 ms\"",
+            "table",
+        ),
+    ];
+    for (what, from, to, name) in dangerous {
+        let found = guaranteed(changed(from, to));
+        assert_eq!(found[name].0, Verdict::Violated, "{what}");
+        let other = if name == "table" { "tool" } else { "table" };
+        if !to.starts_with("open") {
+            assert_eq!(found[other].0, Verdict::Holds, "{what}: {other}");
+        }
+    }
+}
