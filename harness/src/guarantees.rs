@@ -78,7 +78,8 @@ fn decided_by<'a>(
     Decided {
         task,
         verdict: verdict.unwrap_or(Verdict::Inconclusive),
-        bound: cycles.map(|n| n * cycle),
+        // It begins at any moment between two cycles.
+        bound: cycles.map(|n| (n + 1) * cycle),
         values: values(subject, guarantee, task),
     }
 }

@@ -52,7 +52,7 @@ fn guarantees_of_the_milling_machine_hold_with_their_bounds() {
     let bound = |name: &str| found[name].1.expect("a bound") / 12;
     assert_eq!(found["table"].0, Verdict::Holds);
     assert_eq!(found["tool"].0, Verdict::Holds);
-    // What the monitors may take on top is at most three cycles each.
+    // What the monitors may take on top is at most three cycles each; the door opens at any moment of a cycle.
     assert!(
         (table..=table + 7).contains(&bound("table")),
         "{table} {}",
