@@ -5,9 +5,9 @@ use std::ops::Range;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use stillpoint_engine::table::{Generated, Interpreted};
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::ir::{Ty, Var};
-use stillpoint_model::table::{Generated, Interpreted};
 use stillpoint_model::{Choices, Domain, Error, Fault, Options, System, reachable};
 use stillpoint_show::graph::{Edge, Graph, Node};
 
@@ -375,7 +375,7 @@ mod tests {
     use std::path::Path;
 
     use super::*;
-    use crate::subject::{Readings, load};
+    use stillpoint_engine::subject::{Readings, load};
 
     fn states(budget: u64, threads: usize) -> Option<Vec<(String, Graph)>> {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");

@@ -5,7 +5,7 @@ use stillpoint_lang::eval::UNSET;
 use stillpoint_lang::ir::{LazyKind, Ty};
 use stillpoint_show::diagram::{Diagram, Lane};
 
-use crate::engine::{Cycle, lazy};
+use stillpoint_engine::{Cycle, lazy};
 
 /// The diagram of a replayed run of a table: inputs that were read, state, outputs; constant ones left out.
 pub fn of_run(bound: &Bound, cycles: &[Cycle]) -> Diagram {

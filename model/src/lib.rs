@@ -58,7 +58,6 @@ mod set;
 mod store;
 mod symmetry;
 mod system;
-pub mod table;
 mod tally;
 mod ticks;
 mod trace;

@@ -6,10 +6,10 @@
 
 use std::time::Instant;
 
-use stillpoint::engine;
-use stillpoint::export::promela::promela;
-use stillpoint::report::grouped;
-use stillpoint::subject::Task;
+use stillpoint_engine as engine;
+use stillpoint_engine::subject::Task;
+use stillpoint_harness::export::promela::promela;
+use stillpoint_harness::report::grouped;
 use stillpoint_model::{Limits, Options, Storage};
 use stillpoint_tests::peer::{Folder, load, tools};
 use stillpoint_tests::root;

@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use serde_json::Value as Json;
-use stillpoint::families::sinumerik::vocabulary;
-use stillpoint::recording::csv::{self, Columns};
-use stillpoint::recording::{Recording, Role, Target, ndjson};
-use stillpoint::simulate::{self, Scenario};
+use stillpoint_harness::families::sinumerik::vocabulary;
+use stillpoint_harness::recording::csv::{self, Columns};
+use stillpoint_harness::recording::{Recording, Role, Target, ndjson};
+use stillpoint_harness::simulate::{self, Scenario};
 use stillpoint_machine::{self as machine, Machine};
 
 use crate::common::{Folder, root, status, stderr, stdout, stillpoint};
@@ -35,7 +35,10 @@ fn written(
     String::from_utf8(bytes).expect("UTF-8").into()
 }
 
-fn target<'a>(machine: &'a Machine, signals: &'a [stillpoint::recording::Signal]) -> Target<'a> {
+fn target<'a>(
+    machine: &'a Machine,
+    signals: &'a [stillpoint_harness::recording::Signal],
+) -> Target<'a> {
     Target {
         machine: &machine.name,
         cycle_us: 12_000,
@@ -80,7 +83,7 @@ fn what_is_written_reads_back() {
 
 #[test]
 fn every_input_can_be_set_and_read() {
-    use stillpoint::recording::{Kind, Value};
+    use stillpoint_harness::recording::{Kind, Value};
     use stillpoint_monitors::sinumerik::axis::Local;
     for input in vocabulary::inputs() {
         let mut local = Local::default();
@@ -121,14 +124,14 @@ fn the_functions_have_the_bits_of_the_family() {
             function["name"].as_str().expect("a name"),
             function["bit"].as_integer(),
         );
-        let found = stillpoint::families::sinumerik::production::FUNCTIONS
+        let found = stillpoint_harness::families::sinumerik::production::FUNCTIONS
             .iter()
             .find(|(n, _)| *n == name);
         assert_eq!(found.map(|(_, bit)| i64::from(*bit)), bit, "{name}");
     }
     assert_eq!(
         functions.len(),
-        stillpoint::families::sinumerik::production::FUNCTIONS.len()
+        stillpoint_harness::families::sinumerik::production::FUNCTIONS.len()
     );
 }
 
@@ -227,7 +230,7 @@ fn divergences_are_found() {
         .find("X.nck.Monitoring.PositionActualValue")
         .expect("recorded");
     for row in &mut other.rows[60..] {
-        row[position] = Some(stillpoint::recording::Value::Int(5_000_000));
+        row[position] = Some(stillpoint_harness::recording::Value::Int(5_000_000));
     }
     let file = folder.write("other.ndjson", &written(&other, ndjson::write));
     let (status, out, _) = diff(&["--trace", &file, "--json"]);

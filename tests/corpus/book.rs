@@ -7,7 +7,7 @@ use std::path::{Component, Path, PathBuf};
 use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
 use std::sync::OnceLock;
 
-use stillpoint::pages::{Written, differences, pages};
+use stillpoint_harness::pages::{Written, differences, pages};
 use stillpoint_tests::root;
 
 /// What matters of a page: where it links to, and which anchors it has.

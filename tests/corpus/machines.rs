@@ -3,8 +3,8 @@
 
 use std::collections::BTreeSet;
 
-use stillpoint::check::{Settings, Unfired, check, exit_status, summarise};
-use stillpoint::subject::{self, Readings, Subject, Task};
+use stillpoint_engine::check::{Settings, Unfired, check, exit_status, summarise};
+use stillpoint_engine::subject::{self, Readings, Subject, Task};
 use stillpoint_model::Verdict;
 use stillpoint_tests::{exceptions, root};
 

@@ -11,7 +11,7 @@ use toml::Value;
 /// The machine data table, by number.
 fn table() -> BTreeMap<i64, Value> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("../spec/families/sinumerik-840d/machine-data.toml");
+        .join("../../spec/families/sinumerik-840d/machine-data.toml");
     let text = std::fs::read_to_string(&path).expect("the table is part of the repository");
     let table: toml::Table = text.parse().expect("the table is TOML");
     table["parameter"]

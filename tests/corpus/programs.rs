@@ -4,8 +4,8 @@
 use std::collections::BTreeSet;
 
 use serde::Deserialize;
-use stillpoint::check::{Checked, Settings, check, exit_status, summarise};
-use stillpoint::subject::{self, Readings, Subject};
+use stillpoint_engine::check::{Checked, Settings, check, exit_status, summarise};
+use stillpoint_engine::subject::{self, Readings, Subject};
 use stillpoint_machine as machine;
 use stillpoint_model::Verdict;
 use stillpoint_tests::peer::each;

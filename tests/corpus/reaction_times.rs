@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use stillpoint::check::{Settings, check, exit_status, summarise, violations};
-use stillpoint::engine;
-use stillpoint::subject::{self, Readings, Subject};
+use stillpoint_engine as engine;
+use stillpoint_engine::check::{Settings, check, exit_status, summarise, violations};
+use stillpoint_engine::subject::{self, Readings, Subject};
 use stillpoint_lang::Spec;
 use stillpoint_lang::bind::Bound;
 use stillpoint_model::{Options, Verdict};
@@ -19,7 +19,7 @@ fn report(subject: &Subject) -> serde_json::Value {
     };
     let checked = check(subject, &settings, &mut |_| Box::new(())).expect("explored");
     let summaries = summarise(subject, &checked);
-    stillpoint::report::to_json(subject, &checked, &summaries)
+    stillpoint_harness::report::to_json(subject, &checked, &summaries)
 }
 
 #[test]
@@ -125,7 +125,7 @@ fn a_bound_that_is_not_as_recorded_fails_the_check() {
         assert_eq!(violations.len(), 1);
         assert_eq!(violations[0].id, "S840D-STOP-040-TIME");
         assert_eq!(violations[0].refuted, Some(message));
-        let shown = stillpoint::report::text(&subject, &checked, &summaries, true);
+        let shown = stillpoint_harness::report::text(&subject, &checked, &summaries, true);
         assert!(shown.contains(message), "{shown}");
     }
 }

@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use stillpoint::check::{Settings, check, exit_status, summarise};
-use stillpoint::subject::{self, Readings};
+use stillpoint_engine::check::{Settings, check, exit_status, summarise};
+use stillpoint_engine::subject::{self, Readings};
 use stillpoint_tests::peer::has_system;
 use stillpoint_tests::{exceptions, specification_files};
 

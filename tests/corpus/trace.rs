@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-use stillpoint::matrix::{Matrix, Status, find_root, read, text, to_json};
+use stillpoint_harness::matrix::{Matrix, Status, find_root, read, text, to_json};
 use stillpoint_lang::catalogue::{self, Scope};
 use stillpoint_tests::root;
 

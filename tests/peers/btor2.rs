@@ -3,7 +3,7 @@
 //! For every system of every shipped specification and of the must-fail set, cycles from random states with random inputs:
 //! the state after the cycle, each bad signal and each output must be what the interpreter says.
 
-use stillpoint::export::btor2::{RANGE, btor2};
+use stillpoint_harness::export::btor2::{RANGE, btor2};
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::eval::Frame;
 use stillpoint_lang::ir::{Form, Property};

@@ -5,10 +5,11 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-use stillpoint::check::{Settings, check};
-use stillpoint::{certificate, subject};
 use stillpoint_certify::format::{Verdict, bodies, open};
 use stillpoint_certify::{Confirmed, certify_bytes};
+use stillpoint_engine::check::{Settings, check};
+use stillpoint_engine::subject;
+use stillpoint_harness::certificate;
 use stillpoint_tests::{files, root};
 
 fn forms() -> PathBuf {

@@ -3,12 +3,14 @@
 use std::collections::BTreeSet;
 use std::sync::LazyLock;
 
-use stillpoint::diff::pairing::vary;
-use stillpoint::diff::product::Product;
-use stillpoint::diff::random::Random;
-use stillpoint::diff::slices::slices;
-use stillpoint::diff::{Compared, Pairing, bytes, exhaustive, pairings, peer, sample, to_json};
-use stillpoint::subject::{self, Readings};
+use stillpoint_engine::subject::{self, Readings};
+use stillpoint_harness::diff::pairing::vary;
+use stillpoint_harness::diff::product::Product;
+use stillpoint_harness::diff::random::Random;
+use stillpoint_harness::diff::slices::slices;
+use stillpoint_harness::diff::{
+    Compared, Pairing, bytes, exhaustive, pairings, peer, sample, to_json,
+};
 use stillpoint_model::Options;
 use stillpoint_monitors::mutant::Mutant;
 use stillpoint_show::diagram::Diagram;

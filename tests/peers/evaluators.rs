@@ -6,13 +6,13 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use stillpoint_engine::table::{self, Generated, Interpreted};
 use stillpoint_lang::Spec;
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::eval::Frame;
 use stillpoint_lang::ir;
-use stillpoint_model::table::{Generated, Interpreted};
 use stillpoint_model::{Choices, Domain, Fault, Form, Options, Property, System, Verdict, explore};
-use stillpoint_tables::Table;
+use stillpoint_native::Table;
 use stillpoint_tests::{exceptions, specification_files};
 
 /// Every system of every shipped file, and each of its own machines with all inputs free.
@@ -91,7 +91,7 @@ impl<'a> Both<'a> {
     const EQUAL: usize = 0;
 
     fn new(bound: &'a Bound) -> Self {
-        let table = Table::find(&bound.system.name, bound.system.fingerprint());
+        let table = table::find(bound);
         let generated = Generated::find(bound);
         let (Some(table), Some(generated)) = (table, generated) else {
             panic!("no generated code belongs to {}", bound.system.name);
@@ -348,7 +348,11 @@ fn every_shipped_system_has_generated_code() {
     }
     let mut names: Vec<&str> = systems.iter().map(|s| s.name.as_str()).collect();
     names.sort_unstable();
-    let mut tables: Vec<&str> = stillpoint_tables::TABLES.iter().map(|t| t.name).collect();
+    let mut tables: Vec<&str> = stillpoint_tables::FAMILIES
+        .iter()
+        .flat_map(|family| family.tables)
+        .map(|table| table.name)
+        .collect();
     tables.sort_unstable();
     assert_eq!(names, tables, "a table without a system, or the reverse");
 }

@@ -4,10 +4,10 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
-use stillpoint::export::smv::smv;
-use stillpoint::export::tla::tla;
-use stillpoint::export::{btor2, json, murphi, promela};
-use stillpoint::subject::Task;
+use stillpoint_engine::subject::Task;
+use stillpoint_harness::export::smv::smv;
+use stillpoint_harness::export::tla::tla;
+use stillpoint_harness::export::{btor2, json, murphi, promela};
 use stillpoint_tests::peer::{has_system, load};
 use stillpoint_tests::{files, specification_files};
 

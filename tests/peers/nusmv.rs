@@ -6,10 +6,10 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use stillpoint::export::murphi::murphi;
-use stillpoint::export::smv::smv;
-use stillpoint::export::tla::tla;
-use stillpoint::subject::Subject;
+use stillpoint_engine::subject::Subject;
+use stillpoint_harness::export::murphi::murphi;
+use stillpoint_harness::export::smv::smv;
+use stillpoint_harness::export::tla::tla;
 use stillpoint_lang::ir::Form;
 use stillpoint_model::{Report, Verdict};
 use stillpoint_tests::files;
@@ -141,7 +141,7 @@ fn nusmv(program: &Path, name: &str, model: &str) -> (BTreeMap<String, bool>, u1
 fn tlc(
     jar: &Path,
     name: &str,
-    module: &stillpoint::export::tla::Tla,
+    module: &stillpoint_harness::export::tla::Tla,
 ) -> (BTreeMap<String, bool>, u128) {
     let folder = Folder::new(env!("CARGO_TARGET_TMPDIR"), &format!("tlc-{name}"));
     folder.write("model.tla", &module.module);

@@ -1,9 +1,9 @@
 //! Both channels of an axis: the production pair against the systems composed for it, in parts.
 
-use stillpoint::diff::peer;
-use stillpoint::diff::slices::slices;
-use stillpoint::diff::{Compared, Pairing, exhaustive, pairings};
-use stillpoint::subject::{self, Readings};
+use stillpoint_engine::subject::{self, Readings};
+use stillpoint_harness::diff::peer;
+use stillpoint_harness::diff::slices::slices;
+use stillpoint_harness::diff::{Compared, Pairing, exhaustive, pairings};
 use stillpoint_model::Options;
 use stillpoint_monitors::mutant::Mutant;
 use stillpoint_tests::root;

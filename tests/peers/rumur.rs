@@ -5,8 +5,8 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use stillpoint::export::murphi::{RANGE, murphi};
-use stillpoint::subject::{Subject, Task};
+use stillpoint_engine::subject::{Subject, Task};
+use stillpoint_harness::export::murphi::{RANGE, murphi};
 use stillpoint_lang::ir::Form;
 use stillpoint_model::Verdict;
 use stillpoint_tests::peer::{Folder, each, explored, has_system, load, tools};

@@ -5,7 +5,7 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use stillpoint::export::promela::{Promela, promela};
+use stillpoint_harness::export::promela::{Promela, promela};
 use stillpoint_lang::ir::Form;
 use stillpoint_model::Verdict;
 use stillpoint_tests::peer::{Folder, each, explored, has_system, load, tools};

@@ -1,9 +1,9 @@
 //! The yardstick `two-axis`: the counts that SPIN and rumur agree on, whatever the evaluator and the number of threads.
 
-use stillpoint::check::{Settings, check, summarise};
-use stillpoint::engine::Evaluator;
-use stillpoint::report::to_json;
-use stillpoint::subject::{self, Readings};
+use stillpoint_engine::Evaluator;
+use stillpoint_engine::check::{Settings, check, summarise};
+use stillpoint_engine::subject::{self, Readings};
+use stillpoint_harness::report::to_json;
 use stillpoint_model::{Report, Storage};
 use stillpoint_tests::root;
 

@@ -6,13 +6,13 @@
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, LazyLock};
 
-use stillpoint::diff::product::Product;
-use stillpoint::diff::{Pairing, bytes, pairings, peer};
-use stillpoint::explore::http::Head;
-use stillpoint::recording::csv::{self, Columns};
-use stillpoint::recording::{Recording, Signal, Target as Machinery, ndjson};
-use stillpoint::simulate::{self, Scenario};
-use stillpoint::subject::{self, Readings};
+use stillpoint_engine::subject::{self, Readings};
+use stillpoint_harness::diff::product::Product;
+use stillpoint_harness::diff::{Pairing, bytes, pairings, peer};
+use stillpoint_harness::explore::http::Head;
+use stillpoint_harness::recording::csv::{self, Columns};
+use stillpoint_harness::recording::{Recording, Signal, Target as Machinery, ndjson};
+use stillpoint_harness::simulate::{self, Scenario};
 use stillpoint_lang::Spec;
 use stillpoint_lang::diag::Diagnostics;
 use stillpoint_lang::syntax::{parse_decl, parse_effect, parse_expr, parse_type};

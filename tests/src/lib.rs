@@ -11,8 +11,9 @@ use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
-/// The root of the workspace.
+/// The root of the workspace. Who asks for it works with its files, and gets their generated tables too, as the binary does.
 pub fn root() -> PathBuf {
+    stillpoint_engine::table::provide(&stillpoint_tables::FAMILIES);
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 

@@ -5,8 +5,8 @@ use std::process::Command;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use stillpoint::check::{Settings, check};
-use stillpoint::subject::{self, Readings, Subject, Task};
+use stillpoint_engine::check::{Settings, check};
+use stillpoint_engine::subject::{self, Readings, Subject, Task};
 use stillpoint_model::Report;
 
 /// Whether these programs are there and start. A user without them sees that the test was skipped; where the environment has

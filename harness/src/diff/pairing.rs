@@ -7,10 +7,10 @@ use stillpoint_lang::Spec;
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::files;
 use stillpoint_lang::ir::System;
+use stillpoint_engine::subject::Subject;
 
 use super::random::Random;
 use super::{DiffError, peer};
-use crate::subject::Subject;
 
 /// A machine or system of the specification under the parameters of one or more runs.
 #[derive(Debug, Clone)]

@@ -1,11 +1,12 @@
 //! The product of a table and its monitor: one system that drives both with the same inputs and compares them.
 
+use stillpoint_engine::table;
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::eval::Frame;
 use stillpoint_lang::ir::{LazyKind, Ty};
 use stillpoint_model::{Choices, Domain, Fault, System, Trace};
+use stillpoint_native::Table;
 use stillpoint_show::diagram::{Diagram, Lane, Mark};
-use stillpoint_tables::Table;
 
 use super::peer::{Numbers, Peer};
 
@@ -139,7 +140,7 @@ impl<'a> Product<'a> {
             .map(|(lo, hi)| Domain { lo: *lo, hi: *hi })
             .collect();
         domains.extend(peer.domains());
-        let table = Table::find(&system.name, system.fingerprint());
+        let table = table::find(bound);
         Ok(Self {
             bound,
             table,

@@ -5,17 +5,17 @@ use std::sync::{MutexGuard, TryLockError};
 use serde::Deserialize;
 use serde_json::{Value, json};
 use stillpoint_lang::bind::Bound;
+use stillpoint_engine::label;
+use stillpoint_engine::subject::Task;
+use stillpoint_engine::verdict_name;
 
 use super::Explorer;
 use super::jump::{jump, options};
 use super::path::Path;
 use super::walk::{Walk, size, walk};
 use super::{recorded, view};
-use crate::engine::label;
 use crate::recording::ndjson;
-use crate::report::verdict_name;
 use crate::states::{Budget, control_states};
-use crate::subject::Task;
 
 /// A refusal: the HTTP status and the reason.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -3,10 +3,10 @@
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::ops::ControlFlow;
 
+use stillpoint_engine::table::Interpreted;
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::eval::{Frame, UNSET};
 use stillpoint_lang::ir::Form;
-use stillpoint_model::table::Interpreted;
 use stillpoint_model::{Fault, Held, cycles};
 
 use super::path::Choice;

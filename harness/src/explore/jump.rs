@@ -3,12 +3,13 @@
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::ir::Form;
 use stillpoint_model::{Error, Limits, Options, Trace, Verdict};
+use stillpoint_engine::verdict_name;
+use stillpoint_engine::{self as engine, Outcome};
 
 use super::Bounds;
 use super::path::{MOST_CYCLES, Path};
 use super::walk::path_of;
-use crate::engine::{self, Outcome};
-use crate::report::{counted, grouped, verdict_name};
+use crate::report::{counted, grouped};
 
 /// What exploring for one property gave.
 #[derive(Debug, Clone, PartialEq, Eq)]

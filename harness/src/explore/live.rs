@@ -4,9 +4,9 @@ use std::collections::BTreeSet;
 
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::ir::{Form, Property};
+use stillpoint_engine::Cycle;
 
 use super::truth::truth;
-use crate::engine::Cycle;
 
 /// What a walk shows about a property, from its begin to one of its cycles.
 #[derive(Debug, Clone, PartialEq, Eq)]

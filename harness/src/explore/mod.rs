@@ -28,9 +28,9 @@ use std::time::Duration;
 
 use sha2::{Digest, Sha256};
 use stillpoint_lang::bind::Bound;
+use stillpoint_engine::subject::{Subject, Task};
 
 use crate::export::system_names;
-use crate::subject::{Subject, Task};
 
 /// Bounds of an exploration for the page.
 #[derive(Debug, Clone, Copy)]

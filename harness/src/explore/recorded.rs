@@ -7,11 +7,11 @@
 
 use stillpoint_lang::eval::UNSET;
 use stillpoint_machine::Machine;
+use stillpoint_engine::subject::Task;
 
 use super::walk::Walk;
 use crate::families::{self, Drive, Feed, Owner, Rig};
 use crate::recording::{Kind, Recording, Role, Signal, Value, vocabulary};
-use crate::subject::Task;
 
 /// An input of the system and what it is to the channels.
 struct Fed {

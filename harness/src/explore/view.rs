@@ -4,12 +4,13 @@ use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 
 use serde_json::{Value, json};
+use stillpoint_engine::table::Interpreted;
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::eval::UNSET;
 use stillpoint_lang::ir::{LazyKind, Ty, Var};
 use stillpoint_model::Fault;
-use stillpoint_model::table::Interpreted;
 use stillpoint_show::diagram::{Diagram, Mark};
+use stillpoint_engine::{Cycle, label, lazy};
 
 use super::classes::{Class, Classes, MOST_CYCLES, classes};
 use super::live::{Live, Standing, live};
@@ -17,7 +18,6 @@ use super::path::Choice;
 use super::recorded::recordable;
 use super::walk::Walk;
 use super::{Explorer, path};
-use crate::engine::{Cycle, label, lazy};
 use crate::report::{grouped, params};
 use crate::timing;
 

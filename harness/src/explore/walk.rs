@@ -1,11 +1,11 @@
 //! A walk along a path: which choices were read, which states were passed.
 
+use stillpoint_engine::table::Interpreted;
 use stillpoint_lang::bind::Bound;
-use stillpoint_model::table::Interpreted;
 use stillpoint_model::{Choices, Replay, System, Trace};
+use stillpoint_engine::{Cycle, replay};
 
 use super::path::{Choice, Path};
-use crate::engine::{Cycle, replay};
 
 /// A path walked.
 #[derive(Debug, Clone)]

@@ -1,6 +1,6 @@
 //! Which system of a file is meant.
 
-use crate::subject::{Subject, Task};
+use stillpoint_engine::subject::{Subject, Task};
 
 /// The task whose system has the name `wanted`: in full, or what stands after its last `/`. Where one system runs for
 /// several sets of axes, `NAME:AXIS` names the run of an axis. A number counts the runs from 1, as `check` does. Without

@@ -126,7 +126,7 @@ fn tables(folder: &Path) -> Result<Vec<Tables>> {
     for file in files {
         let path = folder.join(&file);
         let text = read_text(&path, "file of the family")?;
-        if crate::subject::has_key(&text, "spec") {
+        if stillpoint_engine::subject::has_key(&text, "spec") {
             let spec = Spec::from_text(&path, text)?;
             let outline = spec.outline();
             out.push(Tables {

@@ -19,9 +19,9 @@ pub use show::document;
 pub use text::text;
 pub use travel::{End, Motion, end};
 
-use crate::check::Checked;
-use crate::report::verdict_name;
-use crate::subject::Subject;
+use stillpoint_engine::check::Checked;
+use stillpoint_engine::subject::Subject;
+use stillpoint_engine::verdict_name;
 
 /// What the exploration says about a summand.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -2,11 +2,12 @@
 
 use stillpoint_machine::Machine;
 use stillpoint_show::document::{Block, Document, Inline, Table, Tone};
+use stillpoint_engine::check::Checked;
+use stillpoint_engine::subject::Subject;
+use stillpoint_engine::verdict_name;
 
 use super::{Judged, Proof, Result, basis, cycles, time, way};
-use crate::check::Checked;
-use crate::report::{grouped, verdict_name};
-use crate::subject::Subject;
+use crate::report::grouped;
 
 /// The document of all chains.
 pub fn document(

@@ -2,9 +2,9 @@
 
 use stillpoint_machine::{AxisKind, Machine, Shown};
 use stillpoint_show::document::{Block, Inline};
+use stillpoint_engine::subject::Subject;
 
 use super::document::{code, paragraph, section, table, words};
-use crate::subject::Subject;
 
 /// The values of a machine with their units; nothing for a specification, whose parameters stand at its explorations.
 pub(super) fn blocks(subject: &Subject) -> Vec<Block> {

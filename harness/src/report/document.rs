@@ -9,17 +9,16 @@ use stillpoint_lang::ir::Topic;
 use stillpoint_model::{Options, Verdict};
 use stillpoint_show::document::{Block, Document, Inline, Table, Tone};
 use stillpoint_show::graph::Graph;
+use stillpoint_engine::check::{Checked, Settings, Summary, exit_status, violations};
+use stillpoint_engine::readings::Compared;
+use stillpoint_engine::subject::{Subject, Task};
 
 use super::{
     configuration, counted, counts, exploration, findings, grouped, inventory, properties, result,
-    word,
+    topics, word,
 };
-use crate::check::{Checked, Settings, Summary, exit_status, violations};
 use crate::guarantees::{answers, time, unasked};
-use crate::readings::Compared;
 use crate::states::{Budget, control_states};
-use crate::subject::{Subject, Task};
-use crate::topics;
 
 /// Beyond this many cycles the control states of a system are not drawn, which would take longer than the check.
 const BUDGET: Budget = Budget {

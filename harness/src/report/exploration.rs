@@ -2,13 +2,12 @@
 
 use stillpoint_show::document::{Block, Inline, Tone};
 use stillpoint_show::graph::Graph;
+use stillpoint_engine::Evaluator;
+use stillpoint_engine::check::{Checked, Unfired};
+use stillpoint_engine::subject::{Subject, Task};
 
 use super::document::{Control, code, ids, paragraph, table, words};
-use super::{counted, grouped, params, reduced, storage_name};
-use crate::check::{Checked, Unfired};
-use crate::engine::Evaluator;
-use crate::reduce;
-use crate::subject::{Subject, Task};
+use super::{counted, grouped, params, reduced, reduction, storage_name};
 
 /// One row of figures for each exploration, then its parameters and abstractions.
 pub(super) fn blocks(subject: &Subject, checked: &[Checked]) -> Vec<Block> {
@@ -88,7 +87,11 @@ fn about(n: usize, task: &Task, done: &Checked) -> Block {
         ))
     }));
     if let Some(reduction) = &done.outcome.reduction {
-        points.extend(reduce::lines(&task.bound, reduction).into_iter().map(words));
+        points.extend(
+            reduction::lines(&task.bound, reduction)
+                .into_iter()
+                .map(words),
+        );
     }
     if !points.is_empty() {
         inside.push(Block::List(points));

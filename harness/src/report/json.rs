@@ -3,18 +3,17 @@
 use std::collections::BTreeMap;
 
 use serde_json::{Value, json};
+use stillpoint_engine::verdict_name;
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::ir::Topic;
 use stillpoint_model::{Trace, Verdict};
+use stillpoint_engine::Evaluator;
+use stillpoint_engine::check::{Checked, Summary, Unfired};
+use stillpoint_engine::excluded::Exclusion;
+use stillpoint_engine::subject::Subject;
 
-use super::{params, reduced, verdict_name};
-use crate::check::{Checked, Summary, Unfired};
-use crate::engine::Evaluator;
-use crate::excluded::Exclusion;
+use super::{params, reduced, reduction, topics};
 use crate::guarantees::{Answer, answers};
-use crate::reduce;
-use crate::subject::Subject;
-use crate::topics;
 
 /// The whole report as JSON: the design's keys at the top, details under `runs`.
 pub fn to_json(subject: &Subject, checked: &[Checked], summaries: &[Summary]) -> Value {
@@ -75,7 +74,7 @@ pub fn to_json(subject: &Subject, checked: &[Checked], summaries: &[Summary]) ->
                     Evaluator::Generated => "generated", Evaluator::Interpreter => "interpreter",
                 },
                 "properties": properties, "rules": rules, "unfired": unfired,
-                "reduction": done.outcome.reduction.as_ref().map(|r| reduce::to_json(&task.bound, r)),
+                "reduction": done.outcome.reduction.as_ref().map(|r| reduction::to_json(&task.bound, r)),
                 "warnings": system.warnings,
             })
         })

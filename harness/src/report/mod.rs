@@ -6,49 +6,33 @@ mod exploration;
 mod inventory;
 mod json;
 mod properties;
+pub mod readings;
+mod reduction;
 mod text;
+pub mod topics;
+mod words;
 
+use stillpoint_engine::check::{Checked, Summary, Unfired, exit_status};
+use stillpoint_engine::subject::Subject;
+use stillpoint_engine::{replay, verdict_name};
 use stillpoint_lang::bind::Bound;
 use stillpoint_model::{Storage, Trace, Verdict};
 use stillpoint_show::diagram::{Diagram, Mark};
 
-use crate::check::{Checked, Summary, Unfired, exit_status};
-use crate::engine::replay;
 use crate::guarantees::unasked;
-use crate::subject::Subject;
 use crate::timing;
 
 pub use document::{About, Control, document};
 pub use json::to_json;
-pub(crate) use text::wrapped;
 pub use text::{further, text};
-
-/// A verdict as it stands in JSON.
-pub fn verdict_name(verdict: Verdict) -> &'static str {
-    match verdict {
-        Verdict::Holds => "holds",
-        Verdict::Violated => "violated",
-        Verdict::Vacuous => "vacuous",
-        Verdict::Reached => "reached",
-        Verdict::Unreachable => "unreachable",
-        Verdict::Inconclusive => "inconclusive",
-    }
-}
+pub(crate) use words::wrapped;
+pub use words::{counted, grouped};
 
 /// A verdict in a word for readers: as in JSON, but for a witness that the values exclude.
 fn word(verdict: Verdict, excluded: bool) -> &'static str {
     match excluded {
         true => "excluded",
         false => verdict_name(verdict),
-    }
-}
-
-/// So many of a thing: `1 cycle`, `2 cycles`, `2 properties`.
-pub fn counted(n: u64, thing: &str) -> String {
-    match thing.strip_suffix('y') {
-        _ if n == 1 => format!("1 {thing}"),
-        Some(stem) => format!("{n} {stem}ies"),
-        None => format!("{n} {thing}s"),
     }
 }
 
@@ -70,19 +54,6 @@ fn counts(summaries: &[Summary]) -> String {
     let excluded = summaries.iter().filter(|s| s.excluded).count();
     let excluded = (excluded > 0).then(|| format!("{excluded} excluded by your values"));
     counts.chain(excluded).collect::<Vec<_>>().join(", ")
-}
-
-/// A number with thin groups of three: `4 024 036`.
-pub fn grouped(n: u128) -> String {
-    let digits = n.to_string();
-    let mut out = String::new();
-    for (k, d) in digits.chars().enumerate() {
-        if k > 0 && (digits.len() - k) % 3 == 0 {
-            out.push(' ');
-        }
-        out.push(d);
-    }
-    out
 }
 
 /// The timing diagram of a run, with a mark at its last cycle.

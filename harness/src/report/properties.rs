@@ -3,12 +3,12 @@
 use stillpoint_lang::ir::Property;
 use stillpoint_model::{Trace, Verdict};
 use stillpoint_show::document::Block;
+use stillpoint_engine::check::Checked;
+use stillpoint_engine::excluded::Exclusion;
+use stillpoint_engine::subject::{Subject, Task};
 
 use super::document::{badge, code, ids, paragraph, table, words};
 use super::{counted, diagram};
-use crate::check::Checked;
-use crate::excluded::Exclusion;
-use crate::subject::{Subject, Task};
 
 /// Copies of one property with one verdict.
 pub(super) struct Row<'a> {

@@ -4,21 +4,17 @@ use std::fmt::Write;
 
 use stillpoint_lang::ir::Topic;
 use stillpoint_model::{Storage, Verdict};
+use stillpoint_engine::{Evaluator, verdict_name};
+use stillpoint_engine::check::{Checked, Settings, Summary, Unfired, violations};
+use stillpoint_engine::subject::{Subject, Task};
 
 use super::properties::{Row, rows};
+use super::words::wrapped;
 use super::{
-    counted, counts, diagram, findings, grouped, params, reduced, result, storage_name,
-    verdict_name, word,
+    counted, counts, diagram, findings, grouped, params, reduced, reduction, result, storage_name,
+    topics, word,
 };
-use crate::check::{Checked, Settings, Summary, Unfired, violations};
-use crate::engine::Evaluator;
 use crate::guarantees::{answers, time, unasked};
-use crate::reduce;
-use crate::subject::{Subject, Task};
-use crate::topics;
-
-/// Property texts are wrapped at this width.
-const WIDTH: usize = 100;
 
 /// The whole report as text.
 ///
@@ -214,7 +210,7 @@ fn run(out: &mut String, n: usize, task: &Task, done: &Checked, all: bool) {
         Evaluator::Interpreter => "interpreter",
     };
     if let Some(reduction) = &done.outcome.reduction {
-        reduce::text(out, &task.bound, reduction);
+        reduction::text(out, &task.bound, reduction);
     }
     if !reduced(done) {
         let _ = writeln!(
@@ -266,28 +262,6 @@ fn unfired(out: &mut String, done: &Checked) {
             &format!("{} ({why})", rules.join(", ")),
         );
     }
-}
-
-/// Words after a head, in lines of readable length, indented below the first word.
-pub(crate) fn wrapped(out: &mut String, head: &str, text: &str) {
-    let indent = head.chars().count().min(48);
-    let mut line = head.to_owned();
-    let mut used = line.chars().count();
-    for word in text.split_whitespace() {
-        let n = word.chars().count();
-        if used + n + 1 > WIDTH && used > indent {
-            let _ = writeln!(out, "{}", line.trim_end());
-            line = " ".repeat(indent);
-            used = indent;
-        }
-        if !line.ends_with(' ') {
-            line.push(' ');
-            used += 1;
-        }
-        line.push_str(word);
-        used += n;
-    }
-    let _ = writeln!(out, "{}", line.trim_end());
 }
 
 /// What would help where a limit was reached; nothing if none was.

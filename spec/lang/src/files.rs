@@ -13,12 +13,12 @@ pub const BUILT_IN: &str = "<built in>";
 /// A file that the program carries: `family/name.toml` and its bytes.
 pub type Carried = (&'static str, &'static [u8]);
 
-static CARRIED: OnceLock<&'static [Carried]> = OnceLock::new();
+static CARRIED: OnceLock<Vec<&'static [Carried]>> = OnceLock::new();
 static PREFERRED: OnceLock<PathBuf> = OnceLock::new();
 
-/// Gives the program its families; only the first call counts.
-pub fn provide(files: &'static [Carried]) {
-    let _ = CARRIED.set(files);
+/// Gives the program the files of its families; only the first call counts.
+pub fn provide(families: Vec<&'static [Carried]>) {
+    let _ = CARRIED.set(families);
 }
 
 /// Takes the families from this folder, wherever a machine file lies; only the first call counts.
@@ -67,8 +67,8 @@ fn carried(path: &Path) -> Option<String> {
     Some(parts.join("/"))
 }
 
-fn all() -> &'static [Carried] {
-    CARRIED.get().copied().unwrap_or_default()
+fn all() -> impl Iterator<Item = &'static Carried> {
+    CARRIED.get().into_iter().flatten().copied().flatten()
 }
 
 /// The bytes of a file.
@@ -79,7 +79,7 @@ pub fn read(path: &Path) -> io::Result<Vec<u8>> {
     let Some(name) = carried(path) else {
         return std::fs::read(path);
     };
-    let found = all().iter().find(|(known, _)| *known == name);
+    let found = all().find(|(known, _)| *known == name);
     found
         .map(|(_, bytes)| bytes.to_vec())
         .ok_or_else(|| io::ErrorKind::NotFound.into())
@@ -101,7 +101,7 @@ pub fn is_carried(path: &Path) -> bool {
 /// Whether there is such a file.
 pub fn is_file(path: &Path) -> bool {
     match carried(path) {
-        Some(name) => all().iter().any(|(known, _)| *known == name),
+        Some(name) => all().any(|(known, _)| *known == name),
         None => path.is_file(),
     }
 }
@@ -116,7 +116,7 @@ pub fn list(folder: &Path) -> io::Result<Vec<PathBuf>> {
             .map(|entry| entry.map(|e| e.path()))
             .collect::<io::Result<_>>()?,
         Some(name) => {
-            let below = all().iter().filter_map(|(known, _)| match name.is_empty() {
+            let below = all().filter_map(|(known, _)| match name.is_empty() {
                 true => Some(*known),
                 false => known.strip_prefix(&name)?.strip_prefix('/'),
             });
@@ -143,10 +143,9 @@ mod tests {
 
     #[test]
     fn carried_files_read_like_a_folder() {
-        provide(&[
-            ("a/family.toml", b"x"),
-            ("a/b.toml", b"y"),
-            ("c/d.toml", b"z"),
+        provide(vec![
+            &[("a/family.toml", b"x"), ("a/b.toml", b"y")],
+            &[("c/d.toml", b"z")],
         ]);
         let root = built_in().expect("provided");
         assert_eq!(

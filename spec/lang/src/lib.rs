@@ -10,6 +10,7 @@ mod assemble;
 pub mod bind;
 pub mod catalogue;
 pub mod codegen;
+pub mod compile;
 pub mod diag;
 pub mod eval;
 mod excerpt;

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use stillpoint::acceptance::{Ran, run};
+use stillpoint_harness::acceptance::{Ran, run};
 use stillpoint_machine::acceptance::{Protocol, Simulated, Test};
 use stillpoint_machine::{self as machine, Machine};
 

@@ -4,16 +4,17 @@ use std::collections::BTreeSet;
 use std::path::Path as File;
 use std::time::Duration;
 
-use stillpoint::explore::classes::classes;
-use stillpoint::explore::jump::jump;
-use stillpoint::explore::live::{Standing, live};
-use stillpoint::explore::path::Path;
-use stillpoint::explore::walk::walk;
-use stillpoint::explore::{Bounds, identity};
-use stillpoint::subject::{self, Readings, Task};
+use stillpoint_engine::subject::{self, Readings, Task};
+use stillpoint_engine::table::Interpreted;
+use stillpoint_harness::explore::classes::classes;
+use stillpoint_harness::explore::jump::jump;
+use stillpoint_harness::explore::live::{Standing, live};
+use stillpoint_harness::explore::path::Path;
+use stillpoint_harness::explore::walk::walk;
+use stillpoint_harness::explore::{Bounds, identity};
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::ir::Form;
-use stillpoint_model::{Options, Verdict, initials, table::Interpreted};
+use stillpoint_model::{Options, Verdict, initials};
 
 use crate::common::root;
 
@@ -46,7 +47,7 @@ fn explored(bound: &Bound) -> stillpoint_model::Report {
         },
         ..Options::default()
     };
-    let outcome = stillpoint::engine::run(bound, &options, true, &mut ()).expect("explored");
+    let outcome = stillpoint_engine::run(bound, &options, true, &mut ()).expect("explored");
     outcome.report
 }
 

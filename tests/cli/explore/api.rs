@@ -364,7 +364,7 @@ fn the_command_refuses_what_it_cannot_serve() {
         let output = std::process::Command::new(env!("CARGO_BIN_EXE_stillpoint"))
             .arg("explore")
             .args(arguments)
-            .current_dir(std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join(".."))
+            .current_dir(std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../.."))
             .env("NO_COLOR", "1")
             .output()
             .expect("the binary runs");

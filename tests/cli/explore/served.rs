@@ -28,7 +28,7 @@ impl Served {
         let mut child = Command::new(env!("CARGO_BIN_EXE_stillpoint"))
             .arg("explore")
             .args(arguments)
-            .current_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join(".."))
+            .current_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("../.."))
             .env("NO_COLOR", "1")
             .stdout(Stdio::piped())
             .stderr(Stdio::null())

@@ -122,7 +122,7 @@ fn value(datum: &Datum, k: u32, steps: u32) -> u32 {
 }
 
 fn load(text: String) -> Machine {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     machine::load_bytes(
         Path::new("conversion.toml"),
         text.into_bytes(),

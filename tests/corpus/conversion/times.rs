@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use stillpoint::families::sinumerik::production;
+use stillpoint_harness::families::sinumerik::production;
 use stillpoint_machine as machine;
 use stillpoint_monitors::kernel::Cycles;
 use stillpoint_monitors::sinumerik::axis::Local;

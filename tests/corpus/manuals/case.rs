@@ -108,7 +108,7 @@ impl Case {
 }
 
 fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
 /// The last line of the text of a family's manual, by which a mistyped line is seen.

@@ -12,7 +12,7 @@ use toml::{Table, Value};
 /// `json`, pointers into the standard output, taken as JSON. Answer: `status`, `found` (those of `find` that were found), and
 /// each pointer of `json`.
 pub fn run(given: &Given<'_>) -> Result<Table, String> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let mut text = match given.get("file") {
         Some(text) => text.as_str().ok_or("file: a text is needed")?.to_owned(),
         None => {

@@ -22,8 +22,8 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::{Arc, Mutex};
 
-use stillpoint::diff::peer::{Peer, peer};
-use stillpoint::diff::product::Product;
+use stillpoint_harness::diff::peer::{Peer, peer};
+use stillpoint_harness::diff::product::Product;
 use stillpoint_lang::Spec;
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::ir::{LazyKind, Ty};
@@ -81,7 +81,7 @@ fn specification(name: &str) -> Result<Arc<Spec>, String> {
     if let Some(spec) = read.get(name) {
         return Ok(Arc::clone(spec));
     }
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../spec/families/heidenhain-fs");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../spec/families/heidenhain-fs");
     let spec = Arc::new(Spec::load(&folder.join(name)).map_err(|e| e.to_string())?);
     read.insert(name.to_owned(), Arc::clone(&spec));
     Ok(spec)

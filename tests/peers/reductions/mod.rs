@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
-use stillpoint::engine::{self, Outcome, label, replay};
-use stillpoint::reduce::{self, Reductions};
+use stillpoint_engine::{self as engine, Outcome, label, replay};
+use stillpoint_engine::{Reductions, reduce};
 use stillpoint_lang::Spec;
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::eval::Frame;

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use stillpoint::reduce::Reductions;
+use stillpoint_engine::Reductions;
 
 use super::{SLICE, SYMMETRY, compare, full, reduced, systems};
 

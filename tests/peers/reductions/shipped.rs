@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 use std::sync::OnceLock;
 
-use stillpoint::engine::Outcome;
-use stillpoint::reduce::Reductions;
+use stillpoint_engine::Outcome;
+use stillpoint_engine::Reductions;
 use stillpoint_lang::Spec;
 use stillpoint_lang::bind::Bound;
 use stillpoint_tests::peer::each;

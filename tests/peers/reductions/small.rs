@@ -2,8 +2,8 @@
 
 use std::time::Duration;
 
-use stillpoint::export::promela;
-use stillpoint::reduce::{self, Reduction, Reductions};
+use stillpoint_engine::{Reduction, Reductions, reduce};
+use stillpoint_harness::export::promela;
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::slice::Slicer;
 use stillpoint_lang::symmetry::symmetries;
@@ -37,7 +37,7 @@ fn property(id: &str, form: &str) -> String {
     format!("[[system.s.property]]\nid = \"{id}\"\ntext = \"p\"\n{form}\n")
 }
 
-fn reduction(outcome: &stillpoint::engine::Outcome) -> &Reduction {
+fn reduction(outcome: &stillpoint_engine::Outcome) -> &Reduction {
     outcome.reduction.as_ref().expect("it was asked for")
 }
 

@@ -148,7 +148,7 @@ fn in_file(
     match file(&line) {
         Ok(machine) => {
             // What the file permits the monitors must take.
-            let _ = stillpoint::families::sinumerik::production::axes(&machine)?;
+            let _ = stillpoint_harness::families::sinumerik::production::axes(&machine)?;
             let default = cells(&machine)? == cells(&file("")?)?;
             Ok((true, default))
         }
@@ -167,7 +167,9 @@ fn in_file(
 pub fn machine(given: &Given<'_>) -> Result<Table, String> {
     let findings = match read(given.text("file")?) {
         // What a file may say the monitors must take.
-        Ok(machine) => stillpoint::families::sinumerik::production::axes(&machine).map(|_| None)?,
+        Ok(machine) => {
+            stillpoint_harness::families::sinumerik::production::axes(&machine).map(|_| None)?
+        }
         Err(text) => Some(text),
     };
     let found = |what: &&str| findings.as_ref().is_some_and(|text| text.contains(what));
@@ -213,7 +215,7 @@ fn family_file(name: &str) -> Result<Arc<Table>, String> {
     if let Some(table) = read.get(name) {
         return Ok(Arc::clone(table));
     }
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../spec/families/sinumerik-840d");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../spec/families/sinumerik-840d");
     let path = folder.join(name).with_extension("toml");
     let text = std::fs::read_to_string(path).map_err(|e| e.to_string())?;
     let table: Table = text.parse().map_err(|e| format!("{e}"))?;

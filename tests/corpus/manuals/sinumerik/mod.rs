@@ -42,7 +42,8 @@ fn parameters(given: &Given<'_>) -> Result<(Parameters, Configuration), String> 
 
 /// The same of lines.
 fn configured(control: &str, axis: &str) -> Result<(Parameters, Configuration), String> {
-    let mut axes = stillpoint::families::sinumerik::production::axes(&load(control, axis)?)?;
+    let mut axes =
+        stillpoint_harness::families::sinumerik::production::axes(&load(control, axis)?)?;
     let first = axes.pop().ok_or("no axis")?;
     Ok((first.parameters, first.configuration))
 }
@@ -57,7 +58,7 @@ fn load(control: &str, axis: &str) -> Result<Machine, String> {
 
 /// The machine of a file.
 fn read(text: &str) -> Result<Machine, String> {
-    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     stillpoint_machine::load_bytes(
         &root.join("tests/corpus/case.toml"),
         text.as_bytes().to_vec(),

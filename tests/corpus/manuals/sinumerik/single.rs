@@ -2,7 +2,7 @@
 
 use crate::manuals::case::Given;
 use core::num::NonZeroU32;
-use stillpoint::families::sinumerik::vocabulary;
+use stillpoint_harness::families::sinumerik::vocabulary;
 use stillpoint_monitors::kernel::Cycles;
 use stillpoint_monitors::sinumerik::alarm::{Alarm, Response};
 use stillpoint_monitors::sinumerik::encoder::{Encoder, LimitFrequency, Mounting, REVOLUTION};

@@ -15,8 +15,8 @@
 
 use super::parameters;
 use crate::manuals::case::Given;
-use stillpoint::families::sinumerik::vocabulary;
-use stillpoint::recording::Value as Seen;
+use stillpoint_harness::families::sinumerik::vocabulary;
+use stillpoint_harness::recording::Value as Seen;
 use stillpoint_monitors::kernel::Position;
 use stillpoint_monitors::sinumerik::axis::{self, Local};
 use stillpoint_monitors::sinumerik::pair::{Config, Inputs, Pair, State};

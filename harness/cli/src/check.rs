@@ -1,0 +1,247 @@
+//! `stillpoint check`.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use clap::Args;
+use stillpoint_engine::Reductions;
+use stillpoint_engine::check::{Settings, check, exit_status, summarise};
+use stillpoint_engine::keep::Keep;
+use stillpoint_engine::readings::compare;
+use stillpoint_engine::subject::{self, Subject};
+use stillpoint_harness::certificate;
+use stillpoint_harness::report::{self, About};
+
+use super::cluster::ClusterOptions;
+use super::interrupt::Interruptible;
+use super::limits::LimitOptions;
+use super::progress::Line;
+use super::values;
+use super::{Failure, emit, show, tell_data, write};
+
+#[derive(Args)]
+pub struct Arguments {
+    /// Machine or specification file
+    file: PathBuf,
+    /// For a machine file also the parameters of each system and the rules that did not fire
+    #[arg(short, long, conflicts_with_all = ["json", "markdown"])]
+    verbose: bool,
+    /// Print the report as JSON
+    #[arg(long)]
+    json: bool,
+    /// Print the report as Markdown
+    #[arg(long, conflicts_with = "json")]
+    markdown: bool,
+    /// Write the report to this file as one HTML page that needs nothing else, also no network
+    #[arg(long, value_name = "FILE")]
+    html: Option<PathBuf>,
+    #[command(flatten)]
+    limits: LimitOptions,
+    /// `all` compares every option of every reading; ID=OPTION chooses one
+    #[arg(long, value_name = "all|ID=OPTION")]
+    readings: Vec<String>,
+    /// Write a certificate of the verdicts to this file, for `stillpoint certify`
+    #[arg(long, value_name = "FILE")]
+    certificate: Option<PathBuf>,
+    /// Use the interpreter even where there is generated code
+    #[arg(long)]
+    interpret: bool,
+    /// Keep the exploration in this new folder, so that it can be continued after a limit, a kill or a power failure
+    #[arg(long, value_name = "DIR", conflicts_with = "resume")]
+    checkpoint: Option<PathBuf>,
+    /// Continue from the checkpoints in this folder, and go on keeping them there
+    #[arg(long, value_name = "DIR")]
+    resume: Option<PathBuf>,
+    /// The least time between two checkpoints
+    #[arg(long, value_name = "DURATION", value_parser = values::duration, default_value = "30s")]
+    checkpoint_every: Duration,
+    /// Explore less where that keeps the verdicts: `slice` (each property on what it depends on), `symmetry` (identical
+    /// axes), `timers` (values of a timer stored as intervals), several with commas, or `all`. With the first two, rule
+    /// coverage, absorbing states and the number of states of the whole system, which need the full exploration, are not told
+    #[arg(
+        long,
+        value_name = "slice,symmetry,timers|all|none",
+        default_value = "none"
+    )]
+    reduce: Reductions,
+    #[command(flatten)]
+    cluster: ClusterOptions,
+}
+
+pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
+    let choice = values::readings(&arguments.readings).map_err(Failure::Other)?;
+    let subject = subject::load(&arguments.file, &choice.chosen)?;
+    tell_data(subject.machine.as_ref());
+    known_readings(&subject, &choice.chosen)?;
+    if choice.all && (arguments.checkpoint.is_some() || arguments.resume.is_some()) {
+        return Err(Failure::Other(
+            "--readings all makes one check for each option; keep one of them: --readings ID=OPTION"
+                .to_owned(),
+        ));
+    }
+    if let Some(path) = &arguments.html {
+        can_be_written(path)?;
+    }
+    let every = arguments.checkpoint_every;
+    let keep = match (&arguments.checkpoint, &arguments.resume) {
+        (Some(folder), _) => Some(Keep::create(folder, every)),
+        (None, Some(folder)) => {
+            let systems = subject.tasks.iter().map(|t| &t.bound);
+            Some(Keep::resume(folder, every, systems))
+        }
+        (None, None) => None,
+    };
+    let place = arguments.cluster.meet(
+        &arguments.file,
+        &subject,
+        arguments.limits.threads,
+        &for_helpers(arguments, &choice.chosen),
+    )?;
+    let interrupt = Interruptible::begin()?;
+    let settings = Settings {
+        keep: keep.transpose().map_err(Failure::Other)?,
+        threads: arguments.limits.threads,
+        memory: arguments.limits.memory,
+        time: arguments.limits.time,
+        interpret: arguments.interpret,
+        reductions: arguments.reduce,
+        // Processes that explore together agree on a search without them.
+        witnesses: (arguments.markdown || arguments.html.is_some()) && place.cluster.is_none(),
+        cluster: place.cluster.clone(),
+        interrupt: Some(interrupt.handle()),
+    };
+    let start = Instant::now();
+    let fail =
+        |(title, e): (String, stillpoint_model::Error)| Failure::Other(format!("{title}: {e}"));
+    let checked = check(&subject, &settings, &mut |task| {
+        Box::new(Line::new(&task.title).within(settings.memory))
+    })
+    .map_err(fail)?;
+    if place.is_helper() {
+        return Ok(0);
+    }
+    if let Some(cluster) = &place.cluster {
+        eprintln!(
+            "{} processes with {} threads each, {} states sent from one to another",
+            cluster.processes(),
+            cluster.threads(),
+            report::grouped(u128::from(cluster.sent()))
+        );
+    }
+    let summaries = summarise(&subject, &checked);
+    let mut status = exit_status(&summaries, &checked);
+    let compared = if choice.all {
+        let compared = compare(
+            &subject,
+            &checked,
+            &settings.after(start),
+            &choice.chosen,
+            &mut |title| Box::new(Line::new(title).within(settings.memory)),
+        )
+        .map_err(|e| match e {
+            stillpoint_engine::readings::Failed::Input(d) => Failure::Input(d),
+            stillpoint_engine::readings::Failed::Explore(title, e) => fail((title, e)),
+        })?;
+        if status == 0 && compared.iter().any(|c| !c.complete) {
+            status = 3;
+        }
+        Some(compared)
+    } else {
+        None
+    };
+    if arguments.json {
+        let mut json = report::to_json(&subject, &checked, &summaries);
+        if let (Some(compared), Some(object)) = (&compared, json.as_object_mut()) {
+            object.insert(
+                "readings".to_owned(),
+                stillpoint_harness::report::readings::to_json(compared),
+            );
+        }
+        emit(&format!("{json:#}\n"));
+    } else if !arguments.markdown {
+        show(&report::text(
+            &subject,
+            &checked,
+            &summaries,
+            arguments.verbose,
+        ));
+        emit(&report::further(&checked, &settings));
+        if let Some(compared) = &compared {
+            emit(&stillpoint_harness::report::readings::text(compared));
+        }
+    }
+    if arguments.markdown || arguments.html.is_some() {
+        let mut about = About::of(&subject, &checked, &settings.after(start), &mut |_| ())
+            .map_err(Failure::Other)?;
+        about.readings = compared;
+        let document = report::document(&subject, &checked, &summaries, &about);
+        if arguments.markdown {
+            emit(&document.markdown());
+        }
+        write(arguments.html.as_deref(), |out| {
+            out.write_all(document.html().as_bytes())
+        })?;
+    }
+    // The report is out by now: it is not lost if the disk is full, nor by a signal.
+    drop(interrupt);
+    if let Some(path) = &arguments.certificate {
+        let line = Line::new("certificate");
+        let progress = |done: usize, of: usize| line.share(done as u64, of as u64, "systems");
+        certificate::certify(path, &subject, &checked, settings.threads, &progress)
+            .map_err(Failure::Other)?;
+    }
+    Ok(status)
+}
+
+/// A report that cannot be written is better told before the check than after it.
+fn can_be_written(path: &Path) -> Result<(), Failure> {
+    let folder = match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    let why = if path.is_dir() {
+        "is a folder; name a file in it"
+    } else if !folder.is_dir() {
+        "is in no folder that exists; make it first"
+    } else {
+        return Ok(());
+    };
+    Err(Failure::Other(format!(
+        "--html {}: this {why}",
+        path.display()
+    )))
+}
+
+/// The options with which another process explores the same.
+fn for_helpers(arguments: &Arguments, chosen: &subject::Readings) -> Vec<String> {
+    let mut options = Vec::new();
+    if arguments.interpret {
+        options.push("--interpret".to_owned());
+    }
+    if let Some(bytes) = arguments.limits.memory {
+        options.extend(["--memory".to_owned(), bytes.to_string()]);
+    }
+    for (id, option) in chosen {
+        options.extend(["--readings".to_owned(), format!("{id}={option}")]);
+    }
+    options
+}
+
+pub(super) fn known_readings(subject: &Subject, chosen: &subject::Readings) -> Result<(), Failure> {
+    let known: BTreeSet<String> = subject
+        .tasks
+        .iter()
+        .flat_map(|t| t.bound.system.readings.iter().map(|r| r.id.clone()))
+        .collect();
+    match values::unknown(chosen, &known) {
+        None => Ok(()),
+        Some(id) => {
+            let list: Vec<&str> = known.iter().map(String::as_str).collect();
+            Err(Failure::Other(format!(
+                "there is no reading `{id}`; this file has {}",
+                list.join(", ")
+            )))
+        }
+    }
+}

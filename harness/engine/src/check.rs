@@ -1,0 +1,322 @@
+//! `check`: explores every task of a subject and judges its properties.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use stillpoint_model::{Cluster, Error, Interrupt, Limits, Options, Progress, Trace, Verdict};
+
+use crate::excluded::{Exclusion, Judge};
+use crate::explore;
+use crate::keep::Keep;
+use crate::outcome::{Outcome, Reductions, label};
+use crate::reduce;
+use crate::subject::{Subject, Task};
+
+/// How to check.
+#[derive(Debug, Clone, Default)]
+pub struct Settings {
+    /// Worker threads; 0 for all processors.
+    pub threads: usize,
+    /// Bytes for the explorer.
+    pub memory: Option<u64>,
+    /// Wall time for everything.
+    pub time: Option<Duration>,
+    /// Use the interpreter even where there is generated code.
+    pub interpret: bool,
+    /// Where to keep the explorations, so that the check can be continued.
+    pub keep: Option<Keep>,
+    /// Explore less where that keeps the verdicts.
+    pub reductions: Reductions,
+    /// Rebuild the runs that show what must be reachable, not only those that break a property.
+    pub witnesses: bool,
+    /// The processes that explore together; none for this one alone.
+    pub cluster: Option<Arc<Cluster>>,
+    /// Ends everything from outside, as a limit would.
+    pub interrupt: Option<Interrupt>,
+}
+
+impl Settings {
+    /// The limits of what begins now, where `start` began the time.
+    pub fn limits(&self, start: Instant) -> Limits {
+        Limits {
+            memory: self.memory,
+            time: self.time.map(|t| t.saturating_sub(start.elapsed())),
+            threads: self.threads,
+        }
+    }
+
+    /// The settings for what follows, where `start` began the time.
+    #[must_use]
+    pub fn after(&self, start: Instant) -> Self {
+        Self {
+            time: self.limits(start).time,
+            ..self.clone()
+        }
+    }
+
+    /// Whether all was ended from outside.
+    pub fn interrupted(&self) -> bool {
+        self.interrupt.as_ref().is_some_and(Interrupt::is_raised)
+    }
+}
+
+/// What exploring one task gave.
+#[derive(Debug)]
+pub struct Checked {
+    /// The engine's outcome.
+    pub outcome: Outcome,
+    /// Rules that never fired: (name, why).
+    pub unfired: Vec<(String, Unfired)>,
+    /// Witnesses that the values of the machine exclude, by property number.
+    pub excluded: BTreeMap<usize, Exclusion>,
+}
+
+/// Why a rule never fired.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Unfired {
+    /// No state and input can make it fire under these parameters.
+    Parameters,
+    /// The specification gives the reason.
+    Explained(String),
+    /// Nothing explains it: a finding.
+    Unexplained,
+    /// The exploration did not end.
+    Unknown,
+}
+
+/// A verdict on one property id over all tasks.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Summary {
+    /// Property id.
+    pub id: String,
+    /// The worst verdict that says something.
+    pub verdict: Verdict,
+    /// Cycles of the shortest counterexample or witness.
+    pub length: Option<u64>,
+    /// Whether it is unreachable because the values of the machine exclude it, wherever it was looked for.
+    pub excluded: bool,
+}
+
+/// Checks all tasks, one after the other.
+///
+/// # Errors
+/// A system that cannot be explored at all, with the task's title.
+pub fn check(
+    subject: &Subject,
+    settings: &Settings,
+    progress: &mut dyn FnMut(&Task) -> Box<dyn Progress>,
+) -> Result<Vec<Checked>, (String, Error)> {
+    let start = Instant::now();
+    let mut out = Vec::new();
+    let mut judge = Judge::default();
+    for (number, task) in subject.tasks.iter().enumerate() {
+        let options = Options {
+            limits: settings.limits(start),
+            interrupt: settings.interrupt.clone(),
+            // Most reports tell the length of a witness only; rebuilding their runs takes as long as the search.
+            witnesses: settings.witnesses,
+            checkpoint: settings.keep.as_ref().map(|k| k.of(number, &task.bound)),
+            ..Options::default()
+        };
+        let mut follow = progress(task);
+        let outcome = match &settings.cluster {
+            Some(cluster) => explore::run_together(
+                &task.bound,
+                &options,
+                settings.interpret,
+                follow.as_mut(),
+                Some(cluster),
+            ),
+            None => reduce::run(
+                &task.bound,
+                &options,
+                settings.interpret,
+                settings.reductions,
+                follow.as_mut(),
+            ),
+        }
+        .map_err(|e| (task.title.clone(), e))?;
+        let unfired = unfired(task, &outcome);
+        let alone = settings.cluster.as_ref().is_none_or(|c| c.process() == 0);
+        let excluded = match subject.machine.is_some() && alone {
+            true => judge
+                .of(task, &outcome, &options, settings.interpret)
+                .map_err(|e| (task.title.clone(), e))?,
+            false => BTreeMap::new(),
+        };
+        out.push(Checked {
+            outcome,
+            unfired,
+            excluded,
+        });
+    }
+    Ok(out)
+}
+
+fn unfired(task: &Task, outcome: &Outcome) -> Vec<(String, Unfired)> {
+    let system = &task.bound.system;
+    let mut out = Vec::new();
+    if outcome
+        .reduction
+        .as_ref()
+        .is_some_and(|r| r.whole.is_none())
+    {
+        // Slices and orbits tell nothing about rules.
+        return out;
+    }
+    for (k, rule) in system.rules().enumerate() {
+        if outcome.report.coverage.get(k).is_some_and(|n| *n > 0) {
+            continue;
+        }
+        let general = match (rule.name.find('['), rule.name.find(']')) {
+            (Some(a), Some(b)) => format!("{}{}", &rule.name[..a], &rule.name[b + 1..]),
+            _ => rule.name.clone(),
+        };
+        let reason = system
+            .unreached
+            .iter()
+            .find(|(n, _)| *n == rule.name || *n == general);
+        let why = if task.analysis.dead.contains(&k) {
+            Unfired::Parameters
+        } else if let Some((_, reason)) = reason {
+            Unfired::Explained(reason.clone())
+        } else if outcome.report.complete {
+            Unfired::Unexplained
+        } else {
+            Unfired::Unknown
+        };
+        out.push((rule.name.clone(), why));
+    }
+    out
+}
+
+/// Rank of a verdict when several runs are put together: what says most about a fault comes first.
+fn rank(one: &Summary) -> u8 {
+    match one.verdict {
+        Verdict::Violated => 6,
+        Verdict::Unreachable if !one.excluded => 5,
+        Verdict::Inconclusive => 4,
+        Verdict::Holds | Verdict::Reached => 3,
+        Verdict::Unreachable => 2,
+        Verdict::Vacuous => 1,
+    }
+}
+
+/// One verdict for each property id, in the order in which they first occur.
+pub fn summarise(subject: &Subject, checked: &[Checked]) -> Vec<Summary> {
+    let mut order: Vec<String> = Vec::new();
+    let mut best: BTreeMap<String, Summary> = BTreeMap::new();
+    for (task, done) in subject.tasks.iter().zip(checked) {
+        let properties = task.bound.system.properties.iter();
+        let judgements = properties.zip(&done.outcome.report.properties);
+        for (k, (property, judged)) in judgements.enumerate() {
+            let new = Summary {
+                id: task.guarantee.as_ref().unwrap_or(&property.id).clone(),
+                verdict: judged.verdict,
+                length: judged.length,
+                excluded: done.excluded.contains_key(&k),
+            };
+            match best.get_mut(&new.id) {
+                None => {
+                    order.push(new.id.clone());
+                    best.insert(new.id.clone(), new);
+                }
+                Some(old) => {
+                    let shorter = rank(old) == rank(&new)
+                        && new.length.unwrap_or(u64::MAX) < old.length.unwrap_or(u64::MAX);
+                    if rank(&new) > rank(old) || shorter {
+                        *old = new;
+                    }
+                }
+            }
+        }
+        for fault in &done.outcome.report.faults {
+            let id = "range".to_owned();
+            if !best.contains_key(&id) {
+                order.push(id.clone());
+                best.insert(
+                    id.clone(),
+                    Summary {
+                        id,
+                        verdict: Verdict::Violated,
+                        length: fault.length,
+                        excluded: false,
+                    },
+                );
+            }
+        }
+    }
+    order
+        .into_iter()
+        .filter_map(|id| best.remove(&id))
+        .collect()
+}
+
+/// Exit status for the verdicts: 1 violated (or a witness that must exist does not, though the values permit it),
+/// 3 inconclusive, 0 otherwise.
+pub fn exit_status(summaries: &[Summary], checked: &[Checked]) -> u8 {
+    let any = |v: Verdict| summaries.iter().any(|s| s.verdict == v && !s.excluded);
+    if any(Verdict::Violated) || any(Verdict::Unreachable) {
+        1
+    } else if any(Verdict::Inconclusive) || checked.iter().any(|c| !c.outcome.report.complete) {
+        3
+    } else {
+        0
+    }
+}
+
+/// A counterexample: which task, which property, and the run.
+pub struct Violation<'a> {
+    /// The task.
+    pub task: &'a Task,
+    /// Property id with the index of its copy.
+    pub id: String,
+    /// In plain words.
+    pub text: String,
+    /// The run.
+    pub trace: Option<&'a Trace>,
+    /// For a property of two runs, the second one.
+    pub second: Option<&'a Trace>,
+    /// How the report differs from what the property records.
+    pub refuted: Option<&'a str>,
+}
+
+/// All violations, in order.
+pub fn violations<'a>(subject: &'a Subject, checked: &'a [Checked]) -> Vec<Violation<'a>> {
+    let mut out = Vec::new();
+    for (task, done) in subject.tasks.iter().zip(checked) {
+        let judged = task
+            .bound
+            .system
+            .properties
+            .iter()
+            .zip(&done.outcome.report.properties);
+        for (k, (property, judged)) in judged.enumerate() {
+            if judged.verdict == Verdict::Violated {
+                out.push(Violation {
+                    task,
+                    id: label(property),
+                    text: property.text.clone(),
+                    trace: judged.trace.as_ref(),
+                    second: done.outcome.pairs.get(&k).and_then(|p| p.second.as_ref()),
+                    refuted: done.outcome.refuted.get(&k).map(String::as_str),
+                });
+            }
+        }
+        for fault in &done.outcome.report.faults {
+            let site = task.bound.system.sites.get(fault.code as usize);
+            out.push(Violation {
+                task,
+                id: "range".to_owned(),
+                text: site.map_or("a value left its range".to_owned(), |s| {
+                    format!("an assignment leaves the range of its variable: {}", s.name)
+                }),
+                trace: fault.trace.as_ref(),
+                second: None,
+                refuted: None,
+            });
+        }
+    }
+    out
+}

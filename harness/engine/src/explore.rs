@@ -1,0 +1,200 @@
+//! Explores a table: generated step function where there is one, else the interpreter; two runs for `independent`.
+
+use std::collections::BTreeMap;
+use std::time::Instant;
+
+use stillpoint_lang::bind::Bound;
+use stillpoint_lang::ir;
+use stillpoint_model::{
+    Cluster, Error, Form, Judgement, Limits, Options, Progress, Property, Report, System, Twin,
+    explore, explore_together,
+};
+
+use crate::keep::beside;
+use crate::outcome::{Evaluator, Outcome, Pair, label, undecided};
+use crate::recorded;
+use crate::table::{Generated, Interpreted, properties};
+
+/// Explores `bound` and judges all its properties; `interpret` forces the interpreter.
+///
+/// # Errors
+/// A system that cannot be explored at all.
+pub fn run(
+    bound: &Bound,
+    options: &Options,
+    interpret: bool,
+    progress: &mut dyn Progress,
+) -> Result<Outcome, Error> {
+    run_together(bound, options, interpret, progress, None)
+}
+
+/// Like [`run`], together with the other processes of a cluster; only process 0 gets an outcome that says something.
+///
+/// # Errors
+/// A system that cannot be explored at all; a process that is gone.
+pub fn run_together(
+    bound: &Bound,
+    options: &Options,
+    interpret: bool,
+    progress: &mut dyn Progress,
+    cluster: Option<&Cluster>,
+) -> Result<Outcome, Error> {
+    let generated = if interpret {
+        None
+    } else {
+        Generated::find(bound)
+    };
+    let (mut found, evaluator) = match generated {
+        Some(system) => (
+            judge(&system, &system, bound, options, progress, cluster)?,
+            Evaluator::Generated,
+        ),
+        None => {
+            let system = Interpreted::new(bound);
+            (
+                judge(&system, &system, bound, options, progress, cluster)?,
+                Evaluator::Interpreter,
+            )
+        }
+    };
+    let refuted = recorded::judge(bound, &mut found.report.properties);
+    Ok(Outcome {
+        report: found.report,
+        evaluator,
+        pairs: found.pairs,
+        refuted,
+        reduction: None,
+    })
+}
+
+/// A report on all properties of a table, before it is compared with what they record.
+pub(crate) struct Judged {
+    pub(crate) report: Report,
+    pub(crate) pairs: BTreeMap<usize, Pair>,
+}
+
+/// Explores the table `bound` as `system`, and pairs of runs of it as `paired`.
+pub(crate) fn judge<S: System, P: System>(
+    system: &S,
+    paired: &P,
+    bound: &Bound,
+    options: &Options,
+    progress: &mut dyn Progress,
+    cluster: Option<&Cluster>,
+) -> Result<Judged, Error> {
+    let start = Instant::now();
+    let listed = properties(bound);
+    let single: Vec<Property> = listed.iter().map(|(_, p)| p.clone()).collect();
+    let mut report = search(system, &single, options, progress, cluster)?;
+    let mut judged: Vec<Option<Judgement>> = vec![None; bound.system.properties.len()];
+    for ((k, _), judgement) in listed.iter().zip(std::mem::take(&mut report.properties)) {
+        judged[*k] = Some(judgement);
+    }
+    let mut pairs = BTreeMap::new();
+    for (k, property) in bound.system.properties.iter().enumerate() {
+        let ir::Form::Independent {
+            observe,
+            of,
+            condition,
+        } = &property.form
+        else {
+            continue;
+        };
+        // One time limit for all of them.
+        let limits = Limits {
+            time: options
+                .limits
+                .time
+                .map(|t| t.saturating_sub(start.elapsed())),
+            ..options.limits
+        };
+        let options = &Options {
+            limits,
+            ..options.clone()
+        };
+        let claim = Claim {
+            bound,
+            observe,
+            of,
+            condition: *condition,
+            id: label(property),
+            options,
+            cluster,
+        };
+        let (outcome, pair) = claim.explore(paired)?;
+        report.complete &= outcome.complete;
+        report.resumable &= outcome.resumable;
+        report.seconds += outcome.seconds;
+        judged[k] = outcome.properties.into_iter().next();
+        pairs.insert(k, pair);
+    }
+    report.properties = judged
+        .into_iter()
+        .zip(&bound.system.properties)
+        .map(|(j, p)| j.unwrap_or_else(|| undecided(p)))
+        .collect();
+    Ok(Judged { report, pairs })
+}
+
+/// Explores alone, or together with others.
+fn search<S: System>(
+    system: &S,
+    properties: &[Property],
+    options: &Options,
+    progress: &mut dyn Progress,
+    cluster: Option<&Cluster>,
+) -> Result<Report, Error> {
+    match cluster {
+        None => explore(system, properties, options, progress),
+        Some(cluster) => explore_together(system, properties, options, progress, cluster),
+    }
+}
+
+/// A claim about pairs of runs that differ in some inputs only.
+struct Claim<'a> {
+    bound: &'a Bound,
+    observe: &'a [usize],
+    of: &'a [usize],
+    condition: Option<usize>,
+    id: String,
+    options: &'a Options,
+    cluster: Option<&'a Cluster>,
+}
+
+impl Claim<'_> {
+    /// Explores all such pairs; a counterexample's first run stays in the judgement.
+    fn explore<S: System>(self, system: &S) -> Result<(Report, Pair), Error> {
+        let inputs = &self.bound.inputs;
+        let size = |k: usize| {
+            u32::try_from(i64::from(inputs[k].1) - i64::from(inputs[k].0) + 1).unwrap_or(u32::MAX)
+        };
+        let listed = self.of.iter().map(|k| (*k as u32, size(*k))).collect();
+        let twin = Twin::new(system, listed, self.condition, self.observe.to_vec());
+        let form = Form::Always {
+            when: Some(Twin::<S>::BOTH),
+            then: Twin::<S>::AGREE,
+        };
+        let options = Options {
+            checkpoint: self
+                .options
+                .checkpoint
+                .as_ref()
+                .map(|c| beside(c, &self.id)),
+            ..self.options.clone()
+        };
+        let property = Property { id: self.id, form };
+        let mut report = search(&twin, &[property], &options, &mut (), self.cluster)?;
+        let mut pair = Pair {
+            states: report.states,
+            second: None,
+        };
+        for judgement in &mut report.properties {
+            if let Some(trace) = judgement.trace.take() {
+                let [first, second] = twin.split(&trace);
+                pair.second = Some(second);
+                judgement.trace = Some(first);
+            }
+        }
+        Ok((report, pair))
+    }
+}

@@ -1,0 +1,20 @@
+//! From tables to systems and from explorations to answers: what stands between the specification and the explorer.
+//!
+//! The way of a check: [`subject`] loads a file and everything to be explored for it, [`check`] explores each [`table`] as a
+//! whole or reduced ([`reduce`]), and judges its properties. What the answer is told in is no matter of this crate.
+
+pub mod check;
+mod cycles;
+pub mod excluded;
+mod explore;
+pub mod keep;
+mod outcome;
+pub mod readings;
+mod recorded;
+pub mod reduce;
+pub mod subject;
+pub mod table;
+
+pub use cycles::{Cycle, lazy, replay};
+pub use explore::{run, run_together};
+pub use outcome::{Evaluator, Explored, Outcome, Pair, Reduction, Reductions, label, verdict_name};

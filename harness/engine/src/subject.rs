@@ -1,0 +1,188 @@
+//! What a command works on: the systems of a specification file, or the runs of a machine file.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use stillpoint_lang::analysis::Analysis;
+use stillpoint_lang::bind::{BindError, Bound};
+use stillpoint_lang::diag::{Diagnostic, Diagnostics, Result};
+use stillpoint_lang::{Spec, read_text};
+use stillpoint_machine::{self as machine, Machine, Run, families};
+
+/// Chosen options of readings, by id; what is missing has the recommended one.
+pub type Readings = BTreeMap<String, String>;
+
+/// One exploration.
+#[derive(Debug, Clone)]
+pub struct Task {
+    /// What it shows.
+    pub title: String,
+    /// The axes it stands for; empty for a specification file.
+    pub axes: Vec<String>,
+    /// The guarantee of the machine file that it decides.
+    pub guarantee: Option<String>,
+    /// Where it is coarser than the machine.
+    pub abstractions: Vec<String>,
+    /// The system with its parameter values.
+    pub bound: Bound,
+    /// What static analysis found.
+    pub analysis: Analysis,
+    /// The specification file of the system.
+    pub file: PathBuf,
+    /// For parameters that a machine file decides: the expression over its values.
+    pub sources: BTreeMap<String, String>,
+}
+
+/// A file and everything to be explored for it.
+#[derive(Debug, Clone)]
+pub struct Subject {
+    /// The file.
+    pub path: PathBuf,
+    /// Name of the machine or specification.
+    pub name: String,
+    /// One line about it.
+    pub title: String,
+    /// The machine, for a machine file.
+    pub machine: Option<Machine>,
+    /// The explorations.
+    pub tasks: Vec<Task>,
+}
+
+/// Reads a specification or machine file, resolves and analyses everything to be explored.
+///
+/// # Errors
+/// Whatever is wrong with the file; nothing has been run then.
+pub fn load(path: &Path, readings: &Readings) -> Result<Subject> {
+    let text = read_text(path, "machine or specification file")?;
+    if has_key(&text, "spec") {
+        of_spec(path, text, readings)
+    } else {
+        of_machine(path, readings)
+    }
+}
+
+/// Whether the file sets this key at its top: `spec` marks a specification file, `family` a machine file.
+pub fn has_key(text: &str, key: &str) -> bool {
+    text.lines()
+        .map(str::trim_start)
+        .take_while(|l| !l.starts_with('['))
+        .any(|l| {
+            l.strip_prefix(key)
+                .is_some_and(|rest| rest.trim_start().starts_with('='))
+        })
+}
+
+fn of_spec(path: &Path, text: Arc<str>, readings: &Readings) -> Result<Subject> {
+    let spec = Spec::from_text(path, text.clone())?;
+    let names: Vec<String> = spec.systems().map(str::to_owned).collect();
+    let mut tasks = Vec::new();
+    let mut errors = Vec::new();
+    for name in &names {
+        let system = match spec.system(name, None) {
+            Ok(system) => system,
+            Err(Diagnostics(list)) => {
+                errors.extend(list);
+                continue;
+            }
+        };
+        let bound = bind(path, &text, system, &BTreeMap::new(), readings)?;
+        match spec.analyse(&bound) {
+            Ok(analysis) => tasks.push(Task {
+                title: bound.system.text.clone(),
+                axes: Vec::new(),
+                guarantee: None,
+                abstractions: Vec::new(),
+                bound,
+                analysis,
+                file: path.to_owned(),
+                sources: BTreeMap::new(),
+            }),
+            Err(Diagnostics(list)) => errors.extend(list),
+        }
+    }
+    if !errors.is_empty() {
+        return Err(Diagnostics(errors));
+    }
+    if tasks.is_empty() {
+        let file = path.display().to_string();
+        return Err(
+            Diagnostic::new(&file, &text, None, "declares no system to check")
+                .help("add [system.NAME] with instances, or check a file that uses this one")
+                .into(),
+        );
+    }
+    Ok(Subject {
+        path: path.to_owned(),
+        name: spec.name.clone(),
+        title: spec.title.clone(),
+        machine: None,
+        tasks,
+    })
+}
+
+fn of_machine(path: &Path, readings: &Readings) -> Result<Subject> {
+    let machine = machine::load(path, &families(path))?;
+    let runs = machine.runs.clone();
+    of_runs(path, machine, &runs, readings)
+}
+
+/// A machine with explorations that need not be its own ones, such as those of its reaction times.
+///
+/// # Errors
+/// As [`load`].
+pub fn of_runs(
+    path: &Path,
+    machine: Machine,
+    runs: &[Run],
+    readings: &Readings,
+) -> Result<Subject> {
+    let mut tasks = Vec::new();
+    let mut specs: BTreeMap<PathBuf, Spec> = BTreeMap::new();
+    for run in runs {
+        if !specs.contains_key(&run.file) {
+            specs.insert(run.file.clone(), machine.spec(&run.file)?);
+        }
+        let spec = &specs[&run.file];
+        let cycle = u64::try_from(run.cycle).ok();
+        let system = spec.system(&run.system, cycle)?;
+        let source: Arc<str> = Arc::from("");
+        let bound = bind(&run.file, &source, system, &run.params, readings)?;
+        let analysis = spec.analyse(&bound)?;
+        tasks.push(Task {
+            title: run.title.clone(),
+            axes: run.axes.clone(),
+            guarantee: run.guarantee.clone(),
+            abstractions: run.abstractions.clone(),
+            bound,
+            analysis,
+            file: run.file.clone(),
+            sources: run.sources.clone(),
+        });
+    }
+    Ok(Subject {
+        path: path.to_owned(),
+        name: machine.name.clone(),
+        title: machine.title.clone(),
+        machine: Some(machine),
+        tasks,
+    })
+}
+
+fn bind(
+    path: &Path,
+    source: &Arc<str>,
+    system: stillpoint_lang::ir::System,
+    params: &BTreeMap<String, Vec<i64>>,
+    readings: &Readings,
+) -> Result<Bound> {
+    Bound::new(system, params, readings).map_err(|e: BindError| {
+        let help = match e {
+            BindError::Reading(_) => "write --readings ID=OPTION with one of these options",
+            _ => "give the parameter a value of its range, or correct the mapping in the family's file",
+        };
+        Diagnostic::new(&path.display().to_string(), source, None, e.to_string())
+            .help(help)
+            .into()
+    })
+}

@@ -1,0 +1,5 @@
+//! HEIDENHAIN Functional Safety: generated tables and data.
+
+#![no_std]
+
+stillpoint_native::family!();

@@ -1,0 +1,5 @@
+//! SINUMERIK 840D with Safety Integrated: generated tables and data.
+
+#![no_std]
+
+stillpoint_native::family!();
