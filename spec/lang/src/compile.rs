@@ -28,14 +28,17 @@ pub fn family(folder: &str) {
     let list = names.join(", ");
     let number = names.len();
     writeln!(out, "pub static TABLES: [Table; {number}] = [{list}];").expect("a string");
-    out.push_str("pub static DATA: &[Carried] = &[\n");
-    if folder.join("family.toml").is_file() {
-        let family = folder.file_name().unwrap_or_default().to_string_lossy();
-        for path in &files {
-            let name = path.file_name().unwrap_or_default().to_string_lossy();
-            let name = format!("{family}/{name}");
-            writeln!(out, "    ({name:?}, include_bytes!({path:?})),").expect("a string");
-        }
+    let family = folder.file_name().unwrap_or_default().to_string_lossy();
+    let carried = match folder.join("family.toml").is_file() {
+        true => &files[..],
+        false => &[],
+    };
+    let number = carried.len();
+    writeln!(out, "pub static DATA: [Carried; {number}] = [").expect("a string");
+    for path in carried {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        let name = format!("{family}/{name}");
+        writeln!(out, "    ({name:?}, include_bytes!({path:?})),").expect("a string");
     }
     out.push_str("];\n");
     std::fs::write(variable("OUT_DIR").join("family.rs"), out).expect("it can be written");

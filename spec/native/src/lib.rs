@@ -97,7 +97,7 @@ macro_rules! family {
         /// The tables and data of this family.
         pub const FAMILY: $crate::Family = $crate::Family {
             tables: &generated::TABLES,
-            data: generated::DATA,
+            data: &generated::DATA,
         };
 
         #[allow(clippy::all, unused, missing_docs)]
