@@ -205,7 +205,7 @@ impl Check {
                     self.error(figure.span(), message, help.to_owned());
                 }
             }
-            let root = folder.join("../..");
+            let root = folder.join("../../..");
             for monitor in &page.monitors {
                 if !root.join(monitor.get_ref()).is_file() {
                     let message = format!("there is no file {}", monitor.get_ref());

@@ -325,11 +325,7 @@ pub fn families(path: &Path) -> PathBuf {
         })
     };
     for dir in absolute.ancestors().skip(1) {
-        for candidate in [
-            dir.to_owned(),
-            dir.join("families"),
-            dir.join("spec/families"),
-        ] {
+        for candidate in [dir.to_owned(), dir.join("spec/families")] {
             if has_families(&candidate) {
                 return candidate;
             }
