@@ -2,11 +2,11 @@
 
 use std::collections::BTreeSet;
 
+use stillpoint_engine::check::Checked;
+use stillpoint_engine::subject::{Subject, Task};
 use stillpoint_machine::Shown;
 use stillpoint_machine::guarantee::Guarantee;
 use stillpoint_model::Verdict;
-use stillpoint_engine::check::Checked;
-use stillpoint_engine::subject::{Subject, Task};
 
 /// A guarantee and what was found about it.
 #[derive(Debug)]

@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use stillpoint::check::{Settings, check};
-use stillpoint::guarantees::answers;
-use stillpoint::subject::{self, Readings};
+use stillpoint_engine::check::{Settings, check};
+use stillpoint_engine::subject::{self, Readings};
+use stillpoint_harness::guarantees::answers;
 use stillpoint_machine::{self as machine, Machine, families};
 use stillpoint_model::Verdict;
 use stillpoint_tests::root;

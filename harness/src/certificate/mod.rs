@@ -15,12 +15,12 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use stillpoint_certify::format::{Body, Kind, Proof, Run, Task, Verdict};
 use stillpoint_certify::states::Radix;
 use stillpoint_certify::{subject, write};
+use stillpoint_engine::check::Checked;
+use stillpoint_engine::subject::Subject;
 use stillpoint_engine::table::{Generated, Interpreted};
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::ir::Form;
 use stillpoint_model::{self as model, Judgement, Trace};
-use stillpoint_engine::check::Checked;
-use stillpoint_engine::subject::Subject;
 
 use crate::atomic::write_with;
 use search::Search;

@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use stillpoint_engine::subject::Subject;
 use stillpoint_lang::Spec;
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::files;
 use stillpoint_lang::ir::System;
-use stillpoint_engine::subject::Subject;
 
 use super::random::Random;
 use super::{DiffError, peer};

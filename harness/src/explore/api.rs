@@ -4,10 +4,10 @@ use std::sync::{MutexGuard, TryLockError};
 
 use serde::Deserialize;
 use serde_json::{Value, json};
-use stillpoint_lang::bind::Bound;
 use stillpoint_engine::label;
 use stillpoint_engine::subject::Task;
 use stillpoint_engine::verdict_name;
+use stillpoint_lang::bind::Bound;
 
 use super::Explorer;
 use super::jump::{jump, options};

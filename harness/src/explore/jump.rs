@@ -1,10 +1,10 @@
 //! A run that shows a property: its counterexample or its witness, found by exploring.
 
+use stillpoint_engine::verdict_name;
+use stillpoint_engine::{self as engine, Outcome};
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::ir::Form;
 use stillpoint_model::{Error, Limits, Options, Trace, Verdict};
-use stillpoint_engine::verdict_name;
-use stillpoint_engine::{self as engine, Outcome};
 
 use super::Bounds;
 use super::path::{MOST_CYCLES, Path};

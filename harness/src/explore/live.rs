@@ -2,9 +2,9 @@
 
 use std::collections::BTreeSet;
 
+use stillpoint_engine::Cycle;
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::ir::{Form, Property};
-use stillpoint_engine::Cycle;
 
 use super::truth::truth;
 

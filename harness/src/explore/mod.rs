@@ -27,8 +27,8 @@ use std::sync::Mutex;
 use std::time::Duration;
 
 use sha2::{Digest, Sha256};
-use stillpoint_lang::bind::Bound;
 use stillpoint_engine::subject::{Subject, Task};
+use stillpoint_lang::bind::Bound;
 
 use crate::export::system_names;
 

@@ -5,9 +5,9 @@
 //! inputs. The recording therefore does not tell what the tables said along the walk as if it were the machine's, but what
 //! the monitors say to the same signals. Each cycle of the walk is one monitoring cycle.
 
+use stillpoint_engine::subject::Task;
 use stillpoint_lang::eval::UNSET;
 use stillpoint_machine::Machine;
-use stillpoint_engine::subject::Task;
 
 use super::walk::Walk;
 use crate::families::{self, Drive, Feed, Owner, Rig};

@@ -5,12 +5,12 @@ use std::ops::ControlFlow;
 
 use serde_json::{Value, json};
 use stillpoint_engine::table::Interpreted;
+use stillpoint_engine::{Cycle, label, lazy};
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::eval::UNSET;
 use stillpoint_lang::ir::{LazyKind, Ty, Var};
 use stillpoint_model::Fault;
 use stillpoint_show::diagram::{Diagram, Mark};
-use stillpoint_engine::{Cycle, label, lazy};
 
 use super::classes::{Class, Classes, MOST_CYCLES, classes};
 use super::live::{Live, Standing, live};

@@ -1,9 +1,9 @@
 //! A walk along a path: which choices were read, which states were passed.
 
 use stillpoint_engine::table::Interpreted;
+use stillpoint_engine::{Cycle, replay};
 use stillpoint_lang::bind::Bound;
 use stillpoint_model::{Choices, Replay, System, Trace};
-use stillpoint_engine::{Cycle, replay};
 
 use super::path::{Choice, Path};
 

@@ -1,10 +1,10 @@
 //! The chains as a document.
 
-use stillpoint_machine::Machine;
-use stillpoint_show::document::{Block, Document, Inline, Table, Tone};
 use stillpoint_engine::check::Checked;
 use stillpoint_engine::subject::Subject;
 use stillpoint_engine::verdict_name;
+use stillpoint_machine::Machine;
+use stillpoint_show::document::{Block, Document, Inline, Table, Tone};
 
 use super::{Judged, Proof, Result, basis, cycles, time, way};
 use crate::report::grouped;

@@ -1,8 +1,8 @@
 //! What was configured: the values of a machine file, or the parameters of a specification.
 
+use stillpoint_engine::subject::Subject;
 use stillpoint_machine::{AxisKind, Machine, Shown};
 use stillpoint_show::document::{Block, Inline};
-use stillpoint_engine::subject::Subject;
 
 use super::document::{code, paragraph, section, table, words};
 

@@ -5,13 +5,13 @@ use std::time::Instant;
 
 use stillpoint_certify::format::{Kind, Source};
 use stillpoint_certify::subject as certified;
+use stillpoint_engine::check::{Checked, Settings, Summary, exit_status, violations};
+use stillpoint_engine::readings::Compared;
+use stillpoint_engine::subject::{Subject, Task};
 use stillpoint_lang::ir::Topic;
 use stillpoint_model::{Options, Verdict};
 use stillpoint_show::document::{Block, Document, Inline, Table, Tone};
 use stillpoint_show::graph::Graph;
-use stillpoint_engine::check::{Checked, Settings, Summary, exit_status, violations};
-use stillpoint_engine::readings::Compared;
-use stillpoint_engine::subject::{Subject, Task};
 
 use super::{
     configuration, counted, counts, exploration, findings, grouped, inventory, properties, result,

@@ -1,10 +1,10 @@
 //! What was explored: sizes, abstractions, control states, rules.
 
-use stillpoint_show::document::{Block, Inline, Tone};
-use stillpoint_show::graph::Graph;
 use stillpoint_engine::Evaluator;
 use stillpoint_engine::check::{Checked, Unfired};
 use stillpoint_engine::subject::{Subject, Task};
+use stillpoint_show::document::{Block, Inline, Tone};
+use stillpoint_show::graph::Graph;
 
 use super::document::{Control, code, ids, paragraph, table, words};
 use super::{counted, grouped, params, reduced, reduction, storage_name};

@@ -3,14 +3,14 @@
 use std::collections::BTreeMap;
 
 use serde_json::{Value, json};
-use stillpoint_engine::verdict_name;
-use stillpoint_lang::bind::Bound;
-use stillpoint_lang::ir::Topic;
-use stillpoint_model::{Trace, Verdict};
 use stillpoint_engine::Evaluator;
 use stillpoint_engine::check::{Checked, Summary, Unfired};
 use stillpoint_engine::excluded::Exclusion;
 use stillpoint_engine::subject::Subject;
+use stillpoint_engine::verdict_name;
+use stillpoint_lang::bind::Bound;
+use stillpoint_lang::ir::Topic;
+use stillpoint_model::{Trace, Verdict};
 
 use super::{params, reduced, reduction, topics};
 use crate::guarantees::{Answer, answers};

@@ -1,11 +1,11 @@
 //! The properties of all runs, each told once.
 
-use stillpoint_lang::ir::Property;
-use stillpoint_model::{Trace, Verdict};
-use stillpoint_show::document::Block;
 use stillpoint_engine::check::Checked;
 use stillpoint_engine::excluded::Exclusion;
 use stillpoint_engine::subject::{Subject, Task};
+use stillpoint_lang::ir::Property;
+use stillpoint_model::{Trace, Verdict};
+use stillpoint_show::document::Block;
 
 use super::document::{badge, code, ids, paragraph, table, words};
 use super::{counted, diagram};

@@ -2,11 +2,11 @@
 
 use std::fmt::Write;
 
-use stillpoint_lang::ir::Topic;
-use stillpoint_model::{Storage, Verdict};
-use stillpoint_engine::{Evaluator, verdict_name};
 use stillpoint_engine::check::{Checked, Settings, Summary, Unfired, violations};
 use stillpoint_engine::subject::{Subject, Task};
+use stillpoint_engine::{Evaluator, verdict_name};
+use stillpoint_lang::ir::Topic;
+use stillpoint_model::{Storage, Verdict};
 
 use super::properties::{Row, rows};
 use super::words::wrapped;
