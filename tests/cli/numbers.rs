@@ -84,8 +84,8 @@ fn renewed(line: &str, said: &Value) -> (String, usize) {
         // A space belongs to the number where a digit follows it.
         let bytes = number.as_bytes();
         let is_digit = |k: usize| bytes.get(k).is_some_and(u8::is_ascii_digit);
-        let length =
-            (0..).find(|&k| !is_digit(k) && !(bytes.get(k) == Some(&b' ') && is_digit(k + 1)));
+        let belongs = |k: usize| is_digit(k) || (bytes.get(k) == Some(&b' ') && is_digit(k + 1));
+        let length = (0..).find(|&k| !belongs(k));
         let (number, behind) = number.split_at(length.expect("a number ends"));
         match counted(said, behind) {
             Some(now) => {
