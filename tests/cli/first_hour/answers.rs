@@ -117,7 +117,7 @@ fn a_witness_that_exists_with_no_values_is_missing() {
     // The family by itself, without a machine.
     let tables = copy.replace(
         "machines/milling-840d.toml",
-        "sinumerik-840d/monitoring.toml",
+        "families/sinumerik-840d/monitoring.toml",
     );
     assert_eq!(status(&stillpoint(&["check", &tables, "--json"])), 1);
 }
