@@ -13,6 +13,7 @@ pub mod families;
 pub mod guarantees;
 pub mod matrix;
 pub mod pages;
+pub mod params;
 pub mod plant;
 pub mod reaction;
 pub mod recording;

@@ -20,3 +20,4 @@ mod report;
 mod simulate;
 mod survival;
 mod terminal;
+mod values;

@@ -17,6 +17,7 @@ use super::cluster::ClusterOptions;
 use super::interrupt::Interruptible;
 use super::limits::LimitOptions;
 use super::progress::Line;
+use super::validate::Warnings;
 use super::values;
 use super::{Failure, emit, show, tell_data, write};
 
@@ -65,6 +66,8 @@ pub struct Arguments {
         default_value = "none"
     )]
     reduce: Reductions,
+    #[command(flatten)]
+    warnings: Warnings,
     #[command(flatten)]
     cluster: ClusterOptions,
 }
@@ -191,7 +194,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         certificate::certify(path, &subject, &checked, settings.threads, &progress)
             .map_err(Failure::Other)?;
     }
-    Ok(status)
+    Ok(arguments.warnings.status(subject.machine.as_ref(), status))
 }
 
 /// A report that cannot be written is better told before the check than after it.

@@ -12,22 +12,21 @@ mod interrupt;
 mod limits;
 mod manual;
 mod pages;
+mod params;
 mod progress;
 mod reaction;
 mod simulate;
 mod trace;
+mod validate;
 mod values;
 
-use std::fmt::Write as _;
 use std::io::Write as _;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 use miette::MietteHandlerOpts;
-use stillpoint_engine::subject;
 use stillpoint_harness::atomic::write_with;
-use stillpoint_harness::report::counted;
 use stillpoint_lang::diag::Diagnostics;
 use stillpoint_machine::{self as machine, Machine};
 
@@ -39,7 +38,7 @@ const BAD_INPUT: u8 = 2;
     name = "stillpoint",
     version,
     about = "Stillpoint proves that a machine stops: it checks the safety functions of drives exhaustively.",
-    after_help = "Exit status: 0 all holds; 1 a property is violated or a divergence was found; 2 bad input, nothing was run; 3 a limit was reached first.\n\nExample: stillpoint check spec/machines/milling-840d.toml"
+    after_help = "Exit status: 0 all holds; 1 a property is violated, a divergence was found or a warning is denied; 2 bad input, nothing was run; 3 a limit was reached first.\n\nExample: stillpoint check spec/machines/milling-840d.toml"
 )]
 struct Arguments {
     /// Take the data of the families from this folder, in place of those that this program carries
@@ -96,15 +95,16 @@ enum Command {
         after_help = "Exit status: 0; 1 if a family declared complete has open core requirements, an id is in no catalogue or a delegation leads nowhere; 2 bad input.\n\nExample: stillpoint trace --html matrix.html"
     )]
     Trace(trace::Arguments),
-    /// Check whether a machine file is plausible, without exploring anything
-    #[command(after_help = "Example: stillpoint validate spec/machines/milling-840d.toml")]
-    Validate {
-        /// Machine or specification file
-        file: PathBuf,
-        /// List also the explorations that `check` would make, and in what each is coarser than the machine
-        #[arg(short, long)]
-        verbose: bool,
-    },
+    /// Check whether the values of a machine file are plausible, and tell which are unusual, without exploring anything
+    #[command(
+        after_help = "Exit status: 0; 1 with --deny-warnings if a value is unusual and not accepted; 2 bad input.\n\nExamples:\n  stillpoint validate spec/machines/milling-840d.toml\n  stillpoint validate spec/machines/milling-840d.toml --deny-warnings"
+    )]
+    Validate(validate::Arguments),
+    /// The parameters of a family, or one of them whole: range, default, what reads it, where the manual has it
+    #[command(
+        after_help = "Examples:\n  stillpoint params sinumerik-840d\n  stillpoint params sinumerik-840d STANDSTILL_TOL\n  stillpoint params sinumerik-840d 36951\n  stillpoint params heidenhain-fs SMP560 --json"
+    )]
+    Params(params::Arguments),
     /// Write the pages of the book about the safety functions of a family
     #[command(
         after_help = "Exit status: 0; 1 if --check finds a difference; 2 bad input.\n\nExamples:\n  stillpoint pages spec/families/sinumerik-840d --output docs/src/functions\n  stillpoint pages spec/families/sinumerik-840d --output docs/src/functions --check"
@@ -158,7 +158,8 @@ fn main() -> ExitCode {
         Command::Reaction(arguments) => reaction::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Trace(arguments) => trace::run(&arguments),
-        Command::Validate { file, verbose } => validate(&file, verbose),
+        Command::Params(arguments) => params::run(&arguments),
+        Command::Validate(arguments) => validate::run(&arguments),
         Command::Pages(arguments) => pages::run(&arguments),
         Command::Completions { shell } => manual::completions(shell),
         Command::Man { output } => manual::pages(output.as_deref()),
@@ -252,29 +253,4 @@ fn tell_data(machine: Option<&Machine>) {
             folder.display()
         ));
     }
-}
-
-fn validate(file: &std::path::Path, all: bool) -> Result<u8, Failure> {
-    let subject = subject::load(file, &subject::Readings::new())?;
-    tell_data(subject.machine.as_ref());
-    let mut out = format!("{}: plausible", subject.name);
-    if let Some(machine) = &subject.machine {
-        let axes: Vec<&str> = machine.axes.iter().map(|a| a.name.as_str()).collect();
-        let _ = write!(out, "; axes {}", axes.join(", "));
-    }
-    let explorations = counted(subject.tasks.len() as u64, "exploration");
-    let _ = write!(out, "; `check` makes {explorations}");
-    out.push_str(if all { "\n" } else { ", listed with -v\n" });
-    for task in subject.tasks.iter().filter(|_| all) {
-        let _ = writeln!(
-            out,
-            "  to explore: {} ({})",
-            task.title, task.bound.system.name
-        );
-        for item in &task.abstractions {
-            let _ = writeln!(out, "    abstraction: {item}");
-        }
-    }
-    show(&out);
-    Ok(0)
 }

@@ -7,6 +7,7 @@ mod data;
 mod page;
 mod parameters;
 mod tables;
+mod warnings;
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -59,6 +60,13 @@ pub fn pages(folder: &Path) -> Result<Vec<Written>, PagesError> {
         name: parameters::NAME.to_owned(),
         text: parameters::document(&family.known).markdown(),
     });
+    let warned = stillpoint_machine::warnings::catalogue(folder)?;
+    out.extend(
+        warnings::document(&family.known.title, &warned).map(|page| Written {
+            name: warnings::NAME.to_owned(),
+            text: page.markdown(),
+        }),
+    );
     for page in &family.data.page {
         let document = page::document(folder, &family, page, &catalogue, &example)?;
         let stem = page.name.get_ref();

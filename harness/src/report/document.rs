@@ -15,7 +15,7 @@ use stillpoint_show::graph::Graph;
 
 use super::{
     configuration, counted, counts, exploration, findings, grouped, inventory, properties, result,
-    topics, word,
+    topics, values, word,
 };
 use crate::guarantees::{answers, time, unasked};
 use crate::states::{Budget, control_states};
@@ -135,6 +135,11 @@ pub fn document(
         "Counterexamples",
         "counterexamples",
         counterexamples(subject, checked),
+    );
+    part(
+        "These values",
+        "values",
+        values::blocks(subject.machine.as_ref()),
     );
     part(
         "Configuration",

@@ -12,7 +12,7 @@ use stillpoint_lang::bind::Bound;
 use stillpoint_lang::ir::Topic;
 use stillpoint_model::{Trace, Verdict};
 
-use super::{params, reduced, reduction, topics};
+use super::{params, reduced, reduction, topics, values};
 use crate::guarantees::{Answer, answers};
 
 /// The whole report as JSON: the design's keys at the top, details under `runs`.
@@ -94,6 +94,7 @@ pub fn to_json(subject: &Subject, checked: &[Checked], summaries: &[Summary]) ->
         "guarantees": guarantees(subject, checked),
         "faults": topics::to_json(subject, checked, Topic::Fault),
         "reactions": topics::to_json(subject, checked, Topic::Reaction),
+        "warnings": values::to_json(subject.machine.as_ref(), &subject.path.display().to_string()),
         "runs": runs,
     })
 }

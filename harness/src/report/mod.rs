@@ -10,6 +10,7 @@ pub mod readings;
 mod reduction;
 mod text;
 pub mod topics;
+pub mod values;
 mod words;
 
 use stillpoint_engine::check::{Checked, Summary, Unfired, exit_status};

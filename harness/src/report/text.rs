@@ -12,7 +12,7 @@ use super::properties::{Row, rows};
 use super::words::wrapped;
 use super::{
     counted, counts, diagram, findings, grouped, params, reduced, reduction, result, storage_name,
-    topics, word,
+    topics, values, word,
 };
 use crate::guarantees::{answers, time, unasked};
 
@@ -32,6 +32,10 @@ pub fn text(subject: &Subject, checked: &[Checked], summaries: &[Summary], all: 
             let _ = writeln!(out, "Not explored: {item}");
         }
         out.push('\n');
+        let values = values::text(machine, &subject.path.display().to_string());
+        if !values.is_empty() {
+            let _ = writeln!(out, "{values}");
+        }
     }
     for violation in violations(subject, checked) {
         let _ = writeln!(out, "VIOLATED  {}  {}", violation.id, violation.text);

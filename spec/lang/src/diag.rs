@@ -69,12 +69,16 @@ impl Diagnostic {
 
     /// Line and column, both from 1, of the marked place.
     pub fn position(&self) -> Option<(usize, usize)> {
-        let start = self.span.as_ref()?.start.min(self.source.len());
-        let before = self.source.get(..start)?;
-        let line = before.matches('\n').count() + 1;
-        let column = before.rsplit('\n').next().map_or(0, |l| l.chars().count()) + 1;
-        Some((line, column))
+        position(&self.source, self.span.as_ref()?.start)
     }
+}
+
+/// Line and column, both from 1, of a byte of a text; the end for one beyond it.
+pub fn position(text: &str, at: usize) -> Option<(usize, usize)> {
+    let before = text.get(..at.min(text.len()))?;
+    let line = before.matches('\n').count() + 1;
+    let column = before.rsplit('\n').next().map_or(0, |l| l.chars().count()) + 1;
+    Some((line, column))
 }
 
 impl From<Diagnostic> for Diagnostics {

@@ -42,6 +42,8 @@ pub struct Datum {
     pub text: String,
     /// What the values of an array are: `SG1 to SG4`; empty for a single value.
     pub elements: String,
+    /// The kinds of axes that have it; empty: all.
+    pub kinds: Vec<String>,
     /// Range and default on a linear axis.
     pub linear: Allowed,
     /// Range and default on a rotary axis, where they are other ones.
@@ -53,6 +55,8 @@ pub struct Datum {
 /// The allowed values of a parameter, with units.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Allowed {
+    /// The units that a value may have: `mm, um or inch`; empty for numbers, choices and names.
+    pub units: String,
     /// The range, or the names of the choices.
     pub range: String,
     /// The value where a machine file gives none.
@@ -99,6 +103,7 @@ fn datum(name: &str, table: &'static str, param: &Param) -> Datum {
         manual: param.manual.clone(),
         text: param.text.clone(),
         elements: param.elements.clone(),
+        kinds: param.kinds.clone(),
         rotary: (rotary != linear).then_some(rotary),
         linear,
         ids: param.id.clone(),
@@ -121,6 +126,7 @@ fn allowed(param: &Param, kind: AxisKind) -> Allowed {
         ),
     };
     Allowed {
+        units: param.quantity.dimension(kind).unit_list(),
         range,
         default: param.show(limits.default, kind),
     }

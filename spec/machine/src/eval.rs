@@ -15,6 +15,11 @@ pub fn eval(expr: &Expr, values: &Values, cycle: i64) -> Result<i64, String> {
     Evaluator { values, cycle }.value(expr)
 }
 
+/// The name under which the values say whether the machine file gives a parameter: what `GIVEN(parameter)` reads.
+pub fn given(parameter: &str) -> String {
+    format!("GIVEN({parameter})")
+}
+
 /// Calls `visit` with each name that `expr` reads, in order.
 pub fn names<'a>(expr: &'a Expr, visit: &mut dyn FnMut(&'a str)) {
     match &expr.kind {
@@ -129,6 +134,21 @@ impl Evaluator<'_> {
         if let ("MIN" | "MAX" | "SUM", [_, ..]) = (name, args) {
             return self.over_all(name, args);
         }
+        if let (
+            "GIVEN",
+            [
+                Expr {
+                    kind: Kind::Name(of),
+                    ..
+                },
+            ],
+        ) = (name, args)
+        {
+            return match self.cells(&given(of)) {
+                Ok([one]) => Ok(*one),
+                _ => Err(format!("nothing says whether '{of}' is given")),
+            };
+        }
         let args = args
             .iter()
             .map(|a| self.value(a))
@@ -168,6 +188,7 @@ mod tests {
             ("list".to_owned(), vec![1, 2, 3]),
             ("off".to_owned(), vec![0]),
             ("none".to_owned(), vec![]),
+            (given("a"), vec![1]),
         ]);
         let expr = parse_expr(text).map_err(|e| e.message)?;
         eval(&expr, &values, 12_000)
@@ -192,6 +213,7 @@ mod tests {
             ("SUM(none)", 0),
             ("MAX(list, a) + MIN(list)", 8),
             ("MAX(0, none)", 0),
+            ("GIVEN(a) AND NOT off", 1),
         ] {
             assert_eq!(run(text), Ok(value), "{text}");
         }
@@ -210,6 +232,8 @@ mod tests {
             "9223372036854775807 + a",
             "CYCLES(-1)",
             "NONSENSE(1)",
+            "GIVEN(off)",
+            "GIVEN(1)",
             "x.y",
         ] {
             assert!(run(text).is_err(), "{text}");

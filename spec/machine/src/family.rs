@@ -10,6 +10,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::AxisKind;
+use super::ground::read_names;
 use super::guarantee::Pattern;
 use super::units::Dimension;
 use stillpoint_lang::syntax::ast::Expr;
@@ -55,6 +56,31 @@ impl Family {
         let mut all = self.lets.iter().chain(&self.group_lets);
         all.find(|(known, _)| known == name)
             .map(|(_, formula)| formula)
+    }
+}
+
+impl Family {
+    /// The parameter of this name, of whatever has it.
+    pub fn parameter(&self, name: &str) -> Option<&Param> {
+        let all = [&self.control, &self.axis, &self.door].into_iter();
+        all.chain(&self.group).find_map(|params| params.get(name))
+    }
+
+    /// The names with those that the named expressions among them read, each once; of what the family has no parameter too.
+    pub fn resolved(&self, mut names: Vec<String>) -> Vec<String> {
+        let mut at = 0;
+        while let Some(name) = names.get(at).cloned() {
+            let more = match self.named(&name) {
+                Some(formula) => read_names(&formula.expr),
+                None if name == "monitoring_cycle" => read_names(&self.monitoring_cycle.expr),
+                None => Vec::new(),
+            };
+            names.extend(more.into_iter().filter(|m| *m != name));
+            at += 1;
+        }
+        let mut seen = std::collections::BTreeSet::new();
+        names.retain(|name| seen.insert(name.clone()));
+        names
     }
 }
 

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use serde::Deserialize;
 
 use super::document::Findings;
-use super::eval::{Values, eval, names};
+use super::eval::{Values, eval, given, names};
 use super::family::{Family, Formula, Quantity};
 use super::family_file::Check;
 use super::plausible::insert;
@@ -61,6 +61,10 @@ impl DataFile {
 pub(super) const PATH: &str = "interpolates_with";
 /// As a number how many axes of the machine do not move with an axis, as a text which ones.
 const OTHERS: &str = "others";
+/// How many doors the axis or group is behind, or the machine has.
+const DOORS: &str = "doors";
+/// How many declared groups the axis is in: 1 or none.
+const GROUPS: &str = "groups";
 
 /// What an entry of the data is about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
@@ -82,6 +86,9 @@ impl About {
     /// The names that formulas may read.
     pub fn known(self, family: &Family) -> Vec<String> {
         let mut known: Vec<String> = ["monitoring_cycle", "k", "n"].map(str::to_owned).to_vec();
+        if self != Self::Door {
+            known.extend([DOORS, GROUPS].map(str::to_owned));
+        }
         known.extend(family.control.keys().cloned());
         known.extend(family.functions.iter().map(|f| f.variable.clone()));
         known.extend(family.lets.iter().map(|(name, _)| name.clone()));
@@ -171,6 +178,7 @@ pub(super) fn grounds<'a>(machine: &'a Machine, about: About) -> Vec<Ground<'a>>
             }
         }
     }
+    list.iter_mut().for_each(Ground::count);
     list
 }
 
@@ -199,6 +207,28 @@ fn common(machine: &Machine) -> Values {
 }
 
 impl<'a> Ground<'a> {
+    /// Sets how many doors and groups there are, and which parameters the file gives.
+    fn count(&mut self) {
+        let doors = self.machine.doors.iter();
+        let reached = |door: &&Door| self.members().any(|a| door.has(&a.name));
+        let doors = doors.filter(reached).count();
+        let groups = match self.axis {
+            Some(_) => usize::from(self.group.is_some()),
+            None => self.machine.axis_groups.len(),
+        };
+        let given: Vec<(String, bool)> = self
+            .settings()
+            .flatten()
+            .map(|(name, setting)| (given(name), setting.is_given()))
+            .collect();
+        for (name, n) in [(DOORS, doors), (GROUPS, groups)] {
+            self.set(name, i64::try_from(n).unwrap_or(i64::MAX));
+        }
+        for (name, given) in given {
+            self.set(&name, i64::from(given));
+        }
+    }
+
     fn behind(mut self, door: &'a Door) -> Self {
         insert(&mut self.values, &door.values);
         self.door = Some(door);
@@ -284,7 +314,7 @@ impl<'a> Ground<'a> {
     }
 
     /// The values of parameters that can be read here: of the door, the axis, the group, the control.
-    fn settings(&self) -> impl Iterator<Item = &'a Settings> {
+    pub fn settings(&self) -> impl Iterator<Item = &'a Settings> {
         let door = self.door.map(|d| &d.values);
         let axis = self.axis.map(|a| &a.values);
         let group = self.group.map(|g| &g.values);

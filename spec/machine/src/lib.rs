@@ -26,13 +26,16 @@ mod family_tests;
 mod ground;
 pub mod guarantee;
 mod logic;
+mod place;
 mod plausible;
 pub mod reaction;
 mod read;
 mod runs;
 mod template;
 pub mod units;
+pub mod uses;
 mod value;
+pub mod warnings;
 mod whole;
 
 use std::collections::BTreeMap;
@@ -51,6 +54,7 @@ use plausible::Judged;
 use runs::Parts;
 use stillpoint_lang::diag::{Result, nearest};
 use stillpoint_lang::files;
+use warnings::Warning;
 
 /// A byte range of the machine file.
 pub type Place = Range<usize>;
@@ -87,6 +91,10 @@ pub struct Machine {
     pub runs: Vec<Run>,
     /// What the file describes but no run explores, in words.
     pub not_explored: Vec<String>,
+    /// Values that are legal but unusual, in the order of the file. They change no verdict.
+    pub warnings: Vec<Warning>,
+    /// Where the values of the control stand, else the family.
+    place: Place,
     basis: Arc<Basis>,
 }
 
@@ -334,6 +342,11 @@ pub fn families(path: &Path) -> PathBuf {
     files::built_in().unwrap_or_else(|| PathBuf::from("spec/families"))
 }
 
+/// The names of the families in a folder, sorted.
+pub fn names(families: &Path) -> Vec<String> {
+    family_file::families(families)
+}
+
 /// Where the data of a machine's family come from, where it is neither the program nor the folder that the user named: they
 /// differ from those that the program carries, and whoever reads its answer must know.
 pub fn strange_data(machine: &Machine) -> Option<&Path> {
@@ -393,7 +406,9 @@ fn read_source(path: &Path, source: &Arc<str>, families: &Path) -> Result<Machin
     let guaranteed = runs::guaranteed(&family, &draft.guarantees, parts, &judged)?;
     plan.runs.splice(0..0, guaranteed);
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-    Ok(Machine {
+    let mut keys = ["control", "family"].into_iter();
+    let place = keys.find_map(|key| Some(table.get_key_value(key)?.0.span()));
+    let mut machine = Machine {
         name: draft.name.unwrap_or_else(|| stem.into_owned()),
         title: draft.title.unwrap_or_default(),
         family: name,
@@ -412,7 +427,11 @@ fn read_source(path: &Path, source: &Arc<str>, families: &Path) -> Result<Machin
         axis_groups: draft.groups,
         doors: draft.doors,
         guarantees: draft.guarantees,
-    })
+        warnings: Vec::new(),
+        place: place.unwrap_or(0..0),
+    };
+    machine.warnings = warnings::judge(&machine, path, source)?;
+    Ok(machine)
 }
 
 /// The name of the family, when there is such a family.

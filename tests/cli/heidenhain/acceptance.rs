@@ -141,7 +141,7 @@ fn values_times_and_what_a_test_depends_on() {
     );
     assert_eq!(
         permissive["depends"]["SMP527"],
-        "X 400 ms, Y 400 ms, Z 300 ms"
+        "X 400 ms, Y 400 ms, Z 400 ms"
     );
     assert_eq!(permissive["depends"]["axes"], "X, Y, Z");
     // None is simulated, and each says why.
@@ -179,7 +179,11 @@ fn a_changed_parameter_repeats_its_tests() {
     let path = changed(
         "hfs-acceptance-since",
         &[
-            (MACHINE, "SMP527  = \"300 ms\"", "SMP527  = \"330 ms\""),
+            (
+                MACHINE,
+                "\"450 ms\"\nSMP527  = \"400 ms\"",
+                "\"450 ms\"\nSMP527  = \"430 ms\"",
+            ),
             (MACHINE, "SMP610 = [\"NC\"]", "SMP610 = []"),
         ],
     );
@@ -194,7 +198,7 @@ fn a_changed_parameter_repeats_its_tests() {
     assert_eq!(
         shown,
         [
-            "axis Z SMP527: 300 ms -> 330 ms",
+            "axis Z SMP527: 400 ms -> 430 ms",
             "group S SMP610: NC -> none"
         ]
     );

@@ -129,7 +129,9 @@ struct Reader<'a> {
 impl Reader<'_> {
     /// The keys at the top of the file.
     fn keys(&mut self, table: &DeTable<'_>) {
-        let mut known = vec!["family", "name", "title", "control", "axis", "door"];
+        let mut known = vec![
+            "family", "name", "title", "control", "axis", "door", "accepted",
+        ];
         if self.family.group.is_some() {
             known.push("group");
         }
