@@ -296,7 +296,7 @@ pub fn violations<'a>(subject: &'a Subject, checked: &'a [Checked]) -> Vec<Viola
             if judged.verdict == Verdict::Violated {
                 out.push(Violation {
                     task,
-                    id: label(property),
+                    id: task.guarantee.clone().unwrap_or_else(|| label(property)),
                     text: property.text.clone(),
                     trace: judged.trace.as_ref(),
                     second: done.outcome.pairs.get(&k).and_then(|p| p.second.as_ref()),

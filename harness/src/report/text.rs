@@ -93,29 +93,20 @@ fn guaranteed(out: &mut String, subject: &Subject, checked: &[Checked]) {
     }
     out.push_str("This machine:\n");
     for answer in &answers {
-        let head = format!(
-            "  {:<12} {}",
-            word(answer.verdict, false),
-            answer.guarantee.name
-        );
-        wrapped(
-            out,
-            &head,
-            &format!("{} [{}]", answer.guarantee.text, answer.guarantee.source),
-        );
+        let verdict = word(answer.verdict, false);
+        let _ = writeln!(out, "  {verdict:<12} {}", answer.guarantee.name);
+        let text = format!("{} [{}]", answer.guarantee.text, answer.guarantee.source);
+        wrapped(out, &" ".repeat(15), &text);
         for run in &answer.runs {
             let bound = match run.bound {
                 Some(bound) => format!("in at most {}", time(bound)),
                 None => verdict_name(run.verdict).to_owned(),
             };
+            let _ = writeln!(out, "{:15}{}: {bound}", "", run.task.axes.join(", "));
             let values = run.values.iter();
             let values = values.map(|v| format!("{} = {}", v.name, v.value));
             let values = values.collect::<Vec<_>>().join("; ");
-            wrapped(
-                out,
-                &format!("{:15}{}: {bound};", "", run.task.axes.join(", ")),
-                &format!("with {values}"),
-            );
+            wrapped(out, &" ".repeat(17), &format!("with {values}"));
         }
     }
     out.push('\n');
