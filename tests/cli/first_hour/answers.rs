@@ -70,7 +70,10 @@ fn a_witness_that_the_values_exclude_is_no_violation() {
     assert!(by[0]["from"] == "VELO_LIMIT", "{by}");
 
     let head = text.lines().next().expect("a line");
-    assert_eq!(head, "smallest: NO GUARANTEE IS ASKED, the properties of its family hold");
+    assert_eq!(
+        head,
+        "smallest: NO GUARANTEE IS ASKED, the properties of its family hold"
+    );
     assert!(text.contains("1 excluded by your values"), "{text}");
     let row = text.lines().find(|l| l.contains(WITNESS)).expect("its row");
     assert!(row.trim_start().starts_with("excluded "), "{row}");
