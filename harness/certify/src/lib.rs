@@ -1,7 +1,7 @@
 //! Checks certificates: files that show verdicts of `stillpoint check` without asking anybody to trust the explorer.
 //!
-//! The crate uses the loader and the interpreter of `stillpoint-spec`, SHA-256 and the TOML reader, and nothing else of
-//! this project: its `Cargo.toml` shows it. What a property means is taken from the specification, which is loaded
+//! The crate uses the loader and the interpreter of `stillpoint-lang`, machine files by `stillpoint-machine`, SHA-256 and the TOML
+//! reader, and nothing else of this project: its `Cargo.toml` shows it. What a property means is taken from the specification, which is loaded
 //! again; a certificate only adds sets, ranks and runs, and every one of them is checked.
 //!
 //! To be read in this order: [`format`] (the file), [`subject`] (the specification), [`states`], `cells` (the values of a
