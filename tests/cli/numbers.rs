@@ -2,11 +2,11 @@
 //! environment the tests write what they would otherwise compare.
 
 use std::path::PathBuf;
-use std::process::Command;
 
 use serde_json::Value;
+use stillpoint_harness::report::grouped;
 
-use crate::common::root;
+use crate::common::{root, stillpoint};
 
 /// A row of the table: where it stands in the text, and its command without the name of the program.
 struct Row {
@@ -55,19 +55,6 @@ fn counted(said: &Value, words: &str) -> Option<u64> {
     }
 }
 
-/// The number with its thousands apart.
-fn grouped(number: u64) -> String {
-    let digits = number.to_string();
-    let mut out = String::new();
-    for (k, digit) in digits.chars().enumerate() {
-        if k > 0 && (digits.len() - k) % 3 == 0 {
-            out.push(' ');
-        }
-        out.push(digit);
-    }
-    out
-}
-
 /// The line with the numbers that the answer has, and how many they are; the command's own cell is left alone.
 fn renewed(line: &str, said: &Value) -> (String, usize) {
     let end = line
@@ -89,7 +76,7 @@ fn renewed(line: &str, said: &Value) -> (String, usize) {
         let (number, behind) = number.split_at(length.expect("a number ends"));
         match counted(said, behind) {
             Some(now) => {
-                out.push_str(&grouped(now));
+                out.push_str(&grouped(u128::from(now)));
                 count += 1;
             }
             None => out.push_str(number),
@@ -104,12 +91,8 @@ fn compare(chosen: impl Fn(&str) -> bool) -> usize {
     let text = std::fs::read_to_string(readme()).expect("the README");
     let mut count = 0;
     for row in rows(&text).iter().filter(|row| chosen(&row.command)) {
-        let output = Command::new(env!("CARGO_BIN_EXE_stillpoint"))
-            .args(row.command.split_whitespace())
-            .arg("--json")
-            .current_dir(root())
-            .output()
-            .expect("the binary runs");
+        let arguments: Vec<&str> = row.command.split_whitespace().chain(["--json"]).collect();
+        let output = stillpoint(&arguments);
         let said: Value = serde_json::from_slice(&output.stdout)
             .unwrap_or_else(|e| panic!("{}: {e}", row.command));
         let line = text.lines().nth(row.line).expect("a line");

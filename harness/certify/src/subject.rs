@@ -58,12 +58,8 @@ impl Subject {
             Kind::Machine => {
                 let families = machine::families(path);
                 let machine = machine::load(path, &families).map_err(unreadable)?;
-                let family = families.join(&machine.family).join("family.toml");
-                let patterns = family.with_file_name("guarantees.toml");
-                files.extend([path.to_owned(), family]);
-                if !machine.guarantees.is_empty() {
-                    files.push(patterns);
-                }
+                files.push(path.to_owned());
+                files.extend(machine.data_files());
                 let mut specs: BTreeMap<&Path, Spec> = BTreeMap::new();
                 for run in &machine.runs {
                     if !specs.contains_key(run.file.as_path()) {

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use indexmap::IndexMap;
+use indexmap::{IndexMap, IndexSet};
 use serde::Deserialize;
 use toml::Spanned;
 
@@ -57,9 +57,7 @@ impl Family {
         all.find(|(known, _)| known == name)
             .map(|(_, formula)| formula)
     }
-}
 
-impl Family {
     /// The parameter of this name, of whatever has it.
     pub fn parameter(&self, name: &str) -> Option<&Param> {
         let all = [&self.control, &self.axis, &self.door].into_iter();
@@ -67,20 +65,19 @@ impl Family {
     }
 
     /// The names with those that the named expressions among them read, each once; of what the family has no parameter too.
-    pub fn resolved(&self, mut names: Vec<String>) -> Vec<String> {
+    pub fn resolved(&self, names: Vec<String>) -> IndexSet<String> {
+        let mut found = IndexSet::from_iter(names);
         let mut at = 0;
-        while let Some(name) = names.get(at).cloned() {
-            let more = match self.named(&name) {
+        while let Some(name) = found.get_index(at) {
+            let more = match self.named(name) {
                 Some(formula) => read_names(&formula.expr),
                 None if name == "monitoring_cycle" => read_names(&self.monitoring_cycle.expr),
                 None => Vec::new(),
             };
-            names.extend(more.into_iter().filter(|m| *m != name));
+            found.extend(more);
             at += 1;
         }
-        let mut seen = std::collections::BTreeSet::new();
-        names.retain(|name| seen.insert(name.clone()));
-        names
+        found
     }
 }
 

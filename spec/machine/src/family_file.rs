@@ -137,6 +137,9 @@ const OF_AXIS: [&str; 6] = [
     "monitoring_cycle",
 ];
 
+/// The file that makes a folder that of a family.
+pub(super) const FILE: &str = "family.toml";
+
 /// A list of groups is one cell.
 const MOST_GROUPS: usize = 62;
 
@@ -146,7 +149,7 @@ pub(super) fn families(root: &Path) -> Vec<String> {
         .unwrap_or_default()
         .into_iter();
     folders
-        .filter(|folder| stillpoint_lang::files::is_file(&folder.join("family.toml")))
+        .filter(|folder| stillpoint_lang::files::is_file(&folder.join(FILE)))
         .filter_map(|folder| folder.file_name()?.to_str().map(str::to_owned))
         .collect()
 }
@@ -156,7 +159,7 @@ pub(super) fn families(root: &Path) -> Vec<String> {
 /// # Errors
 /// Everything in the file that is not as [`super::family`] describes it.
 pub(super) fn load(folder: &Path) -> Result<Family> {
-    let path = folder.join("family.toml");
+    let path = folder.join(FILE);
     let file = path.display().to_string();
     let source = read_text(&path, "family file")?;
     let mut check = Check {

@@ -10,15 +10,17 @@ use indexmap::IndexMap;
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::document::Findings;
 use super::eval::Values;
 use super::family::{Explore, Family, Known, Param, Quantity};
 use super::family_file::{Check, ExploreData, ParamData};
+use super::ground::DataFile;
 use super::plausible::{Judged, insert};
 use super::runs::Parts;
 use super::{Place, Settings};
 use stillpoint_lang::diag::Result;
-use stillpoint_lang::read_text;
+
+/// The file of the patterns in the folder of a family.
+pub(super) const FILE: &str = "guarantees.toml";
 
 /// What a machine file asks of its machine.
 #[derive(Debug, Clone)]
@@ -90,17 +92,12 @@ struct PatternData {
 /// # Errors
 /// Everything in the file that is not as described here.
 pub(super) fn load(folder: &Path, known: &Known) -> Result<IndexMap<String, Pattern>> {
-    let path = folder.join("guarantees.toml");
-    if !stillpoint_lang::files::is_file(&path) {
+    if !stillpoint_lang::files::is_file(&folder.join(FILE)) {
         return Ok(IndexMap::new());
     }
-    let file = path.display().to_string();
-    let source = read_text(&path, "file of guarantees")?;
-    let data: File =
-        toml::from_str(&source).map_err(|e| stillpoint_lang::toml_error(&file, &source, &e))?;
-    let mut check = Check {
-        findings: Findings::new(&file, &source),
-    };
+    let file = DataFile::read(folder, FILE, "guarantees")?;
+    let data: File = file.parse()?;
+    let mut check = file.check();
     let mut patterns = IndexMap::new();
     for (name, data) in data.pattern {
         let pattern = pattern(&mut check, data, known);

@@ -229,6 +229,14 @@ impl Machine {
         &self.basis.family.folder
     }
 
+    /// The files of the family's data that decide what is explored for the machine, beside the specifications.
+    pub fn data_files(&self) -> Vec<PathBuf> {
+        let asks = !self.guarantees.is_empty();
+        let files = [Some(family_file::FILE), asks.then_some(guarantee::FILE)];
+        let files = files.into_iter().flatten();
+        files.map(|file| self.family_folder().join(file)).collect()
+    }
+
     /// The values of the control, in the order of the family's data.
     pub fn control_shown(&self) -> Vec<Shown> {
         shown(&self.basis.family.control, &self.control)

@@ -5,7 +5,7 @@
 
 mod plan;
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use indexmap::IndexMap;
 use serde::Deserialize;
@@ -14,7 +14,7 @@ use toml::Spanned;
 use super::Machine;
 use super::family::Family;
 use super::family_file::Check;
-use super::ground::{DataFile, read_names};
+use super::ground::DataFile;
 use plan::{Plan, TestData, plan};
 use stillpoint_lang::diag::Result;
 
@@ -185,19 +185,7 @@ fn complete(
     plans: &[Plan],
     untested: &IndexMap<Spanned<String>, String>,
 ) {
-    let mut read: BTreeSet<String> = plans.iter().flat_map(Plan::reads).collect();
-    loop {
-        let lets = read.iter().filter_map(|name| family.named(name));
-        let more: BTreeSet<String> = lets.flat_map(|f| read_names(&f.expr)).collect();
-        if more.is_subset(&read) {
-            break;
-        }
-        read.extend(more);
-    }
-    let cycle = read_names(&family.monitoring_cycle.expr);
-    if read.contains("monitoring_cycle") {
-        read.extend(cycle);
-    }
+    let read = family.resolved(plans.iter().flat_map(Plan::reads).collect());
     let all = [&family.control, &family.axis, &family.door];
     let all = all.into_iter().chain(&family.group);
     let all: Vec<&String> = all.flat_map(IndexMap::keys).collect();

@@ -1,6 +1,6 @@
 //! One entry of the catalogue of tests: read, checked, and filled in for an axis, a door or the machine.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use indexmap::IndexMap;
 use serde::Deserialize;
@@ -337,7 +337,6 @@ impl Plan {
     /// What the test reads of this subject: parameters, the functions enabled, what a door gives access to.
     fn dependence(&self, ground: &Ground<'_>) -> BTreeMap<String, String> {
         let family = &ground.machine.basis.family;
-        let mut open: Vec<String> = self.reads();
         let mut found = BTreeMap::new();
         for formula in self.formulas() {
             found.extend(ground.reads(&formula.expr));
@@ -345,14 +344,9 @@ impl Plan {
         for text in self.templates() {
             found.extend(text.values(ground));
         }
-        let mut seen = BTreeSet::new();
-        while let Some(name) = open.pop() {
-            if !seen.insert(name.clone()) {
-                continue;
-            }
+        for name in family.resolved(self.reads()) {
             if let Some(formula) = family.named(&name) {
                 found.extend(ground.reads(&formula.expr));
-                open.extend(read_names(&formula.expr));
             }
             if let (PATH, Some(axis)) = (name.as_str(), ground.axis) {
                 found.insert(name.clone(), partners(axis));

@@ -103,7 +103,7 @@ impl<'f> Reader<'f> {
             self.findings.add(at, message, "this guarantee", help);
             return None;
         }
-        let (kind, word) = self.kind_of(name, &at, &named, axes)?;
+        let kind = self.kind_of(name, &at, &named, axes)?;
         for required in &data.required {
             if !table.contains_key(required.as_str()) {
                 let about = data.arguments.get(required).map_or("", |a| a.text.as_str());
@@ -116,13 +116,12 @@ impl<'f> Reader<'f> {
         }
         let place = format!("guarantee {name}");
         let owner = Owner {
-            place: &place,
             kind,
-            word,
             structural: match data.about {
                 About::Axis => &["pattern", "axes"],
                 About::Door => &["pattern", "door", "axes"],
             },
+            ..Owner::of(&place)
         };
         let (values, sound) = self.settings(&data.arguments, table, &owner);
         let door = door.map(|d| d.name.clone());
@@ -169,16 +168,12 @@ impl<'f> Reader<'f> {
         at: &Place,
         named: &[Spanned<String>],
         axes: &[Axis],
-    ) -> Option<(AxisKind, &'static str)> {
+    ) -> Option<AxisKind> {
         let mut kind: Option<(AxisKind, &str)> = None;
         for one in named {
             let axis = axes.iter().find(|a| a.name == *one.get_ref());
             let Some(axis) = axis else {
-                if !self.axes.contains(one.get_ref()) {
-                    let message = format!("there is no axis '{}'", one.get_ref());
-                    let help = format!("axes of this machine: {}", self.axes.join(", "));
-                    self.findings.add(one.span(), message, "no such axis", help);
-                }
+                self.known_axis(one);
                 return None;
             };
             match kind {
@@ -195,13 +190,6 @@ impl<'f> Reader<'f> {
                 _ => kind = Some((axis.kind, &axis.name)),
             }
         }
-        let (kind, _) = kind?;
-        Some((
-            kind,
-            match kind {
-                AxisKind::Linear => "linear",
-                AxisKind::Rotary => "rotary",
-            },
-        ))
+        kind.map(|(kind, _)| kind)
     }
 }

@@ -463,15 +463,22 @@ impl Reader<'_> {
                         "this axis itself",
                         "name the other axes only",
                     );
-                } else if !self.axes.contains(name) {
-                    self.findings.add(
-                        other.span(),
-                        format!("there is no axis '{name}'"),
-                        "no such axis",
-                        format!("axes of this machine: {}", self.axes.join(", ")),
-                    );
+                } else {
+                    self.known_axis(other);
                 }
             }
+        }
+    }
+
+    /// An axis that is named must be in the file.
+    fn known_axis(&mut self, name: &Spanned<String>) {
+        if !self.axes.contains(name.get_ref()) {
+            self.findings.add(
+                name.span(),
+                format!("there is no axis '{}'", name.get_ref()),
+                "no such axis",
+                format!("axes of this machine: {}", self.axes.join(", ")),
+            );
         }
     }
 }

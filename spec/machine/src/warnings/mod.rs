@@ -281,7 +281,7 @@ impl Rule {
             better,
             source: self.source,
             req: self.req,
-            reads: family.resolved(reads),
+            reads: family.resolved(reads).into_iter().collect(),
         }
     }
 }
