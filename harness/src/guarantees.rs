@@ -1,10 +1,8 @@
 //! The guarantees of a machine file as they are answered: each with its verdict, its tightest bound and the values it depends on.
 
-use std::collections::BTreeSet;
-
+use indexmap::IndexSet;
 use stillpoint_engine::check::Checked;
 use stillpoint_engine::subject::{Subject, Task};
-use stillpoint_machine::Shown;
 use stillpoint_machine::guarantee::Guarantee;
 use stillpoint_model::Verdict;
 
@@ -28,8 +26,19 @@ pub struct Decided<'a> {
     pub verdict: Verdict,
     /// The longest time that a response takes in any run, in microseconds; none where there is no bound.
     pub bound: Option<u64>,
-    /// The parameters of its axes that it was computed from, with their values.
-    pub values: Vec<Shown>,
+    /// What it was computed from.
+    pub values: Vec<Value>,
+}
+
+/// A parameter or a function of a machine file that a guarantee depends on.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Value {
+    /// Its name.
+    pub name: String,
+    /// Its value as users write it.
+    pub value: String,
+    /// The axes for which it has this value.
+    pub axes: Vec<String>,
 }
 
 /// The guarantees of a machine, in the order of its file.
@@ -52,7 +61,7 @@ pub fn answers<'a>(subject: &'a Subject, checked: &'a [Checked]) -> Vec<Answer<'
 }
 
 /// A guarantee is as good as the worst of what decides it; one that nothing has put to the test is not kept.
-fn rank(verdict: Verdict) -> u8 {
+pub(crate) fn rank(verdict: Verdict) -> u8 {
     match verdict {
         Verdict::Violated => 4,
         Verdict::Unreachable => 3,
@@ -78,31 +87,47 @@ fn decided_by<'a>(
         task,
         verdict: verdict.unwrap_or(Verdict::Inconclusive),
         // It begins at any moment between two cycles.
-        bound: cycles.map(|n| (n + 1) * cycle),
+        bound: cycles.map(|n| task.before + (n + 1) * cycle),
         values: values(subject, guarantee, task),
     }
 }
 
-/// The parameters that the expressions of a run read, of its first axis and of the door.
-fn values(subject: &Subject, guarantee: &Guarantee, task: &Task) -> Vec<Shown> {
-    let Some(machine) = &subject.machine else {
-        return Vec::new();
-    };
-    let mut names = BTreeSet::new();
-    for source in task.sources.values() {
-        let word = |c: char| !c.is_ascii_alphanumeric() && c != '_';
-        names.extend(source.split(word).filter(|w| !w.is_empty()));
+/// What the axes of a run depend on, each value once.
+fn values(subject: &Subject, guarantee: &Guarantee, task: &Task) -> Vec<Value> {
+    let mut list: Vec<Value> = Vec::new();
+    for axis in &task.axes {
+        let machine = subject.machine.iter();
+        for (name, value) in machine.flat_map(|m| m.depends(guarantee, axis)) {
+            match list
+                .iter_mut()
+                .find(|v| (&v.name, &v.value) == (&name, &value))
+            {
+                Some(known) => known.axes.push(axis.clone()),
+                None => list.push(Value {
+                    name,
+                    value,
+                    axes: vec![axis.clone()],
+                }),
+            }
+        }
     }
-    let axis = machine.axes.iter().find(|a| task.axes.contains(&a.name));
-    let door = machine
-        .doors
-        .iter()
-        .find(|d| Some(&d.name) == guarantee.door.as_ref());
-    let of_axis = axis.map_or_else(Vec::new, |a| machine.axis_shown(a));
-    let of_door = door.map_or_else(Vec::new, |d| machine.door_shown(d));
-    let all = of_axis.into_iter().chain(of_door);
-    all.filter(|shown| names.contains(shown.name.as_str()))
-        .collect()
+    // Values of one parameter beside each other, in the order of the first.
+    let order: IndexSet<String> = list.iter().map(|v| v.name.clone()).collect();
+    list.sort_by_key(|v| order.get_index_of(&v.name));
+    list
+}
+
+impl Decided<'_> {
+    /// The values as texts, `STANDSTILL_TOL = 0.5 mm`; of which axes, where it is not that of all.
+    pub fn told(&self) -> impl Iterator<Item = String> {
+        self.values.iter().map(|v| {
+            let of = match v.axes.len() < self.task.axes.len() {
+                true => format!(" ({})", v.axes.join(", ")),
+                false => String::new(),
+            };
+            format!("{} = {}{of}", v.name, v.value)
+        })
+    }
 }
 
 /// The time as its readers write it: `96 ms`, `1.2 s`.

@@ -21,4 +21,5 @@ pub mod replay;
 pub mod report;
 pub mod simulate;
 pub mod states;
+pub mod sweep;
 pub mod timing;

@@ -5,7 +5,7 @@ use std::process::Output;
 
 use serde_json::Value;
 
-use crate::common::{Folder, command, root, session, status, stderr, stdout, stillpoint};
+use crate::common::{Folder, command, messages, root, session, status, stderr, stdout, stillpoint};
 use crate::terminal::subcommands;
 
 fn json(output: &Output) -> Value {
@@ -370,7 +370,7 @@ fn reductions_keep_verdicts_and_say_what_they_did() {
     assert!(text.contains("reduction (slice, symmetry): "), "{text}");
     let wrong = stillpoint(&["check", file, "--reduce", "slices"]);
     assert_eq!(status(&wrong), 2);
-    assert!(stderr(&wrong).contains("there is no reduction `slices`"));
+    assert!(messages(&wrong).contains("there is no reduction `slices`"));
 }
 
 #[test]

@@ -4,6 +4,7 @@
 
 mod acceptance;
 mod adding;
+mod beginning;
 mod book;
 mod certify;
 mod commands;

@@ -1,4 +1,4 @@
-//! What a machine file guarantees is decided by its values: each dangerous one, alone, breaks a guarantee of the milling machine.
+//! What a machine file guarantees is decided by its values and its logic: each dangerous one, alone, breaks a guarantee.
 
 use std::collections::BTreeMap;
 
@@ -9,9 +9,12 @@ use stillpoint_machine::{self as machine, Machine, families};
 use stillpoint_model::Verdict;
 use stillpoint_tests::root;
 
-/// The milling machine with one text of its file replaced.
-fn changed(from: &str, to: &str) -> Machine {
-    let path = root().join("spec/machines/milling-840d.toml");
+const MILLING: &str = "spec/machines/milling-840d.toml";
+const CENTRE: &str = "spec/machines/machining-centre-heidenhain.toml";
+
+/// A machine with one text of its file replaced.
+fn changed(file: &str, from: &str, to: &str) -> Machine {
+    let path = root().join(file);
     let text = std::fs::read_to_string(&path).expect("the machine");
     assert!(text.contains(from), "{from}");
     let text = text.replacen(from, to, 1);
@@ -20,14 +23,18 @@ fn changed(from: &str, to: &str) -> Machine {
 }
 
 /// The verdict on these guarantees, and the tightest bound in milliseconds over the axes.
-fn guaranteed(machine: Machine, names: &[&str]) -> BTreeMap<String, (Verdict, Option<u64>)> {
+fn guaranteed(
+    file: &str,
+    machine: Machine,
+    names: &[&str],
+) -> BTreeMap<String, (Verdict, Option<u64>)> {
     let runs: Vec<_> = machine
         .runs
         .iter()
         .filter(|r| r.guarantee.as_deref().is_some_and(|g| names.contains(&g)))
         .cloned()
         .collect();
-    let path = root().join("spec/machines/milling-840d.toml");
+    let path = root().join(file);
     let subject =
         subject::of_runs(&path, machine, &runs, &Readings::new()).unwrap_or_else(|e| panic!("{e}"));
     let checked = check(&subject, &Settings::default(), &mut |_| Box::new(()))
@@ -45,7 +52,7 @@ fn guaranteed(machine: Machine, names: &[&str]) -> BTreeMap<String, (Verdict, Op
 #[test]
 fn guarantees_of_the_milling_machine_hold_with_their_bounds() {
     let names = ["table", "tool", "emergency_stop", "emergency_stop_tool"];
-    let found = guaranteed(changed("", ""), &names);
+    let found = guaranteed(MILLING, changed(MILLING, "", ""), &names);
     // The signal, the change-over to SG1, STOP C, STOP B. What the monitors may take on top is at most three cycles each; the
     // contact opens at any moment of a cycle.
     for (name, times) in [
@@ -66,7 +73,7 @@ fn guarantees_of_the_milling_machine_hold_with_their_bounds() {
 }
 
 #[test]
-fn every_dangerous_value_breaks_a_guarantee() {
+fn every_dangerous_value_of_the_milling_machine_breaks_a_guarantee() {
     let dangerous = [
         (
             "the door selects the fastest stage",
@@ -142,7 +149,151 @@ fn every_dangerous_value_breaks_a_guarantee() {
         ),
     ];
     for (what, from, to, name) in dangerous {
-        let found = guaranteed(changed(from, to), &[name]);
+        let found = guaranteed(MILLING, changed(MILLING, from, to), &[name]);
+        assert_eq!(found[name].0, Verdict::Violated, "{what}");
+    }
+}
+
+#[test]
+fn guarantees_of_the_machining_centre_hold_with_their_bounds() {
+    let names = [
+        "table_som_1",
+        "table_som_2",
+        "table_som_3",
+        "tool_som_1",
+        "tool_som_2",
+        "magazine",
+        "emergency_stop",
+        "emergency_stop_tool",
+        "no_start",
+        "no_start_tool",
+        "no_start_magazine",
+    ];
+    let found = guaranteed(CENTRE, changed(CENTRE, "", ""), &names);
+    assert!(
+        found
+            .values()
+            .all(|(verdict, _)| *verdict == Verdict::Holds)
+    );
+    // The signal, two cycles of the program, the SS1 of the slowest axis of the group.
+    for (name, times) in [
+        ("table_som_1", &[20, 42, 600][..]),
+        ("table_som_2", &[20, 42, 600]),
+        ("table_som_3", &[20, 42, 600]),
+        ("tool_som_1", &[20, 42, 2300]),
+        ("tool_som_2", &[20, 42, 2300]),
+        ("magazine", &[20, 42, 800]),
+        ("emergency_stop", &[20, 600]),
+        ("emergency_stop_tool", &[20, 2300]),
+    ] {
+        let (verdict, bound) = found[name];
+        assert_eq!(verdict, Verdict::Holds, "{name}");
+        // What takes a monitor's cycle is at most two of them each, and the contact opens at any moment of a cycle.
+        let least: u64 = times.iter().map(|ms: &u64| ms / 3).sum();
+        let cycles = bound.expect("a bound") / 3;
+        assert!(
+            (least..=least + 6).contains(&cycles),
+            "{name}: {cycles}, at least {least}"
+        );
+    }
+}
+
+#[test]
+fn every_dangerous_value_of_the_machining_centre_breaks_a_guarantee() {
+    let dangerous = [
+        (
+            "SOM_3 is fast",
+            "SMP540  = \"3000 mm/min\"",
+            "SMP540 = \"3200 mm/min\"",
+            "table_som_3",
+        ),
+        (
+            "a magazine that may be faster",
+            "speed   = \"1890 deg/min\"",
+            "speed = \"1800 deg/min\"",
+            "magazine",
+        ),
+        (
+            "the spindle turns fast in SOM_2",
+            "SMP591   = \"50 rev/min\"",
+            "SMP591 = \"500 rev/min\"",
+            "tool_som_2",
+        ),
+        (
+            "an axis that is held may go a long way",
+            "SMP545  = \"1 mm\"",
+            "SMP545 = \"30 mm\"",
+            "table_som_1",
+        ),
+        (
+            "an SS1 that brakes for ten seconds",
+            "SMP525  = \"600 ms\"",
+            "SMP525 = \"10 s\"",
+            "table_som_2",
+        ),
+        (
+            "another axis of the group that brakes for long",
+            "SMP525  = \"450 ms\"",
+            "SMP525 = \"2 s\"",
+            "emergency_stop",
+        ),
+        (
+            "a spindle that brakes for long",
+            "SMP526 = \"2.3 s\"",
+            "SMP526 = \"9 s\"",
+            "emergency_stop_tool",
+        ),
+        (
+            "a signal that takes its time",
+            "signal  = \"20 ms\"",
+            "signal = \"300 ms\"",
+            "table_som_1",
+        ),
+        (
+            "a program that forgets the door in SOM_2",
+            "request_a  = \"SEL(door_open, AUTO, limited(som))\"",
+            "request_a = \"SEL(door_open AND som <> SOM_2, AUTO, limited(som))\"",
+            "table_som_2",
+        ),
+        (
+            "a program that permits motion in SOM_1",
+            "request_a  = \"SEL(door_open, AUTO, limited(som))\"",
+            "request_a = \"SEL(door_open, AUTO, SEL(som = SOM_1, limited(som), SLS_2))\"",
+            "table_som_1",
+        ),
+        (
+            "a program that asks for nothing of the spindle",
+            "SEL(door_open, AUTO, SEL(restricted AND som <> SOM_1, limited(som), SLS_S))",
+            "SEL(door_open, AUTO, SEL(restricted, limited(som), SLS_S))",
+            "tool_som_1",
+        ),
+        (
+            "a key that is held starts when the door closes",
+            "keyed_a := any_a; keyed_s := any_s; starts := TRUE; spins := TRUE;",
+            "keyed_a := FALSE; keyed_s := any_s; starts := TRUE; spins := TRUE;",
+            "no_start",
+        ),
+        (
+            "an open door behind which the spindle needs no permissive",
+            "som <> SOM_1 AND NOT t_open AND gen_safe AND pb AND (jog OR turned)",
+            "som <> SOM_1 AND NOT t_open AND gen_safe AND (jog OR turned)",
+            "no_start_tool",
+        ),
+        (
+            "a magazine that needs no confirmation",
+            "SEL(t_open, confirmed OR T_ACT_CONST, pb_magazine AND one_key AND gen_safe)",
+            "SEL(t_open, TRUE, pb_magazine AND one_key AND gen_safe)",
+            "no_start_magazine",
+        ),
+        (
+            "a magazine whose door is not looked at",
+            "request_t  = \"SEL(t_open, AUTO, SLS_2)\"",
+            "request_t = \"SEL(t_open AND NOT door_open, AUTO, SLS_2)\"",
+            "magazine",
+        ),
+    ];
+    for (what, from, to, name) in dangerous {
+        let found = guaranteed(CENTRE, changed(CENTRE, from, to), &[name]);
         assert_eq!(found[name].0, Verdict::Violated, "{what}");
     }
 }

@@ -12,6 +12,7 @@ use stillpoint_engine::readings::compare;
 use stillpoint_engine::subject::{self, Subject};
 use stillpoint_harness::certificate;
 use stillpoint_harness::report::{self, About};
+use stillpoint_harness::sweep::{Failed, sweep};
 
 use super::cluster::ClusterOptions;
 use super::interrupt::Interruptible;
@@ -66,6 +67,12 @@ pub struct Arguments {
         default_value = "none"
     )]
     reduce: Reductions,
+    /// Tell for which values of one parameter the guarantees of a machine file hold, in place of the report: axis.X.STANDSTILL_TOL,
+    /// door.front.open, guarantee.table.within, a value of a list as axis.X.VELO_LIMIT[0]
+    #[arg(long, value_name = "PARAMETER", conflicts_with_all = [
+        "json", "markdown", "html", "certificate", "checkpoint", "resume", "readings", "processes"
+    ])]
+    sweep: Option<String>,
     #[command(flatten)]
     warnings: Warnings,
     #[command(flatten)]
@@ -73,6 +80,9 @@ pub struct Arguments {
 }
 
 pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
+    if let Some(name) = &arguments.sweep {
+        return swept(arguments, name);
+    }
     let choice = values::readings(&arguments.readings).map_err(Failure::Other)?;
     let subject = subject::load(&arguments.file, &choice.chosen)?;
     tell_data(subject.machine.as_ref());
@@ -195,6 +205,29 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
             .map_err(Failure::Other)?;
     }
     Ok(arguments.warnings.status(subject.machine.as_ref(), status))
+}
+
+/// For which values of a parameter the guarantees hold.
+fn swept(arguments: &Arguments, name: &str) -> Result<u8, Failure> {
+    let interrupt = Interruptible::begin()?;
+    let settings = Settings {
+        threads: arguments.limits.threads,
+        memory: arguments.limits.memory,
+        time: arguments.limits.time,
+        interpret: arguments.interpret,
+        reductions: arguments.reduce,
+        interrupt: Some(interrupt.handle()),
+        ..Settings::default()
+    };
+    let line = Line::new("sweep");
+    let swept = sweep(&arguments.file, name, &settings);
+    drop(line);
+    let swept = swept.map_err(|e| match e {
+        Failed::Input(diagnostics) => Failure::Input(diagnostics),
+        Failed::Other(message) => Failure::Other(message),
+    })?;
+    show(&swept.text());
+    Ok(u8::from(!swept.holds()))
 }
 
 /// A report that cannot be written is better told before the check than after it.

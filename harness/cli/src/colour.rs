@@ -21,10 +21,11 @@ const BAD: Style = AnsiColor::Red.on_default().bold();
 const OPEN: Style = AnsiColor::Yellow.on_default().bold();
 
 /// Verdicts in the headline of a report, after the name and a colon.
-const HEADS: [(&str, Style); 7] = [
+const HEADS: [(&str, Style); 8] = [
     ("ALL PROPERTIES HOLD", GOOD),
     ("ALL GUARANTEES HOLD", GOOD),
     ("NO GUARANTEE IS ASKED", OPEN),
+    ("NOT SHOWN", OPEN),
     ("CONFIRMED", GOOD),
     ("plausible", GOOD),
     ("VIOLATED", BAD),

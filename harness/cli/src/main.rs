@@ -11,6 +11,7 @@ mod export;
 mod interrupt;
 mod limits;
 mod manual;
+mod new;
 mod pages;
 mod params;
 mod progress;
@@ -105,6 +106,11 @@ enum Command {
         after_help = "Examples:\n  stillpoint params sinumerik-840d\n  stillpoint params sinumerik-840d STANDSTILL_TOL\n  stillpoint params sinumerik-840d 36951\n  stillpoint params heidenhain-fs SMP560 --json"
     )]
     Params(params::Arguments),
+    /// A machine file to begin with: axes, doors and guarantees with values that fit each other, to be replaced by those of the machine
+    #[command(
+        after_help = "Examples:\n  stillpoint new sinumerik-840d --name lathe --linear X,Z --spindles S --output lathe.toml\n  stillpoint new heidenhain-fs --name mill --linear X,Y,Z --rotary C --spindles S --doors front,rear"
+    )]
+    New(new::Arguments),
     /// Write the pages of the book about the safety functions of a family
     #[command(
         after_help = "Exit status: 0; 1 if --check finds a difference; 2 bad input.\n\nExamples:\n  stillpoint pages spec/families/sinumerik-840d --output docs/src/functions\n  stillpoint pages spec/families/sinumerik-840d --output docs/src/functions --check"
@@ -160,6 +166,7 @@ fn main() -> ExitCode {
         Command::Trace(arguments) => trace::run(&arguments),
         Command::Params(arguments) => params::run(&arguments),
         Command::Validate(arguments) => validate::run(&arguments),
+        Command::New(arguments) => new::run(&arguments),
         Command::Pages(arguments) => pages::run(&arguments),
         Command::Completions { shell } => manual::completions(shell),
         Command::Man { output } => manual::pages(output.as_deref()),

@@ -58,7 +58,7 @@ fn emit_json(value: Value) {
 }
 
 /// The folder of the family that is named, or that is given as a folder.
-fn folder(named: &Path) -> Result<PathBuf, Failure> {
+pub(super) fn folder(named: &Path) -> Result<PathBuf, Failure> {
     if named.join("family.toml").is_file() {
         return named
             .canonicalize()

@@ -4,6 +4,8 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use indexmap::IndexMap;
+use indexmap::map::Entry;
 use stillpoint_model::{Cluster, Error, Interrupt, Limits, Options, Progress, Trace, Verdict};
 
 use crate::excluded::{Exclusion, Judge};
@@ -88,14 +90,23 @@ pub enum Unfired {
 /// A verdict on one property id over all tasks.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Summary {
-    /// Property id.
+    /// Property id, or the name of a guarantee.
     pub id: String,
+    /// Whether it is a guarantee of the machine file; one may be named like a property.
+    pub guarantee: bool,
     /// The worst verdict that says something.
     pub verdict: Verdict,
     /// Cycles of the shortest counterexample or witness.
     pub length: Option<u64>,
     /// Whether it is unreachable because the values of the machine exclude it, wherever it was looked for.
     pub excluded: bool,
+}
+
+impl Summary {
+    /// A guarantee that nothing puts to the test: no answer to what the file asks.
+    pub fn untested(&self) -> bool {
+        self.guarantee && matches!(self.verdict, Verdict::Vacuous | Verdict::Unreachable)
+    }
 }
 
 /// Checks all tasks, one after the other.
@@ -197,67 +208,64 @@ fn rank(one: &Summary) -> u8 {
         Verdict::Violated => 6,
         Verdict::Unreachable if !one.excluded => 5,
         Verdict::Inconclusive => 4,
+        // A property of the family is put to the test elsewhere, a guarantee of this machine nowhere else.
+        Verdict::Vacuous if one.guarantee => 4,
         Verdict::Holds | Verdict::Reached => 3,
         Verdict::Unreachable => 2,
         Verdict::Vacuous => 1,
     }
 }
 
-/// One verdict for each property id, in the order in which they first occur.
+/// One verdict for each property id and each guarantee, in the order in which they first occur.
 pub fn summarise(subject: &Subject, checked: &[Checked]) -> Vec<Summary> {
-    let mut order: Vec<String> = Vec::new();
-    let mut best: BTreeMap<String, Summary> = BTreeMap::new();
+    let mut all: IndexMap<(bool, String), Summary> = IndexMap::new();
     for (task, done) in subject.tasks.iter().zip(checked) {
+        let guarantee = task.guarantee.is_some();
+        let id = |otherwise: &str| task.guarantee.as_deref().unwrap_or(otherwise).to_owned();
         let properties = task.bound.system.properties.iter();
         let judgements = properties.zip(&done.outcome.report.properties);
-        for (k, (property, judged)) in judgements.enumerate() {
-            let new = Summary {
-                id: task.guarantee.as_ref().unwrap_or(&property.id).clone(),
+        let judgements = judgements
+            .enumerate()
+            .map(|(k, (property, judged))| Summary {
+                id: id(&property.id),
+                guarantee,
                 verdict: judged.verdict,
                 length: judged.length,
                 excluded: done.excluded.contains_key(&k),
-            };
-            match best.get_mut(&new.id) {
-                None => {
-                    order.push(new.id.clone());
-                    best.insert(new.id.clone(), new);
+            });
+        let faults = done.outcome.report.faults.iter().map(|fault| Summary {
+            id: id("range"),
+            guarantee,
+            verdict: Verdict::Violated,
+            length: fault.length,
+            excluded: false,
+        });
+        for new in judgements.chain(faults) {
+            match all.entry((guarantee, new.id.clone())) {
+                Entry::Vacant(free) => {
+                    free.insert(new);
                 }
-                Some(old) => {
-                    let shorter = rank(old) == rank(&new)
-                        && new.length.unwrap_or(u64::MAX) < old.length.unwrap_or(u64::MAX);
-                    if rank(&new) > rank(old) || shorter {
-                        *old = new;
+                Entry::Occupied(mut old) => {
+                    let shorter = rank(old.get()) == rank(&new)
+                        && new.length.unwrap_or(u64::MAX) < old.get().length.unwrap_or(u64::MAX);
+                    if rank(&new) > rank(old.get()) || shorter {
+                        old.insert(new);
                     }
                 }
             }
         }
-        for fault in &done.outcome.report.faults {
-            let id = "range".to_owned();
-            if !best.contains_key(&id) {
-                order.push(id.clone());
-                best.insert(
-                    id.clone(),
-                    Summary {
-                        id,
-                        verdict: Verdict::Violated,
-                        length: fault.length,
-                        excluded: false,
-                    },
-                );
-            }
-        }
     }
-    order
-        .into_iter()
-        .filter_map(|id| best.remove(&id))
-        .collect()
+    all.into_values().collect()
 }
 
-/// Exit status for the verdicts: 1 violated (or a witness that must exist does not, though the values permit it),
-/// 3 inconclusive, 0 otherwise.
+/// Exit status for the verdicts: 1 violated (or a witness that must exist does not, though the values permit it, or nothing puts a
+/// guarantee to the test), 3 inconclusive, 0 otherwise.
 pub fn exit_status(summaries: &[Summary], checked: &[Checked]) -> u8 {
     let any = |v: Verdict| summaries.iter().any(|s| s.verdict == v && !s.excluded);
-    if any(Verdict::Violated) || any(Verdict::Unreachable) {
+    if any(Verdict::Violated)
+        || any(Verdict::Unreachable)
+        || summaries.iter().any(Summary::untested)
+    {
         1
     } else if any(Verdict::Inconclusive) || checked.iter().any(|c| !c.outcome.report.complete) {
         3

@@ -22,6 +22,8 @@ pub struct Task {
     pub axes: Vec<String>,
     /// The guarantee of the machine file that it decides.
     pub guarantee: Option<String>,
+    /// A time in microseconds that passes before what is explored begins; no bound has it.
+    pub before: u64,
     /// Where it is coarser than the machine.
     pub abstractions: Vec<String>,
     /// The system with its parameter values.
@@ -92,6 +94,7 @@ fn of_spec(path: &Path, text: Arc<str>, readings: &Readings) -> Result<Subject> 
                 title: bound.system.text.clone(),
                 axes: Vec::new(),
                 guarantee: None,
+                before: 0,
                 abstractions: Vec::new(),
                 bound,
                 analysis,
@@ -153,6 +156,7 @@ pub fn of_runs(
             title: run.title.clone(),
             axes: run.axes.clone(),
             guarantee: run.guarantee.clone(),
+            before: u64::try_from(run.before).unwrap_or(0),
             abstractions: run.abstractions.clone(),
             bound,
             analysis,

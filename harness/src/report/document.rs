@@ -300,8 +300,6 @@ fn guaranteed(subject: &Subject, checked: &[Checked]) -> Vec<Block> {
     }
     let rows = answers.iter().flat_map(|answer| {
         answer.runs.iter().map(move |run| {
-            let values = run.values.iter();
-            let values = values.map(|v| format!("{} = {}", v.name, v.value));
             vec![
                 code(&answer.guarantee.name),
                 badge(run.verdict, false),
@@ -314,7 +312,7 @@ fn guaranteed(subject: &Subject, checked: &[Checked]) -> Vec<Block> {
                     run.bound
                         .map_or_else(String::new, |b| format!("at most {}", time(b))),
                 ),
-                words(values.collect::<Vec<_>>().join("\n")),
+                words(run.told().collect::<Vec<_>>().join("\n")),
             ]
         })
     });

@@ -104,12 +104,11 @@ fn guarantees(subject: &Subject, checked: &[Checked]) -> Vec<Value> {
     let answer = |answer: &Answer<'_>| {
         let runs = answer.runs.iter().map(|run| {
             let values = run.values.iter();
-            let values: BTreeMap<&str, &str> = values
-                .map(|v| (v.name.as_str(), v.value.as_str()))
-                .collect();
+            let values =
+                values.map(|v| json!({ "name": v.name, "value": v.value, "axes": v.axes }));
             json!({
                 "axes": run.task.axes, "verdict": verdict_name(run.verdict), "bound_us": run.bound,
-                "values": values, "abstractions": run.task.abstractions,
+                "values": values.collect::<Vec<_>>(), "abstractions": run.task.abstractions,
             })
         });
         let asked = answer.guarantee;

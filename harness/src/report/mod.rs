@@ -92,18 +92,19 @@ fn reduced(done: &Checked) -> bool {
 
 /// The result in a few words.
 fn result(subject: &Subject, summaries: &[Summary], checked: &[Checked]) -> &'static str {
-    let guarantees = subject.machine.iter().flat_map(|m| &m.guarantees);
-    let of_machine = |s: &&Summary| guarantees.clone().any(|g| g.name == s.id);
     let broken = |s: &Summary| s.verdict == Verdict::Violated;
     match exit_status(summaries, checked) {
         0 if summaries.is_empty() => "EXPLORED, no property is stated",
         0 if unasked(subject).is_some() => {
             "NO GUARANTEE IS ASKED, the properties of its family hold"
         }
-        0 if summaries.iter().any(|s| of_machine(&s)) => "ALL GUARANTEES HOLD",
+        0 if summaries.iter().any(|s| s.guarantee) => "ALL GUARANTEES HOLD",
         0 => "ALL PROPERTIES HOLD",
-        1 if summaries.iter().filter(of_machine).any(broken) => {
+        1 if summaries.iter().any(|s| s.guarantee && broken(s)) => {
             "VIOLATED: a guarantee of this machine"
+        }
+        1 if !summaries.iter().any(broken) && summaries.iter().any(Summary::untested) => {
+            "NOT SHOWN: nothing puts a guarantee of this machine to the test"
         }
         1 if !summaries.iter().any(broken) => "VIOLATED: a witness that must exist does not",
         1 => "VIOLATED",

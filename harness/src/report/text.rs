@@ -103,9 +103,7 @@ fn guaranteed(out: &mut String, subject: &Subject, checked: &[Checked]) {
                 None => verdict_name(run.verdict).to_owned(),
             };
             let _ = writeln!(out, "{:15}{}: {bound}", "", run.task.axes.join(", "));
-            let values = run.values.iter();
-            let values = values.map(|v| format!("{} = {}", v.name, v.value));
-            let values = values.collect::<Vec<_>>().join("; ");
+            let values = run.told().collect::<Vec<_>>().join("; ");
             wrapped(out, &" ".repeat(17), &format!("with {values}"));
         }
     }

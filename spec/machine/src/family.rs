@@ -196,7 +196,7 @@ impl Quantity {
 }
 
 /// A parameter of the control, an axis, a group or a door.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Param {
     pub quantity: Quantity,
     /// The manual's names: `MD36930 $MA_SAFE_STANDSTILL_TOL`; empty for what is no machine datum.
@@ -327,6 +327,8 @@ pub(super) struct Explore {
     pub members: usize,
     /// The length of a cycle of the system, where it is not the monitoring cycle.
     pub cycle: Option<Formula>,
+    /// A time that passes before what is explored begins, and that a bound found there does not have.
+    pub before: Option<Formula>,
     pub params: Vec<Binding>,
 }
 

@@ -123,6 +123,7 @@ pub(super) struct ExploreData {
     #[serde(default)]
     members: usize,
     cycle: Option<Spanned<String>>,
+    before: Option<Spanned<String>>,
     #[serde(default)]
     note: String,
 }
@@ -168,7 +169,7 @@ pub(super) fn load(folder: &Path) -> Result<Family> {
     let Some(mut family) = check.family(folder, &file, &source) else {
         return Err(check.findings.into_diagnostics());
     };
-    family.patterns = guarantee::load(folder, &family.known)?;
+    family.patterns = guarantee::load(folder, &family.known, &family.group_lets)?;
     check.findings.finish(family)
 }
 
@@ -440,10 +441,12 @@ impl Check {
         }
         let roundings = |formula: &Formula| known.roundings(formula);
         let known = known.of_explored(data.each, data.members);
-        let cycle = match data.cycle {
-            Some(text) => Some(self.formula(text, known)?),
-            None => None,
+        let mut optional = |text: Option<Spanned<String>>| match text {
+            Some(text) => self.formula(text, known).map(Some),
+            None => Some(None),
         };
+        let cycle = optional(data.cycle)?;
+        let before = optional(data.before)?;
         let mut params = Vec::new();
         for (name, text) in data.param {
             params.push(Binding::Value(name, self.formula(text, known)?));
@@ -497,6 +500,7 @@ impl Check {
             note: data.note,
             members: data.members,
             cycle,
+            before,
             params,
         })
     }

@@ -11,12 +11,13 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::eval::Values;
-use super::family::{Explore, Family, Known, Param, Quantity};
+use super::family::{Explore, Family, Formula, Known, Param, Quantity};
 use super::family_file::{Check, ExploreData, ParamData};
-use super::ground::DataFile;
-use super::plausible::{Judged, insert};
+use super::ground::{About as Subjects, DataFile, grounds};
+use super::plausible::{Judged, evaluate, insert};
 use super::runs::Parts;
-use super::{Place, Settings};
+use super::uses::of_system;
+use super::{Machine, Place, Settings};
 use stillpoint_lang::diag::Result;
 
 /// The file of the patterns in the folder of a family.
@@ -71,6 +72,8 @@ pub(super) enum About {
 #[serde(deny_unknown_fields)]
 struct File {
     #[serde(default)]
+    argument: IndexMap<Spanned<String>, ParamData>,
+    #[serde(default)]
     pattern: IndexMap<String, PatternData>,
 }
 
@@ -78,10 +81,8 @@ struct File {
 #[serde(deny_unknown_fields)]
 struct PatternData {
     about: About,
-    text: String,
+    text: Spanned<String>,
     source: String,
-    #[serde(default)]
-    argument: IndexMap<String, ParamData>,
     #[serde(default)]
     required: Vec<Spanned<String>>,
     explore: Vec<ExploreData>,
@@ -91,53 +92,112 @@ struct PatternData {
 ///
 /// # Errors
 /// Everything in the file that is not as described here.
-pub(super) fn load(folder: &Path, known: &Known) -> Result<IndexMap<String, Pattern>> {
+pub(super) fn load(
+    folder: &Path,
+    known: &Known,
+    group_lets: &[(String, Formula)],
+) -> Result<IndexMap<String, Pattern>> {
     if !stillpoint_lang::files::is_file(&folder.join(FILE)) {
         return Ok(IndexMap::new());
     }
     let file = DataFile::read(folder, FILE, "guarantees")?;
     let data: File = file.parse()?;
     let mut check = file.check();
+    let places: Vec<Place> = data.argument.keys().map(Spanned::span).collect();
+    let argument = data.argument.into_iter();
+    let argument = argument.map(|(name, data)| (name.into_inner(), data));
+    let arguments = check.params(argument.collect());
+    let context = Context {
+        arguments: &arguments,
+        known,
+        group_lets,
+    };
     let mut patterns = IndexMap::new();
     for (name, data) in data.pattern {
-        let pattern = pattern(&mut check, data, known);
+        let pattern = context.pattern(&mut check, data);
         patterns.insert(name, pattern);
+    }
+    for (name, place) in arguments.keys().zip(places) {
+        if !patterns.values().any(|p| p.arguments.contains_key(name)) {
+            let message = format!("no pattern tells '{name}'");
+            let help = format!("put {{{name}}} into the text of a pattern, or remove it");
+            check.findings.add(place, message, "", help);
+        }
     }
     check.findings.finish(patterns)
 }
 
-fn pattern(check: &mut Check, data: PatternData, known: &Known) -> Pattern {
-    let arguments = check.params(data.argument);
-    let mut names = match data.about {
-        About::Axis => known.axis.clone(),
-        About::Door => known.door.clone(),
-    };
-    names.extend(arguments.keys().cloned());
-    let mut roundings = known.roundings.clone();
-    let times = arguments
-        .iter()
-        .filter(|(_, a)| a.quantity == Quantity::Time);
-    roundings.extend(times.map(|(name, a)| (name.clone(), vec![a.cycles])));
-    let known = Known {
-        axis: names,
-        roundings,
-        ..Known::default()
-    };
-    for name in &data.required {
-        if !arguments.contains_key(name.get_ref()) {
-            let message = format!("'{}' is no argument here", name.get_ref());
-            let help = "name one of the keys of argument";
-            check.findings.add(name.span(), message, "", help);
+/// What patterns may name.
+struct Context<'a> {
+    arguments: &'a IndexMap<String, Param>,
+    known: &'a Known,
+    group_lets: &'a [(String, Formula)],
+}
+
+impl Context<'_> {
+    fn pattern(&self, check: &mut Check, data: PatternData) -> Pattern {
+        let arguments = self.told(check, &data.text, data.about);
+        let mut names = match data.about {
+            About::Axis => self.known.axis.clone(),
+            About::Door => self.known.door.clone(),
+        };
+        names.extend(arguments.keys().cloned());
+        names.extend(self.group_lets.iter().map(|(name, _)| name.clone()));
+        let mut roundings = self.known.roundings.clone();
+        let times = arguments
+            .iter()
+            .filter(|(_, a)| a.quantity == Quantity::Time);
+        roundings.extend(times.map(|(name, a)| (name.clone(), vec![a.cycles])));
+        let known = Known {
+            axis: names,
+            roundings,
+            ..Known::default()
+        };
+        for name in &data.required {
+            if !arguments.contains_key(name.get_ref()) {
+                let message = format!("'{}' is no argument here", name.get_ref());
+                let help = "name one of the places of the text";
+                check.findings.add(name.span(), message, "", help);
+            }
+        }
+        let explore = data.explore.into_iter();
+        Pattern {
+            about: data.about,
+            text: data.text.into_inner(),
+            source: data.source,
+            required: data.required.into_iter().map(Spanned::into_inner).collect(),
+            explore: explore.filter_map(|e| check.explore(e, &known)).collect(),
+            arguments,
         }
     }
-    let explore = data.explore.into_iter();
-    Pattern {
-        about: data.about,
-        text: data.text,
-        source: data.source,
-        required: data.required.into_iter().map(Spanned::into_inner).collect(),
-        explore: explore.filter_map(|e| check.explore(e, &known)).collect(),
-        arguments,
+
+    /// The arguments of a pattern are what its text tells: each place of it must be one that can be filled in.
+    fn told(
+        &self,
+        check: &mut Check,
+        text: &Spanned<String>,
+        about: About,
+    ) -> IndexMap<String, Param> {
+        let mut told = IndexMap::new();
+        let places = text.get_ref().split('{').skip(1);
+        for place in places.filter_map(|p| p.split('}').next()) {
+            match self.arguments.get_key_value(place) {
+                Some((name, argument)) => {
+                    told.insert(name.clone(), argument.clone());
+                }
+                None if place == "axes" || (place == "door" && about == About::Door) => {}
+                None => {
+                    let known: Vec<&str> = self.arguments.keys().map(String::as_str).collect();
+                    let message = format!("nothing is called '{place}' here");
+                    let help = format!(
+                        "places: axes, door where it is about one, {}",
+                        known.join(", ")
+                    );
+                    check.findings.add(text.span(), message, "", help);
+                }
+            }
+        }
+        told
     }
 }
 
@@ -155,6 +215,51 @@ impl Pattern {
     }
 }
 
+impl Machine {
+    /// What a guarantee depends on for one of its axes: parameters with their values, functions with whether they are enabled.
+    pub fn depends(&self, guarantee: &Guarantee, axis: &str) -> IndexMap<String, String> {
+        let family = &self.basis.family;
+        let Some(pattern) = family.patterns.get(&guarantee.pattern) else {
+            return IndexMap::new();
+        };
+        let subjects = match pattern.about {
+            About::Axis => Subjects::Axis,
+            About::Door => Subjects::DoorAxis,
+        };
+        let all = grounds(self, subjects);
+        let ground = all.iter().find(|ground| {
+            ground.axis.is_some_and(|a| a.name == axis)
+                && ground.door.map(|d| &d.name) == guarantee.door.as_ref()
+        });
+        let Some(ground) = ground else {
+            return IndexMap::new();
+        };
+        let names: Vec<String> = pattern.explore.iter().flat_map(of_system).collect();
+        let groups = grounds(self, Subjects::Group);
+        let group = groups
+            .iter()
+            .find(|g| g.group.map(|g| &g.name) == ground.group.map(|g| &g.name));
+        let value = |name: String| {
+            if guarantee.values.contains_key(&name) {
+                return None;
+            }
+            let function = family.functions.iter().find(|f| f.variable == name);
+            if let Some(function) = function {
+                return Some(ground.enabled(&function.name));
+            }
+            let setting = ground.settings().find_map(|s| s.get(&name))?;
+            Some((name, setting.shown.join(", ").replace('"', "")))
+        };
+        // What a group has from its axes depends on each of them.
+        let (whole, own): (Vec<String>, Vec<String>) = (names.into_iter())
+            .partition(|name| family.group_lets.iter().any(|(known, _)| known == name));
+        let of_group = family.resolved(whole).into_iter();
+        let of_group = of_group.filter_map(|name| Some((name.clone(), group?.shown(&name, 0)?)));
+        let own = family.resolved(own).into_iter().filter_map(value);
+        own.chain(of_group).collect()
+    }
+}
+
 /// Values of one axis for one guarantee.
 pub(super) struct Asked<'a> {
     pub guarantee: &'a Guarantee,
@@ -169,7 +274,7 @@ pub(super) fn asked<'a>(
     guarantees: &'a [Guarantee],
     parts: Parts<'a>,
     judged: &Judged,
-) -> Vec<Asked<'a>> {
+) -> Result<Vec<Asked<'a>>> {
     let mut list = Vec::new();
     let values: BTreeMap<&str, &Values> = (parts.axes.iter().zip(&judged.axes))
         .map(|(axis, values)| (axis.name.as_str(), values))
@@ -188,6 +293,16 @@ pub(super) fn asked<'a>(
                 continue;
             };
             let mut values = (*values).clone();
+            let group = parts.groups.iter().zip(&judged.groups);
+            let group = group.into_iter().find(|(group, _)| group.has(axis));
+            for (name, formula) in &family.group_lets {
+                // An axis in no group stops alone.
+                let value = match group.and_then(|(_, values)| values.get(name)) {
+                    Some(value) => value.clone(),
+                    None => vec![evaluate(family, formula, &values, judged.cycle)?],
+                };
+                values.insert(name.clone(), value);
+            }
             if let Some(door) = door {
                 insert(&mut values, &door.values);
             }
@@ -200,5 +315,5 @@ pub(super) fn asked<'a>(
             });
         }
     }
-    list
+    Ok(list)
 }

@@ -14,6 +14,7 @@
 //! ```
 
 pub mod acceptance;
+pub mod begin;
 mod coverage;
 pub mod data;
 mod document;
@@ -25,6 +26,7 @@ mod family_file;
 mod family_tests;
 mod ground;
 pub mod guarantee;
+pub mod knob;
 mod logic;
 mod place;
 mod plausible;
@@ -184,6 +186,8 @@ pub struct Run {
     pub system: String,
     /// The length of one cycle of the system in microseconds: the monitoring cycle, where the family says nothing else.
     pub cycle: i64,
+    /// A time in microseconds that passes before what it explores begins.
+    pub before: i64,
     /// Values of the system's parameters; one cell for a scalar. Times in cycles, or in steps.
     pub params: BTreeMap<String, Vec<i64>>,
     /// For each parameter the expression over the values of the file that it was computed from.

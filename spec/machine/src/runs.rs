@@ -73,8 +73,13 @@ pub(super) fn guaranteed(
 ) -> Result<Vec<Run>> {
     let mut planned: Vec<Planned> = Vec::new();
     let mut files = BTreeMap::new();
-    for asked in asked(family, guarantees, parts, judged) {
+    for asked in asked(family, guarantees, parts, judged)? {
+        let mut decided = false;
         for explore in &asked.pattern.explore {
+            if evaluate(family, &explore.when, &asked.values, judged.cycle)? == 0 {
+                continue;
+            }
+            decided = true;
             let scaled = is_scaled(family, explore, &mut files)?;
             let subject = Subject {
                 members: vec![(asked.axis, &asked.values)],
@@ -83,6 +88,13 @@ pub(super) fn guaranteed(
             let mut run = bind(family, explore, scaled, judged.cycle, &subject, 0)?;
             run.run.guarantee = Some(asked.guarantee.name.clone());
             merge(&mut planned, run);
+        }
+        if !decided {
+            let (name, axis) = (&asked.guarantee.name, asked.axis);
+            let message = format!("nothing decides the guarantee {name} for the axis {axis}");
+            let fault = Diagnostic::new(&family.file, &family.source, None, message);
+            let help = "this is an error of the family's data, not of the machine file: an entry of its pattern must apply";
+            return Err(fault.help(help).into());
         }
     }
     Ok(planned.into_iter().map(Planned::titled).collect())
@@ -284,6 +296,7 @@ fn bind(
         file: family.folder.join(&explore.file),
         system: explore.system.clone(),
         cycle,
+        before: 0,
         params: BTreeMap::new(),
         sources: BTreeMap::new(),
         abstractions: Vec::new(),
@@ -302,6 +315,9 @@ fn bind(
         None => cycle,
     };
     run.cycle = cycle;
+    if let Some(formula) = &explore.before {
+        run.before = evaluate(family, formula, values, cycle)?;
+    }
     if !explore.note.is_empty() {
         run.abstractions.push(explore.note.clone());
     }
@@ -396,7 +412,8 @@ fn ranks(values: &[i64]) -> Vec<i64> {
 fn merge(list: &mut Vec<Planned>, new: Planned) {
     let same = list.iter_mut().find(|known| {
         let (a, b) = (&known.run, &new.run);
-        (&a.file, &a.system, a.cycle, &a.params) == (&b.file, &b.system, b.cycle, &b.params)
+        (&a.file, &a.system, a.cycle, a.before, &a.params)
+            == (&b.file, &b.system, b.cycle, b.before, &b.params)
             && a.guarantee == b.guarantee
             && (known.each, known.of_member) == (new.each, new.of_member)
             && (!new.of_member || known.names == new.names)

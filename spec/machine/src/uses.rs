@@ -69,9 +69,10 @@ fn functions(family: &Family, name: &str) -> Result<Vec<String>> {
 }
 
 /// The names that an explored system reads.
-fn of_system(explore: &Explore) -> Vec<String> {
+pub(super) fn of_system(explore: &Explore) -> Vec<String> {
     let mut names = read_names(&explore.when.expr);
-    names.extend(explore.cycle.iter().flat_map(|f| read_names(&f.expr)));
+    let times = explore.cycle.iter().chain(&explore.before);
+    names.extend(times.flat_map(|f| read_names(&f.expr)));
     for binding in &explore.params {
         match binding {
             Binding::Value(_, formula)

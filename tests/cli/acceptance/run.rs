@@ -7,7 +7,7 @@ use stillpoint_machine::acceptance::{Protocol, Simulated, Test};
 use stillpoint_machine::{self as machine, Machine};
 
 use super::{CATALOGUE, FAMILY, MILLING, json, milling};
-use crate::common::{copied, stderr, stdout, stillpoint};
+use crate::common::{copied, messages, stdout, stillpoint};
 
 /// The milling machine with other functions: cams, override, setpoint limit, STOP A, B and E of the stages (X); the pulses
 /// cancelled over the drive bus, stops for the whole channel (Y); a spindle with slip; a door that asks for SBH.
@@ -333,6 +333,6 @@ fn a_test_that_fails_is_told_with_its_diagram() {
     let file = copied("acceptance-bare", MILLING, FAMILY, &bare);
     let output = stillpoint(&["acceptance", &file]);
     assert_eq!(output.status.code(), Some(2));
-    let said = stderr(&output);
+    let said = messages(&output);
     assert!(said.contains("can neither be simulated"), "{said}");
 }

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::{SMALLEST, away, elsewhere};
-use crate::common::{copied, root, status, stderr, stdout, stillpoint};
+use crate::common::{copied, messages, root, status, stderr, stdout, stillpoint};
 
 #[test]
 fn every_command_takes_a_file_away_from_the_sources() {
@@ -44,7 +44,7 @@ fn an_unknown_family_lists_those_of_the_binary() {
     let output = away(&folder, &["validate", &file]);
     assert_eq!(status(&output), 2);
     assert!(
-        stderr(&output).contains("known families: heidenhain-fs, sinumerik-840d"),
+        messages(&output).contains("known families: heidenhain-fs, sinumerik-840d"),
         "{}",
         stderr(&output)
     );
@@ -84,7 +84,7 @@ fn other_family_data_are_named_or_told() {
     );
     assert_eq!(status(&named), 2, "{}", stdout(&named));
     assert!(
-        stderr(&named).contains("STANDSTILL_TOL"),
+        messages(&named).contains("STANDSTILL_TOL"),
         "{}",
         stderr(&named)
     );
@@ -93,7 +93,7 @@ fn other_family_data_are_named_or_told() {
     let above = stillpoint(&["validate", &copy]);
     assert_eq!(status(&above), 0, "{}", stderr(&above));
     assert!(
-        stderr(&above).contains("note: family data of "),
+        messages(&above).contains("note: family data of "),
         "{}",
         stderr(&above)
     );
@@ -103,7 +103,7 @@ fn other_family_data_are_named_or_told() {
     let nothing = away(&folder, &["validate", &file, "--family-data", "."]);
     assert_eq!(status(&nothing), 2);
     assert!(
-        stderr(&nothing).contains("family.toml"),
+        messages(&nothing).contains("family.toml"),
         "{}",
         stderr(&nothing)
     );

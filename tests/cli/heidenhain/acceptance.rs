@@ -6,7 +6,7 @@ use std::path::Path;
 use serde_json::Value;
 
 use super::{MACHINE, changed, json};
-use crate::common::{stderr, stdout, stillpoint};
+use crate::common::{messages, stdout, stillpoint};
 
 fn ids(json: &Value) -> BTreeSet<String> {
     let tests = json["tests"].as_array().expect("tests").iter();
@@ -267,7 +267,7 @@ fn a_parameter_that_no_test_reads_is_a_fault_of_the_catalogue() {
     );
     let output = stillpoint(&["acceptance", &machine]);
     assert_eq!(output.status.code(), Some(2));
-    let says = stderr(&output);
+    let says = messages(&output);
     assert!(
         says.contains("no acceptance test depends on SMP560_10"),
         "{says}"

@@ -1,0 +1,168 @@
+//! A machine file to begin with: the parts that a family has for it, filled in with the axes and doors of a machine.
+
+use std::path::Path;
+
+use serde::Deserialize;
+use toml::Spanned;
+
+use super::ground::DataFile;
+use stillpoint_lang::diag::Result;
+
+/// The file of the parts in the folder of a family.
+const FILE: &str = "new.toml";
+
+/// What the machine consists of, by name.
+#[derive(Debug, Clone, Default)]
+pub struct Wanted {
+    /// The machine.
+    pub name: String,
+    /// Linear axes.
+    pub linear: Vec<String>,
+    /// Rotary axes.
+    pub rotary: Vec<String>,
+    /// Spindles.
+    pub spindles: Vec<String>,
+    /// Guard doors; all axes are behind each.
+    pub doors: Vec<String>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    part: Vec<Part>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Part {
+    each: Each,
+    #[serde(default)]
+    needs: Vec<Kind>,
+    text: Spanned<String>,
+}
+
+/// For what a part is written.
+#[derive(Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum Each {
+    Machine,
+    Linear,
+    Rotary,
+    Spindle,
+    Door,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum Kind {
+    Linear,
+    Rotary,
+    Axes,
+    Spindle,
+}
+
+/// Whether the family in `folder` has parts for a new machine file.
+pub fn has(folder: &Path) -> bool {
+    stillpoint_lang::files::is_file(&folder.join(FILE))
+}
+
+/// The text of a machine file with the axes and doors that are wanted.
+///
+/// # Errors
+/// The parts of the family are wrong.
+pub fn written(folder: &Path, wanted: &Wanted) -> Result<String> {
+    let file = DataFile::read(folder, FILE, "parts of a machine file")?;
+    let parts: File = file.parse()?;
+    let mut check = file.check();
+    let mut out = String::new();
+    for part in parts.part {
+        if !part.needs.iter().all(|kind| wanted.has(kind)) {
+            continue;
+        }
+        let subjects = match part.each {
+            Each::Machine => std::slice::from_ref(&wanted.name),
+            Each::Linear => &wanted.linear,
+            Each::Rotary => &wanted.rotary,
+            Each::Spindle => &wanted.spindles,
+            Each::Door => &wanted.doors,
+        };
+        for subject in subjects {
+            match wanted.filled(part.text.get_ref(), subject, &out) {
+                Ok(text) => out.push_str(text.strip_prefix('\n').unwrap_or(&text)),
+                Err(place) => {
+                    let message = format!("nothing is called '{place}' here");
+                    check.findings.add(
+                        part.text.span(),
+                        message,
+                        "",
+                        "see the head of the file for what can be filled in",
+                    );
+                }
+            }
+        }
+    }
+    check.findings.finish(out)
+}
+
+impl Wanted {
+    fn has(&self, kind: &Kind) -> bool {
+        match kind {
+            Kind::Linear => !self.linear.is_empty(),
+            Kind::Rotary => !self.rotary.is_empty(),
+            Kind::Axes => !self.linear.is_empty() || !self.rotary.is_empty(),
+            Kind::Spindle => !self.spindles.is_empty(),
+        }
+    }
+
+    /// The text with its places filled in; an error is the place that cannot be.
+    fn filled(
+        &self,
+        text: &str,
+        subject: &str,
+        before: &str,
+    ) -> std::result::Result<String, String> {
+        let mut out = String::new();
+        let mut rest = text;
+        while let Some((plain, after)) = rest.split_once('{') {
+            out.push_str(plain);
+            let (place, tail) = after.split_once('}').unwrap_or((after, ""));
+            out.push_str(
+                &self
+                    .place(place, subject, before)
+                    .ok_or_else(|| place.to_owned())?,
+            );
+            rest = tail;
+        }
+        out.push_str(rest);
+        Ok(out)
+    }
+
+    fn place(&self, place: &str, subject: &str, before: &str) -> Option<String> {
+        let all = || self.linear.iter().chain(&self.rotary).chain(&self.spindles);
+        let quoted = |names: &mut dyn Iterator<Item = &String>| {
+            let names: Vec<String> = names.map(|name| format!("\"{name}\"")).collect();
+            names.join(", ")
+        };
+        Some(match place {
+            "name" => self.name.clone(),
+            "axis" | "door" => subject.to_owned(),
+            "plain" => all().cloned().collect::<Vec<_>>().join(", "),
+            "others" => quoted(&mut self.linear.iter().filter(|name| *name != subject)),
+            "linear" => quoted(&mut self.linear.iter()),
+            "rotary" => quoted(&mut self.rotary.iter()),
+            "axes" => quoted(&mut self.linear.iter().chain(&self.rotary)),
+            "spindle" => quoted(&mut self.spindles.iter()),
+            "all" => quoted(&mut all()),
+            "groups" => quoted(&mut groups(before).iter()),
+            _ => return None,
+        })
+    }
+}
+
+/// The groups that the text declares so far.
+fn groups(text: &str) -> Vec<String> {
+    let heads = text.lines().filter_map(|line| line.strip_prefix("[group."));
+    heads
+        .filter_map(|head| Some(head.strip_suffix(']')?.to_owned()))
+        .collect()
+}
