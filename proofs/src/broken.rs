@@ -27,20 +27,8 @@ broken! {
     stop_b_without_its_timer: sinumerik::stop 0, part 1 of 1
     /// RESET aborts the delay from STOP F to STOP B.
     fault_delay_aborted: sinumerik::fault 0, part 1 of 1
-    /// The delay to a lower limit or to the operating stop is one cycle short.
-    #[kani::stub(stillpoint_monitors::kernel::Speed::reduced, crate::kani_source::reduced_small)]
-    delay_one_cycle_short: sinumerik::selection 0, part 1 of 1
     /// Feedback in the cycle in which t_chk ends still counts.
     test_with_late_feedback: sinumerik::test_stop 0, part 1 of 1
-    /// Static items are not compared either while a signal changes.
-    static_items_suspended: sinumerik::compare 0, part 1 of 1
-    /// Each channel corrects the whole difference.
-    #[kani::solver(kissat)]
-    whole_difference_corrected: sinumerik::slip 0, part 1 of 1
-    /// One increment more than the limit is permitted.
-    #[kani::solver(kissat)]
-    #[kani::stub(stillpoint_monitors::kernel::Speed::reduced, crate::kani_source::reduced_small)]
-    limit_is_loose: sinumerik::speed 0, part 1 of 1
     /// A position beyond the minus end is not shown.
     #[kani::unwind(10)]
     lower_end_hidden: sinumerik::results 0, part 1 of 1
