@@ -306,13 +306,13 @@ macro_rules! fields {
             fn visit<V: $crate::fields::Visitor + ?Sized>(&mut self, name: &'static str, visitor: &mut V) {
                 let kind = $crate::fields::Kind::Choice(&[$((stringify!($variant), Self::$variant as i64)),+]);
                 let number = visitor.number(name, kind, *self as i64);
-                // Of a number between two variants the higher one.
-                *self = Self::ALL[Self::ALL.len() - 1];
-                for variant in Self::ALL.into_iter().rev() {
-                    if number <= variant as i64 {
-                        *self = variant;
-                    }
-                }
+                // Of a number between two variants the higher one, of one beyond all the last.
+                *self = 'nearest: {
+                    $(if number <= Self::$variant as i64 {
+                        break 'nearest Self::$variant;
+                    })+
+                    Self::ALL[Self::ALL.len() - 1]
+                };
             }
         }
     };

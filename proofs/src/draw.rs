@@ -23,12 +23,7 @@ impl<S: Source> Visitor for Any<'_, S> {
     fn number(&mut self, _: &'static str, kind: Kind, _: i64) -> i64 {
         match kind {
             Kind::Truth => i64::from(self.0.any_bool()),
-            Kind::Choice(variants) => {
-                let place = self.0.any_in(0, variants.len() as u32 - 1);
-                variants
-                    .get(place as usize)
-                    .map_or(0, |(_, number)| *number)
-            }
+            Kind::Choice(variants) => self.0.any_choice(variants),
             Kind::Whole(low, high) => self.0.any_whole(low, high),
         }
     }

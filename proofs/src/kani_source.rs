@@ -1,5 +1,6 @@
 //! The source for Kani: every value of the full width, symbolically.
 
+use stillpoint_monitors::fields::Kind;
 use stillpoint_monitors::kernel::{Cycles, Percent, Position, Speed};
 use stillpoint_monitors::units::ModuloRange;
 
@@ -62,6 +63,12 @@ impl Source for Symbolic {
 
     fn any_u32(&mut self, _: u32, highest: u32) -> u32 {
         self.any_in(0, highest)
+    }
+
+    fn any_choice(&mut self, variants: &'static [(&'static str, i64)]) -> i64 {
+        // No place in the list is looked up: a symbolic place makes every name and number of the list part of the formula.
+        let (low, high) = Kind::Choice(variants).ends();
+        self.any_whole(low, high)
     }
 
     fn any_whole(&mut self, low: i64, high: i64) -> i64 {

@@ -129,7 +129,7 @@ fn answer(entry: &Entry, kani: &Results) -> String {
         Verdict::NoAnswer => format!(
             "no answer in {} s, {}",
             crate::results::LIMIT_SECONDS,
-            row.solver
+            answer.solver
         ),
         verdict => format!(
             "{verdict}, {} checks, {} of {} covers, {:.1} s, {}",
@@ -137,7 +137,7 @@ fn answer(entry: &Entry, kani: &Results) -> String {
             answer.met,
             answer.covers,
             answer.seconds,
-            row.solver
+            answer.solver
         ),
     };
     if answer.parts > 1 {

@@ -39,6 +39,15 @@ pub trait Source {
     /// Any number of at most `highest`; the enumeration takes those up to `reach`, and `highest` itself.
     fn any_u32(&mut self, reach: u32, highest: u32) -> u32;
 
+    /// Any of the numbers of a choice. What is drawn may lie between two of them: the declaration of the choice makes the higher
+    /// one of it.
+    fn any_choice(&mut self, variants: &'static [(&'static str, i64)]) -> i64 {
+        let place = self.any_in(0, variants.len().saturating_sub(1) as u32);
+        variants
+            .get(place as usize)
+            .map_or(0, |(_, number)| *number)
+    }
+
     /// Any whole number from `low` to `high`, both included, which are in 32 bits or the ends of 64.
     fn any_whole(&mut self, low: i64, high: i64) -> i64;
 

@@ -45,7 +45,15 @@ fn every_answer_of_kani_is_one_of_its_harness() {
         );
         assert!(answer.slowest <= answer.seconds + 0.1, "{}", entry.id);
         if fresh {
-            assert_eq!(row.solver, solver(entry), "{}", entry.id);
+            // CBMC may lack the one it was asked for, but for an external one.
+            let named = answer.solver.as_str();
+            assert!(
+                ["cadical", "kissat", "minisat"].contains(&named),
+                "{}",
+                entry.id
+            );
+            let external = "kissat";
+            assert_eq!(named == external, solver(entry) == external, "{}", entry.id);
         }
         if fresh && answer.verdict == Verdict::Holds {
             let covers = (entry.covers)().len() as u64;

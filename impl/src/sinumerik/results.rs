@@ -102,15 +102,35 @@ fields! {
 impl List2 {
     /// The list as the bits 21 to 0 of the machine data: modulo range, n_x lower and upper limit, SN4- to SN1+.
     pub fn bits(&self) -> u32 {
-        let mut bits = 0;
-        for field in [self.modulo, self.n_x_lower, self.n_x_upper] {
-            bits = bits << 2 | u32::from(field.bits());
-        }
-        for field in self.cams.iter().rev() {
-            bits = bits << 2 | u32::from(field.bits());
-        }
-        bits
+        let bits = |field: Field, _| u32::from(field.bits());
+        let [a, b, c, d, e, f, g, h] = each(self.cams, self.cams, bits);
+        a | b << 2
+            | c << 4
+            | d << 6
+            | e << 8
+            | f << 10
+            | g << 12
+            | h << 14
+            | u32::from(self.n_x_upper.bits()) << 16
+            | u32::from(self.n_x_lower.bits()) << 18
+            | u32::from(self.modulo.bits()) << 20
     }
+}
+
+/// Both lists place by place, each place written out: a model checker that follows the pointers of iterators gives no answer.
+fn each<A: Copy, B: Copy, C>(first: [A; 8], second: [B; 8], of: impl Fn(A, B) -> C) -> [C; 8] {
+    let [a1, a2, a3, a4, a5, a6, a7, a8] = first;
+    let [b1, b2, b3, b4, b5, b6, b7, b8] = second;
+    [
+        of(a1, b1),
+        of(a2, b2),
+        of(a3, b3),
+        of(a4, b4),
+        of(a5, b5),
+        of(a6, b6),
+        of(a7, b7),
+        of(a8, b8),
+    ]
 }
 
 config! {
@@ -230,12 +250,10 @@ monitor! { sinumerik::results;
     /// Every enabled cam shows on which side the axis is; the others show nothing.
     cams_show_their_side ["S840D-KDV-515", "S840D-SN-001"]:
         when |s| s.config.cams != [false; 8]
-            => s.outputs.list_2.cams.iter().zip(s.config.cams.iter().zip(s.inputs.cams)).all(|(field, (enabled, beyond))| {
-                *field == match (*enabled, beyond) {
-                    (false, _) => Field::NotSelected,
-                    (true, false) => Field::Within,
-                    (true, true) => Field::Above,
-                }
+            => s.outputs.list_2.cams == each(s.config.cams, s.inputs.cams, |enabled, beyond| match (enabled, beyond) {
+                (false, _) => Field::NotSelected,
+                (true, false) => Field::Within,
+                (true, true) => Field::Above,
             });
 
     /// The threshold shows whether the axis is slower, in both fields.
@@ -256,10 +274,9 @@ pub(crate) fn transition(_: State, config: &Config, inputs: &Inputs) -> (State, 
         let selected = inputs.se_watched && inputs.se_select == second;
         Field::new(selected, inputs.se_upper, inputs.se_lower)
     };
-    let mut cams = [Field::NotSelected; 8];
-    for (field, (enabled, beyond)) in cams.iter_mut().zip(config.cams.iter().zip(inputs.cams)) {
-        *field = Field::new(*enabled, beyond, false);
-    }
+    let cams = each(config.cams, inputs.cams, |enabled, beyond| {
+        Field::new(enabled, beyond, false)
+    });
     let outputs = Outputs {
         list_1: List1 {
             sbh: Field::new(
@@ -268,7 +285,12 @@ pub(crate) fn transition(_: State, config: &Config, inputs: &Inputs) -> (State, 
                 inputs.standstill_lower,
             ),
             se: [pair(false), pair(true)],
-            sg: Stage::ALL.map(stage),
+            sg: [
+                stage(Stage::Sg1),
+                stage(Stage::Sg2),
+                stage(Stage::Sg3),
+                stage(Stage::Sg4),
+            ],
         },
         list_2: List2 {
             cams,

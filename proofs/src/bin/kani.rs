@@ -57,7 +57,7 @@ fn run() -> Result<bool, String> {
     let mut holds = true;
     let count = answers.len();
     let mut seconds = 0.0;
-    for (id, answer) in answers {
+    for (id, mut answer) in answers {
         let Some(entry) = inventory::all().find(|entry| entry.id == id) else {
             // Harnesses outside the inventory: the broken monitors.
             continue;
@@ -78,9 +78,11 @@ fn run() -> Result<bool, String> {
         if answer.verdict != Verdict::Holds {
             println!("{id}: {}", answer.verdict);
         }
+        if answer.solver.is_empty() {
+            results::solver(entry).clone_into(&mut answer.solver);
+        }
         let row = Row {
             answer,
-            solver: results::solver(entry).to_owned(),
             sources: results::fingerprint(entry),
         };
         file.rows.insert(id, row);
@@ -132,11 +134,27 @@ fn search_path() -> OsString {
     std::env::join_paths(folders).unwrap_or_default()
 }
 
-/// Runs Kani over these harnesses, over all of them if the list is empty; its output, which is shown as well.
+/// Whether a line is shown: not the list of all checks, nor what CBMC says of its own steps.
+fn is_shown(line: &str) -> bool {
+    [
+        "Checking harness ",
+        "VERIFICATION:- ",
+        "Verification Time: ",
+        " ** ",
+        "Failed Checks: ",
+        "CBMC timed out",
+        "error",
+        "warning",
+    ]
+    .iter()
+    .any(|beginning| line.starts_with(beginning))
+}
+
+/// Runs Kani over these harnesses, over all of them if the list is empty; its output, the answers of which are shown as well.
 fn kani(names: &[String]) -> Result<String, String> {
     let mut command = Command::new("cargo");
     command
-        .args(["kani", "-Z", "unstable-options", "--output-format", "terse"])
+        .args(["kani", "-Z", "unstable-options"])
         .args(["--harness-timeout", &format!("{LIMIT_SECONDS}s")])
         .current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
         .env("PATH", search_path())
@@ -161,7 +179,9 @@ fn kani(names: &[String]) -> Result<String, String> {
     let output = child.stdout.take().map(BufReader::new);
     for line in output.into_iter().flat_map(BufRead::lines) {
         let line = line.map_err(|error| format!("cargo kani: {error}"))?;
-        let _ = writeln!(std::io::stdout(), "{line}");
+        if is_shown(&line) {
+            let _ = writeln!(std::io::stdout(), "{line}");
+        }
         log.push_str(&line);
         log.push('\n');
     }

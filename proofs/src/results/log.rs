@@ -1,4 +1,4 @@
-//! Reads what `cargo kani --output-format terse` prints.
+//! Reads what `cargo kani` prints, in its regular format: the terse one does not tell which solver has answered.
 
 use std::collections::BTreeMap;
 
@@ -52,6 +52,10 @@ fn joined(parts: &[Answer]) -> Answer {
         checks: sum(|part| part.checks),
         met,
         covers,
+        // The same for every part, since it is asked for once.
+        solver: parts
+            .first()
+            .map_or_else(String::new, |part| part.solver.clone()),
     }
 }
 
@@ -66,6 +70,7 @@ fn answer(block: &str) -> Option<Answer> {
             checks: 0,
             met: 0,
             covers: 0,
+            solver: solver(block),
         });
     }
     let verdict = line("VERIFICATION:- ")?;
@@ -86,7 +91,19 @@ fn answer(block: &str) -> Option<Answer> {
         checks,
         met,
         covers,
+        solver: solver(block),
     })
+}
+
+/// The solver of `Solving with MiniSAT 2.2.1 with simplifier` and the like, in small letters. Nothing for an external one, which
+/// CBMC does not name.
+fn solver(block: &str) -> String {
+    let named = block
+        .lines()
+        .find_map(|line| line.strip_prefix("Solving with "))
+        .filter(|rest| !rest.starts_with("External"))
+        .and_then(|rest| rest.split(' ').next());
+    named.unwrap_or_default().to_lowercase()
 }
 
 /// The numbers of ` ** 2 of 5 failed` and the like.
@@ -108,8 +125,15 @@ mod tests {
         let log = "\
 Kani Rust Verifier 0.57.0 (cargo plugin)
 Checking harness inventory::a::kani_harnesses::good::first...
+Runtime Convert SSA: 0.5s
+Solving with MiniSAT 2.2.1 with simplifier
+Solving with MiniSAT 2.2.1 with simplifier
 
-VERIFICATION RESULT:
+RESULTS:
+Check 1: f.assertion.1
+\t - Status: SUCCESS
+
+SUMMARY:
  ** 0 of 100 failed
 
  ** 1 of 3 cover properties satisfied
@@ -130,6 +154,7 @@ VERIFICATION:- SUCCESSFUL
 Verification Time: 2.25s
 
 Checking harness inventory::a::kani_harnesses::late::whole...
+Solving with External SAT solver
 
 CBMC failed
 VERIFICATION:- FAILED
@@ -169,6 +194,8 @@ Checking harness inventory::a::kani_harnesses::broken_off...
         assert_eq!(answers.len(), 4);
         assert_eq!(seen("good"), Some((&Verdict::Holds, 322, 3, 3)));
         assert_eq!(seen("late"), Some((&Verdict::NoAnswer, 0, 0, 0)));
+        assert_eq!(answers["good"].solver, "minisat");
+        assert_eq!(answers["late"].solver, "");
         let law = Verdict::Fails("stop_b_ends_in_time".to_owned());
         assert_eq!(seen("bad"), Some((&law, 40, 0, 3)));
         assert_eq!(seen("empty"), Some((&Verdict::Vacuous, 7, 1, 2)));

@@ -39,7 +39,7 @@ inventory! {
         tries: "config.cam: -1..1 ends; tol: 0..2 max; range: -2..2 ends; position: -5..5 ends",
         caveat: "the signal is safe only together with \"axis safely referenced\"; Kani takes positions in the modulo range, units_folding folds the others into it",
     }]
-    [contract [kani(solver(kissat), unwind(10))] results_contract on sinumerik::results {
+    [contract [kani(unwind(10))] results_contract on sinumerik::results {
         property: "every clause of the result lists' contract: a field for each function, none hidden",
         domain: NARROW,
         domain_text: "every result; every pattern of the first two cams with the others off, and all on",
