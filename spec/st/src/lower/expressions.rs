@@ -8,6 +8,9 @@ use crate::lower::blocks::silent;
 use crate::term::{Term, Ty, Use};
 use stillpoint_lang::diag::nearest;
 
+/// The name of the time between two runs of the program.
+const CYCLE: &str = "CYCLE";
+
 impl<'a> Lowering<'a> {
     /// An expression; `hint` is the type that a bare enum value would get.
     pub(super) fn expr(
@@ -164,6 +167,9 @@ impl<'a> Lowering<'a> {
             .find(|p| p.name.eq_ignore_ascii_case(name))
         {
             return Ok(port.term(true));
+        }
+        if name.eq_ignore_ascii_case(CYCLE) {
+            return Ok(Term::number(1, Ty::Time));
         }
         if let Some(Ty::Enum(of)) = hint {
             if let Some(value) = self.signature.value(of, name) {

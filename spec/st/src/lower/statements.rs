@@ -254,7 +254,7 @@ impl<'a> Lowering<'a> {
             None => return Err(self.unknown(&name.text, &name.span, scope)),
         };
         self.free_of_loops(id, &name.span)?;
-        let mut bound = |me: &mut Self, e: &Expr| -> Checked<i64> {
+        let bound = |me: &mut Self, e: &Expr| -> Checked<i64> {
             let term = me.fixed(e, scope, Ty::Int, "a bound of FOR")?;
             term.constant().ok_or_else(|| {
                 Fault::new(
