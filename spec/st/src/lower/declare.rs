@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{Entry, Lowering, Names, Role, STANDARD_BLOCKS, Scope, Variable};
+use super::{Entry, Lowering, Names, Role, STANDARD_BLOCKS, Scope, Slot, Variable};
 use crate::ast::{Bounds, Init, Pou, SectionKind, TypeKind, TypeRef, VarDecl, Word};
 use crate::fault::{Checked, Fault};
 use crate::term::{Term, Ty};
@@ -50,6 +50,29 @@ impl<'a> Lowering<'a> {
             );
         }
         scope
+    }
+
+    /// An output that nothing assigns is a mistake.
+    pub(super) fn unassigned(&mut self, scope: &Scope<'a>) {
+        let outputs = scope.names.values().filter_map(|entry| match entry {
+            Entry::Variable(id) if self.variables[*id].role == Role::Output => Some(*id),
+            _ => None,
+        });
+        let silent = outputs.filter(|id| !self.env.contains_key(&Slot::Variable(*id)));
+        for id in silent.collect::<Vec<usize>>() {
+            let Variable {
+                name, span, init, ..
+            } = &self.variables[id];
+            let fault = Fault::new(
+                span,
+                format!("the output '{name}' is never assigned"),
+                format!(
+                    "assign it; if it is always the same: `{name} := {};`",
+                    init.text
+                ),
+            );
+            self.fault(fault);
+        }
     }
 
     /// Declares everything of a body. `presets` are the constant times of an instance.
@@ -143,8 +166,9 @@ impl<'a> Lowering<'a> {
             (_, Body::Block { standard: true }) => Role::Standard,
             _ => Role::Local,
         };
+        let declared = bounds.clone();
         let bounds = match role {
-            Role::Output => self.output(decl, ty)?,
+            Role::Output => self.output(decl, ty, bounds.clone())?,
             Role::Temp => bounds,
             _ if matches!(ty, Ty::Int | Ty::Time) && bounds.is_none() => {
                 return Err(no_range(&decl.ty));
@@ -160,7 +184,7 @@ impl<'a> Lowering<'a> {
                     "write one value after `:=`",
                 ));
             }
-            None => self.initial(decl, ty, bounds.as_ref())?,
+            None => self.initial(decl, ty, declared.as_ref())?,
         };
         if let Some((low, high)) = &bounds {
             if init.high < low.low || init.low > high.high {
@@ -235,12 +259,19 @@ impl<'a> Lowering<'a> {
         Ok(Entry::Input(port.term(false)))
     }
 
-    /// An output of the program is one of the signature, with its type and range.
-    fn output(&self, decl: &VarDecl, ty: Ty) -> Checked<Option<(Term, Term)>> {
+    /// An output of the program is one of the signature, with its type; it has the range of its declaration, else the signature's.
+    fn output(
+        &self,
+        decl: &VarDecl,
+        ty: Ty,
+        declared: Option<(Term, Term)>,
+    ) -> Checked<Option<(Term, Term)>> {
         let port = self.port(&self.signature.outputs, &decl.name, "output", "VAR_OUTPUT")?;
         self.same_type(decl, ty, port.ty)?;
         let number = |value| Term::number(value, ty);
-        Ok(matches!(ty, Ty::Int | Ty::Time).then(|| (number(port.low), number(port.high))))
+        let whole =
+            || matches!(ty, Ty::Int | Ty::Time).then(|| (number(port.low), number(port.high)));
+        Ok(declared.or_else(whole))
     }
 
     fn port(

@@ -46,6 +46,7 @@ pub(crate) fn lower(
         checks: Vec::new(),
         path: Vec::new(),
         names: signature.names(),
+        numbers: HashMap::new(),
         durations: BTreeMap::new(),
         faults: Vec::new(),
         site: None,
@@ -56,6 +57,7 @@ pub(crate) fn lower(
     let scope = lowering.program(&tree.program);
     lowering.start_cycle();
     lowering.run_body(&tree.program, &scope);
+    lowering.unassigned(&scope);
     let mut faults = std::mem::take(&mut lowering.faults);
     match faults.is_empty() {
         true => Ok(lowering.emit(&scope)),
@@ -172,6 +174,8 @@ struct Lowering<'a> {
     path: Vec<Term>,
     /// Names of the table that are taken.
     names: HashSet<String>,
+    /// How often a name was wanted.
+    numbers: HashMap<String, usize>,
     durations: BTreeMap<u64, String>,
     faults: Vec<Fault>,
     /// Where a standard block is called: its own text is none of the program's.
@@ -228,15 +232,14 @@ impl<'a> Lowering<'a> {
             clean.insert(0, 'v');
         }
         let mut name = clean.clone();
-        let mut number = 2;
         while crate::parse::is_keyword(&name)
             || TABLE_WORDS.contains(&name.as_str())
-            || self.names.contains(&name)
+            || !self.names.insert(name.clone())
         {
+            let number = self.numbers.entry(clean.clone()).or_insert(1);
+            *number += 1;
             name = format!("{clean}_{number}");
-            number += 1;
         }
-        self.names.insert(name.clone());
         name
     }
 

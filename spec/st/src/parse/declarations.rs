@@ -140,6 +140,10 @@ impl Parser {
             if !matches!(self.peek(), Token::Word(w) if !super::is_keyword(w)) {
                 self.close("END_VAR", &word, &opened)?;
             }
+            // A statement here means that the section was not closed.
+            if matches!(self.token(1).0, Token::Sym(":=" | "(" | ".")) {
+                self.close("END_VAR", &word, &opened)?;
+            }
             self.declaration(&mut variables)?;
         }
         self.close("END_VAR", &word, &opened)?;

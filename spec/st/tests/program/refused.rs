@@ -17,7 +17,10 @@ fn told(program: &str) -> String {
         assert!(position(&one.source, span.start).is_some(), "{one}");
         let text = one.source.get(span).expect("in the text");
         let text = text.lines().next().unwrap_or_default();
-        said += &format!("{one}\n  at: {text}\n  label: {}\n  help: {}\n", one.label, one.help);
+        said += &format!(
+            "{one}\n  at: {text}\n  label: {}\n  help: {}\n",
+            one.label, one.help
+        );
     }
     said
 }
@@ -60,7 +63,10 @@ fn errors_name_place_and_fix() {
         ("no program", "FUNCTION f : BOOL END_FUNCTION".to_owned()),
         ("an open comment", "PROGRAM x (* ... END_PROGRAM".to_owned()),
     ];
-    let said: Vec<String> = cases.iter().map(|(title, program)| format!("--- {title}\n{}", told(program))).collect();
+    let said: Vec<String> = cases
+        .iter()
+        .map(|(title, program)| format!("--- {title}\n{}", told(program)))
+        .collect();
     insta::assert_snapshot!(said.join("\n"));
 }
 
@@ -74,12 +80,20 @@ fn long_and_deep_programs_end() {
     told(&whole("", &format!("p := a{};", " OR b".repeat(10_000))));
     let loops = "FOR i := 0 TO 7 DO ".repeat(8);
     let ends = "END_FOR; ".repeat(8);
-    told(&whole("VAR i : INT (0..7); END_VAR", &format!("{loops} p := a; {ends}")));
+    told(&whole(
+        "VAR i : INT (0..7); END_VAR",
+        &format!("{loops} p := a; {ends}"),
+    ));
     let loops: String = (0..7).map(|k| format!("FOR i{k} := 0 TO 9 DO ")).collect();
     let names: Vec<String> = (0..7).map(|k| format!("i{k}")).collect();
     let variables = format!("VAR {} : INT (0..9); x : BOOL; END_VAR", names.join(", "));
-    told(&whole(&variables, &format!("{loops} x := x XOR a; {} p := x;", "END_FOR; ".repeat(7))));
+    told(&whole(
+        &variables,
+        &format!("{loops} x := x XOR a; {} p := x;", "END_FOR; ".repeat(7)),
+    ));
     // Values that are merged again and again do not double.
-    let many: String = (0..500).map(|_| "IF a THEN p := q; ELSE q := p XOR b; END_IF;\n").collect();
+    let many: String = (0..500)
+        .map(|_| "IF a THEN p := q; ELSE q := p XOR b; END_IF;\n")
+        .collect();
     assert!(load(&whole("", &many)).is_ok());
 }

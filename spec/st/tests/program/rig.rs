@@ -67,13 +67,20 @@ pub fn load(program: &str) -> Result<Bound, Diagnostics> {
     Ok(Bound::new(system, &BTreeMap::new(), &BTreeMap::new()).expect("parameters have defaults"))
 }
 
-/// A whole program of these variables and statements; outputs that it does not name keep their first value.
+/// A whole program of these variables and statements; outputs that it does not assign keep their first value.
 pub fn whole(variables: &str, statements: &str) -> String {
+    let outputs = ["p", "q", "m", "stop"].into_iter();
+    let silent = outputs.filter(|o| {
+        ![format!("{o} :="), format!("=> {o}")]
+            .iter()
+            .any(|text| statements.contains(text))
+    });
+    let kept: String = silent.map(|o| format!("{o} := {o}; ")).collect();
     format!(
         "PROGRAM test\n\
          VAR_INPUT a, b, c : BOOL; n : INT (0..7); mode : Mode; END_VAR\n\
          VAR_OUTPUT p, q : BOOL; m : INT (0..7); stop : Stop; END_VAR\n\
-         {variables}\n{statements}\nEND_PROGRAM\n"
+         {variables}\n{kept}\n{statements}\nEND_PROGRAM\n"
     )
 }
 
@@ -82,7 +89,13 @@ impl Plc {
     pub fn new(program: &str) -> Self {
         let bound = load(program).unwrap_or_else(|e| panic!("{e}\n{program}"));
         let states = bound.system.states.iter();
-        let state: Vec<i32> = states.map(|s| s.init.as_ref().map_or(0, |init| bound.constant(init) as i32)).collect();
+        let state: Vec<i32> = states
+            .map(|s| {
+                s.init
+                    .as_ref()
+                    .map_or(0, |init| bound.constant(init) as i32)
+            })
+            .collect();
         Self {
             frame: Frame::new(&bound),
             first: state.clone(),
@@ -106,8 +119,14 @@ impl Plc {
         self.frame.start(&self.state);
         let system = &self.bound.system;
         let mut read = |k: usize| {
-            let name = system.inputs[k].name.strip_prefix("plc.").unwrap_or_default();
-            inputs.iter().find(|(input, _)| *input == name).map_or(0, |(_, value)| *value)
+            let name = system.inputs[k]
+                .name
+                .strip_prefix("plc.")
+                .unwrap_or_default();
+            inputs
+                .iter()
+                .find(|(input, _)| *input == name)
+                .map_or(0, |(_, value)| *value)
         };
         self.bound.step(&mut self.frame, &mut read).ok()?;
         let mut out = [0; 4];

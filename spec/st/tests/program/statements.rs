@@ -37,7 +37,11 @@ fn what_is_read_before_it_is_assigned_is_of_the_cycle_before() {
     runs(
         "VAR x : INT (0..7); END_VAR",
         "IF a THEN x := n; END_IF; m := x;",
-        &[(&[("n", 5)], [0, 0, 0, 0]), (&[("n", 5), ("a", 1)], [0, 0, 5, 0]), (&[], [0, 0, 5, 0])],
+        &[
+            (&[("n", 5)], [0, 0, 0, 0]),
+            (&[("n", 5), ("a", 1)], [0, 0, 5, 0]),
+            (&[], [0, 0, 5, 0]),
+        ],
     );
 }
 
@@ -85,10 +89,18 @@ fn for_counts_both_ends_and_exit_leaves_it() {
     runs(
         variables,
         "sum := 0; FOR i := 6 TO 0 BY -2 DO IF i = n THEN EXIT; END_IF; sum := MIN(sum + 1, 99); END_FOR; m := LIMIT(0, sum, 7);",
-        &[(&[("n", 6)], [0, 0, 0, 0]), (&[("n", 2)], [0, 0, 2, 0]), (&[("n", 1)], [0, 0, 4, 0])],
+        &[
+            (&[("n", 6)], [0, 0, 0, 0]),
+            (&[("n", 2)], [0, 0, 2, 0]),
+            (&[("n", 1)], [0, 0, 4, 0]),
+        ],
     );
     // No round at all.
-    runs(variables, "m := 2; FOR i := 3 TO 1 DO m := 5; END_FOR;", &[(&[], [0, 0, 2, 0])]);
+    runs(
+        variables,
+        "m := 2; FOR i := 3 TO 1 DO m := 5; END_FOR;",
+        &[(&[], [0, 0, 2, 0])],
+    );
 }
 
 #[test]
@@ -96,7 +108,11 @@ fn return_ends_the_body_that_it_stands_in() {
     runs(
         "",
         "m := 1; IF a THEN RETURN; END_IF; m := 2; IF b THEN m := 3; RETURN; END_IF; p := TRUE;",
-        &[(&[("a", 1)], [0, 0, 1, 0]), (&[("b", 1)], [0, 0, 3, 0]), (&[], [1, 0, 2, 0])],
+        &[
+            (&[("a", 1)], [0, 0, 1, 0]),
+            (&[("b", 1)], [0, 0, 3, 0]),
+            (&[], [1, 0, 2, 0]),
+        ],
     );
     let block = "FUNCTION_BLOCK HOLD VAR_INPUT x : BOOL; END_VAR VAR_OUTPUT y : BOOL; END_VAR
                  IF NOT x THEN RETURN; END_IF; y := TRUE; END_FUNCTION_BLOCK\n";
@@ -143,7 +159,10 @@ fn functions_and_blocks_of_the_program_have_their_own_variables() {
     assert_eq!(plc.step(&[("a", 1), ("b", 1)]), Some([1, 0, 1, 0]));
     assert_eq!(plc.step(&[("b", 1), ("c", 1)]), Some([0, 0, 1, 0]));
     assert_eq!(plc.step(&[("a", 1), ("c", 1)]), Some([0, 0, 1, 1]));
-    assert_eq!(plc.step(&[("a", 1), ("b", 1), ("c", 1)]), Some([1, 1, 2, 1]));
+    assert_eq!(
+        plc.step(&[("a", 1), ("b", 1), ("c", 1)]),
+        Some([1, 1, 2, 1])
+    );
 }
 
 #[test]
@@ -177,7 +196,10 @@ fn names_have_no_case_and_parameters_are_read() {
 
 #[test]
 fn a_value_outside_its_range_is_a_fault() {
-    let program = whole("VAR x : INT (0..3); END_VAR", "IF a THEN x := x + 1; END_IF; IF b THEN x := 0; END_IF; m := x;");
+    let program = whole(
+        "VAR x : INT (0..3); END_VAR",
+        "IF a THEN x := x + 1; END_IF; IF b THEN x := 0; END_IF; m := x;",
+    );
     let mut plc = Plc::new(&program);
     for k in 1..=3 {
         assert_eq!(plc.step(&[("a", 1)]), Some([0, 0, k, 0]));
@@ -194,7 +216,7 @@ fn a_value_outside_its_range_is_a_fault() {
 
 #[test]
 fn what_nothing_reads_is_no_state() {
-    let text = "x := a; y := x; t(IN := a, PT := T#4ms); u := NOT u; p := y;";
+    let text = "x := a; y := x; t(IN := a, PT := T#4ms); u := NOT u; p := y; q := FALSE; m := 0; stop := SS1;";
     let plc = Plc::new(&whole("VAR x, y, u : BOOL; t : TON; END_VAR", text));
     assert_eq!(plc.cells(), 0);
 }
