@@ -34,37 +34,68 @@ fn family(file: &str) -> PathBuf {
 /// The system `logic` of composed.toml with the program beside that of the tables: both are told the same, and the property is that
 /// they give the same answer.
 fn product() -> Spec {
-    let table = |file: &str| text(&format!("spec/families/heidenhain-fs/{file}")).parse::<toml::Table>().expect("TOML");
+    let table = |file: &str| {
+        text(&format!("spec/families/heidenhain-fs/{file}"))
+            .parse::<toml::Table>()
+            .expect("TOML")
+    };
     let (mut composed, splc) = (table("composed.toml"), table("splc.toml"));
     let plc = &splc["machine"]["splc"];
-    let names = |key: &str| plc[key].as_table().into_iter().flat_map(toml::Table::keys).cloned().collect::<Vec<_>>();
+    let names = |key: &str| {
+        plc[key]
+            .as_table()
+            .into_iter()
+            .flat_map(toml::Table::keys)
+            .cloned()
+            .collect::<Vec<_>>()
+    };
     let system = composed["system"]["logic"].as_table_mut().expect("a table");
     let into = |system: &mut toml::Table, part: &str, key: String, value: toml::Value| {
-        let part = system.get_mut(part).and_then(toml::Value::as_table_mut).expect("a table");
+        let part = system
+            .get_mut(part)
+            .and_then(toml::Value::as_table_mut)
+            .expect("a table");
         part.insert(key, value);
     };
     let instance = toml::Table::from_iter([("machine".to_owned(), "twin".into())]);
     into(system, "instance", "twin".to_owned(), instance.into());
     for input in names("input") {
-        into(system, "wire", format!("twin.{input}"), format!("splc.{input}").into());
+        into(
+            system,
+            "wire",
+            format!("twin.{input}"),
+            format!("splc.{input}").into(),
+        );
     }
     let alike = names("output").into_iter().map(|output| {
         let same = format!("splc.{output} = twin.{output}");
-        let keys = [("id", output), ("text", "both say the same".to_owned()), ("always", same)];
+        let keys = [
+            ("id", output),
+            ("text", "both say the same".to_owned()),
+            ("always", same),
+        ];
         toml::Value::from_iter(keys.map(|(key, value)| (key, toml::Value::from(value))))
     });
     system.insert("property".to_owned(), alike.collect());
     let logic = system.clone();
-    composed.insert("system".to_owned(), toml::Table::from_iter([("logic".to_owned(), logic.into())]).into());
-    composed.insert("machine".to_owned(), toml::Table::from_iter([("twin".to_owned(), plc.clone())]).into());
+    composed.insert(
+        "system".to_owned(),
+        toml::Table::from_iter([("logic".to_owned(), logic.into())]).into(),
+    );
+    composed.insert(
+        "machine".to_owned(),
+        toml::Table::from_iter([("twin".to_owned(), plc.clone())]).into(),
+    );
     let written = toml::to_string(&composed).expect("TOML");
-    let mut spec = Spec::from_text(&family("both.toml"), Arc::from(written)).unwrap_or_else(|e| panic!("{e}"));
+    let mut spec =
+        Spec::from_text(&family("both.toml"), Arc::from(written)).unwrap_or_else(|e| panic!("{e}"));
     let source: Arc<str> = Arc::from(text(PROGRAM));
     let compiled = Signature::of(&spec, "splc")
         .and_then(|signature| compile(PROGRAM, &source, &signature))
         .unwrap_or_else(|e| panic!("{e}"));
     let name = toml::Spanned::new(0..0, "twin".to_owned());
-    spec.replace(PROGRAM, &source, &name, &compiled.machine).unwrap_or_else(|e| panic!("{e}"));
+    spec.replace(PROGRAM, &source, &name, &compiled.machine)
+        .unwrap_or_else(|e| panic!("{e}"));
     spec
 }
 
@@ -74,20 +105,32 @@ fn product() -> Spec {
 fn the_program_says_what_the_tables_say() {
     let spec = product();
     let readings = ["AMB-28", "AMB-52", "AMB-57", "AMB-68", "AMB-74"];
-    let one = spec.system("logic", Some(21_000)).unwrap_or_else(|e| panic!("{e}"));
+    let one = spec
+        .system("logic", Some(21_000))
+        .unwrap_or_else(|e| panic!("{e}"));
     let options = |id: &str| {
-        let reading = one.readings.iter().find(|r| r.id == id).unwrap_or_else(|| panic!("{id}"));
+        let reading = one
+            .readings
+            .iter()
+            .find(|r| r.id == id)
+            .unwrap_or_else(|| panic!("{id}"));
         reading.options.clone()
     };
     // Each reading alone, and the times of one to three steps.
-    let mut cases = vec![(Readings::new(), 1), (Readings::new(), 2), (Readings::new(), 3)];
+    let mut cases = vec![
+        (Readings::new(), 1),
+        (Readings::new(), 2),
+        (Readings::new(), 3),
+    ];
     for id in readings {
         for option in options(id).into_iter().skip(1) {
             cases.push((Readings::from([(id.to_owned(), option)]), 2));
         }
     }
     let tasks = cases.into_iter().map(|(chosen, clear)| {
-        let system = spec.system("logic", Some(21_000)).unwrap_or_else(|e| panic!("{e}"));
+        let system = spec
+            .system("logic", Some(21_000))
+            .unwrap_or_else(|e| panic!("{e}"));
         let params = BTreeMap::from([("t_clear".to_owned(), vec![clear])]);
         let bound = Bound::new(system, &params, &chosen).unwrap_or_else(|e| panic!("{e}"));
         task(&spec, bound, format!("{chosen:?}, t_clear = {clear}"))
@@ -99,15 +142,30 @@ fn the_program_says_what_the_tables_say() {
         machine: None,
         tasks: tasks.collect(),
     };
-    let done = check(&subject, &Settings::default(), &mut |_| Box::new(())).unwrap_or_else(|(t, e)| panic!("{t}: {e}"));
+    let done = check(&subject, &Settings::default(), &mut |_| Box::new(()))
+        .unwrap_or_else(|(t, e)| panic!("{t}: {e}"));
     for (task, checked) in subject.tasks.iter().zip(&done) {
         let report = &checked.outcome.report;
-        assert!(report.complete && report.faults.is_empty(), "{}: {:?}", task.title, report.faults);
+        assert!(
+            report.complete && report.faults.is_empty(),
+            "{}: {:?}",
+            task.title,
+            report.faults
+        );
         assert_eq!(report.properties.len(), 15);
         for property in &report.properties {
-            assert_eq!(property.verdict, Verdict::Holds, "{}: {}", task.title, property.id);
+            assert_eq!(
+                property.verdict,
+                Verdict::Holds,
+                "{}: {}",
+                task.title,
+                property.id
+            );
         }
-        println!("{}: {} states, {} transitions", task.title, report.states, report.transitions);
+        println!(
+            "{}: {} states, {} transitions",
+            task.title, report.states, report.transitions
+        );
         assert!(report.states > 1_000, "{}", report.states);
     }
 }
@@ -128,8 +186,12 @@ fn task(spec: &Spec, bound: Bound, title: String) -> Task {
 
 /// The explorations of a machine that judge its program by the event tables.
 fn library(path: &Path) -> Subject {
-    let machine = machine::load(path, &root().join("spec/families")).unwrap_or_else(|e| panic!("{e}"));
-    let events = machine.runs.iter().filter(|run| run.file.ends_with(LIBRARY));
+    let machine =
+        machine::load(path, &root().join("spec/families")).unwrap_or_else(|e| panic!("{e}"));
+    let events = machine
+        .runs
+        .iter()
+        .filter(|run| run.file.ends_with(LIBRARY));
     let runs: Vec<_> = events.cloned().collect();
     subject::of_runs(path, machine, &runs, &Readings::new()).unwrap_or_else(|e| panic!("{e}"))
 }
@@ -151,10 +213,16 @@ fn judged(subject: &Subject) -> Vec<Summary> {
 fn the_program_keeps_every_row_of_the_event_tables() {
     let answers = [MACHINE, TABLES].map(|file| {
         let list = judged(&library(&root().join(file))).into_iter();
-        list.map(|one| (one.id, one.verdict, one.length)).collect::<Vec<_>>()
+        list.map(|one| (one.id, one.verdict, one.length))
+            .collect::<Vec<_>>()
     });
     assert_eq!(answers[0], answers[1]);
-    assert!(answers[0].len() >= 30 && answers[0].iter().all(|(_, verdict, _)| *verdict == Verdict::Holds));
+    assert!(
+        answers[0].len() >= 30
+            && answers[0]
+                .iter()
+                .all(|(_, verdict, _)| *verdict == Verdict::Holds)
+    );
 }
 
 /// A program with a mistake.
@@ -194,10 +262,17 @@ fn programs() -> Programs {
 fn changed(title: &str, replace: &[(String, String)]) -> PathBuf {
     let mut program = text(PROGRAM);
     for (from, to) in replace {
-        assert_eq!(program.matches(from).count(), 1, "{title}: '{from}' stands there once");
+        assert_eq!(
+            program.matches(from).count(),
+            1,
+            "{title}: '{from}' stands there once"
+        );
         program = program.replace(from, to);
     }
-    let name: String = title.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).collect();
+    let name: String = title
+        .chars()
+        .map(|c| if c.is_ascii_alphanumeric() { c } else { '-' })
+        .collect();
     let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("st-{name}"));
     std::fs::create_dir_all(&folder).expect("a folder");
     std::fs::write(folder.join("machining-centre-st.st"), program).expect("written");
@@ -210,25 +285,50 @@ fn changed(title: &str, replace: &[(String, String)]) -> PathBuf {
 fn programs_with_a_mistake_are_found_with_their_line() {
     let wrong = each(&programs().mistake, |mistake| {
         let mut subject = library(&changed(&mistake.text, &mistake.replace));
-        subject.tasks.retain(|task| task.bound.system.properties.iter().any(|p| p.id == mistake.breaks));
+        subject.tasks.retain(|task| {
+            task.bound
+                .system
+                .properties
+                .iter()
+                .any(|p| p.id == mistake.breaks)
+        });
         for task in &mut subject.tasks {
-            task.bound.system.properties.retain(|p| p.id == mistake.breaks);
+            task.bound
+                .system
+                .properties
+                .retain(|p| p.id == mistake.breaks);
         }
         let done = checked(&subject);
-        let found: Vec<_> = summarise(&subject, &done).into_iter().map(|one| (one.id, one.verdict, one.length)).collect();
-        let expected = [(mistake.breaks.clone(), Verdict::Violated, Some(mistake.cycles))];
+        let found: Vec<_> = summarise(&subject, &done)
+            .into_iter()
+            .map(|one| (one.id, one.verdict, one.length))
+            .collect();
+        let expected = [(
+            mistake.breaks.clone(),
+            Verdict::Violated,
+            Some(mistake.cycles),
+        )];
         if found != expected {
             return Some(format!("{}: {found:?}, not {expected:?}", mistake.text));
         }
         let named: Vec<String> = (subject.tasks.iter().zip(&done))
             .filter_map(|(task, one)| {
                 let judged = &one.outcome.report.properties[0];
-                Some(lines::deciding(&task.bound, &task.bound.system.properties[0], judged.trace.as_ref()?))
+                Some(lines::deciding(
+                    &task.bound,
+                    &task.bound.system.properties[0],
+                    judged.trace.as_ref()?,
+                ))
             })
             .flatten()
             .map(|line| line.text)
             .collect();
-        (!named.iter().any(|line| line.contains(&mistake.line))).then(|| format!("{}: no line has '{}': {named:#?}", mistake.text, mistake.line))
+        (!named.iter().any(|line| line.contains(&mistake.line))).then(|| {
+            format!(
+                "{}: no line has '{}': {named:#?}",
+                mistake.text, mistake.line
+            )
+        })
     });
     let wrong: Vec<String> = wrong.into_iter().flatten().collect();
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use stillpoint_lang::ir::Property;
 use stillpoint_model::{Cluster, Error, Interrupt, Limits, Options, Progress, Trace, Verdict};
 
 use crate::excluded::{Exclusion, Judge};
@@ -274,6 +275,8 @@ pub struct Violation<'a> {
     pub id: String,
     /// In plain words.
     pub text: String,
+    /// The property; none for a value that left its range.
+    pub property: Option<&'a Property>,
     /// The run.
     pub trace: Option<&'a Trace>,
     /// For a property of two runs, the second one.
@@ -298,6 +301,7 @@ pub fn violations<'a>(subject: &'a Subject, checked: &'a [Checked]) -> Vec<Viola
                     task,
                     id: task.guarantee.clone().unwrap_or_else(|| label(property)),
                     text: property.text.clone(),
+                    property: Some(property),
                     trace: judged.trace.as_ref(),
                     second: done.outcome.pairs.get(&k).and_then(|p| p.second.as_ref()),
                     refuted: done.outcome.refuted.get(&k).map(String::as_str),
@@ -312,6 +316,7 @@ pub fn violations<'a>(subject: &'a Subject, checked: &'a [Checked]) -> Vec<Viola
                 text: site.map_or("a value left its range".to_owned(), |s| {
                     format!("an assignment leaves the range of its variable: {}", s.name)
                 }),
+                property: None,
                 trace: fault.trace.as_ref(),
                 second: None,
                 refuted: None,

@@ -13,6 +13,8 @@ mod fault;
 mod lex;
 mod lower;
 mod parse;
+#[cfg(test)]
+mod peer;
 mod signature;
 mod term;
 
