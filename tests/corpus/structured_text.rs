@@ -6,6 +6,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use serde::Deserialize;
+use stillpoint_certify::format::Kind;
+use stillpoint_certify::subject as certified;
 use stillpoint_engine::check::{Checked, Settings, Summary, check, summarise};
 use stillpoint_engine::lines;
 use stillpoint_engine::subject::{self, Readings, Subject, Task};
@@ -74,9 +76,11 @@ fn product() -> Spec {
             ("text", "both say the same".to_owned()),
             ("always", same),
         ];
-        toml::Value::from_iter(keys.map(|(key, value)| (key, toml::Value::from(value))))
+        toml::Value::Table(toml::Table::from_iter(
+            keys.map(|(key, value)| (key.to_owned(), toml::Value::from(value))),
+        ))
     });
-    system.insert("property".to_owned(), alike.collect());
+    system.insert("property".to_owned(), toml::Value::Array(alike.collect()));
     let logic = system.clone();
     composed.insert(
         "system".to_owned(),
@@ -223,6 +227,51 @@ fn the_program_keeps_every_row_of_the_event_tables() {
                 .iter()
                 .all(|(_, verdict, _)| *verdict == Verdict::Holds)
     );
+}
+
+/// The example of the book is a program: it lacks nothing but the outputs that it leaves out.
+#[test]
+fn the_example_of_the_book_is_read() {
+    let page = text("docs/src/structured-text.md");
+    let (_, rest) = page.split_once("```text\n").expect("an example");
+    let (program, _) = rest.split_once("```").expect("its end");
+    let spec = Spec::load(&family("splc.toml")).unwrap_or_else(|e| panic!("{e}"));
+    let signature = Signature::of(&spec, "splc").unwrap_or_else(|e| panic!("{e}"));
+    let Err(errors) = compile("book.st", &Arc::from(program), &signature) else {
+        panic!("outputs are missing");
+    };
+    let told: Vec<&str> = errors.0.iter().map(|e| e.message.as_str()).collect();
+    assert_eq!(
+        told,
+        ["program 'doors' lacks outputs that the safety kernel reads"]
+    );
+}
+
+/// A certificate names the program, and one of another program is refused.
+#[test]
+fn a_certificate_is_about_this_program() {
+    let header = |path: &Path| {
+        let subject = certified::Subject::load(path, Kind::Machine, &BTreeMap::new())
+            .unwrap_or_else(|e| panic!("{e}"));
+        subject.header
+    };
+    let own = header(&root().join(MACHINE));
+    let program = own
+        .file
+        .iter()
+        .find(|f| f.name == "machining-centre-st.st")
+        .expect("the program");
+    let comment = [(
+        "(* --- Spindle --- *)".to_owned(),
+        "(* --- spindle --- *)".to_owned(),
+    )];
+    let other = header(&changed("another comment", &comment));
+    let changed = other
+        .file
+        .iter()
+        .find(|f| f.name == program.name)
+        .expect("the program");
+    assert_ne!(program.sha256, changed.sha256);
 }
 
 /// A program with a mistake.

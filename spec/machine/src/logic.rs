@@ -32,6 +32,8 @@ struct Definition {
     machine: Written,
     file: String,
     source: Arc<str>,
+    /// A program in Structured Text: its name, and that of its file.
+    program: Option<String>,
     /// Times of a program, which each run has in its own cycles: name, and length in microseconds.
     durations: Vec<(String, u64)>,
 }
@@ -90,6 +92,7 @@ impl Logic {
             machine,
             file: file.to_owned(),
             source: source.clone(),
+            program: None,
             durations: Vec::new(),
         };
         let mut logic = Self {
@@ -167,6 +170,7 @@ impl Logic {
             machine: compiled.machine,
             file,
             source,
+            program: Some(format!("{} of {}", compiled.name, program.source.get_ref())),
             durations: compiled.durations,
         };
         self.machines.push((name, definition));
@@ -242,6 +246,13 @@ impl Machine {
     pub fn logic_times(&self) -> impl Iterator<Item = &(String, u64)> {
         let parts = self.basis.logic.machines.iter();
         parts.flat_map(|(_, part)| &part.durations)
+    }
+
+    /// The program in Structured Text that a logic is: its name, and that of its file.
+    pub(super) fn program(&self, logic: &str) -> Option<&str> {
+        let parts = self.basis.logic.machines.iter();
+        let mut named = parts.filter(|(name, _)| name.get_ref() == logic);
+        named.find_map(|(_, part)| part.program.as_deref())
     }
 
     /// The machines of the tables that the machine file replaces by its own logic: name, and what it is.

@@ -25,6 +25,9 @@ use stillpoint_lang::diag::{Diagnostics, Result};
 
 pub use signature::Signature;
 
+/// No program of a safe PLC is that long, in bytes.
+const LONGEST: usize = 512 << 10;
+
 /// The standard function blocks, in the language that they belong to.
 pub const STANDARD: &str = include_str!("standard.st");
 
@@ -45,6 +48,18 @@ pub struct Compiled {
 /// Everything that is wrong in it, in its order; after an error of form only that one.
 pub fn compile(file: &str, source: &Arc<str>, signature: &Signature) -> Result<Compiled> {
     let told = |fault: fault::Fault| fault.told(file, source);
+    if source.len() > LONGEST {
+        let message = format!(
+            "a program of {} bytes is too long to be explored",
+            source.len()
+        );
+        let fault = fault::Fault::new(
+            &(0..0),
+            message,
+            format!("at most {LONGEST} bytes are taken"),
+        );
+        return Err(told(fault).into());
+    }
     let tree = parse::parse(source).map_err(|fault| Diagnostics::from(told(fault)))?;
     lower::lower(file, source, &tree, signature)
         .map_err(|faults| Diagnostics(faults.into_iter().map(told).collect()))

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use super::declare::{Body, names_of, upper};
-use super::{Entry, Instance, Lowering, Role, Scope, Slot};
+use super::{Entry, Instance, Lowering, MAX_NESTING, Role, Scope, Slot};
 use crate::ast::{Arg, Expr, ExprKind, Init, Pou, SectionKind, Stmt, StmtKind, TypeKind, VarDecl};
 use crate::fault::{Checked, Fault, Span};
 use crate::term::{Term, Ty};
@@ -27,6 +27,10 @@ impl<'a> Lowering<'a> {
                 format!("the block '{}' contains itself", block.name.text),
                 "a block cannot be a part of itself",
             ));
+        }
+        self.works(&decl.name.span)?;
+        if self.nesting.len() >= MAX_NESTING {
+            return Err(too_deep(&decl.name.span));
         }
         let presets = self.presets(decl, block, around, scope)?;
         let prefix = format!("{}{}.", scope.prefix, decl.name.text);
@@ -369,6 +373,14 @@ fn unreachable_name<T>(base: &Expr) -> Checked<T> {
         "a name is needed before the dot",
         "write `t1.Q`",
     ))
+}
+
+pub(super) fn too_deep(span: &Span) -> Fault {
+    Fault::new(
+        span,
+        format!("blocks and functions lie more than {MAX_NESTING} deep within one another"),
+        "call them one after the other",
+    )
 }
 
 /// What follows from a fault that has been told.

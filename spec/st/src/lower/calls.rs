@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 
 use super::declare::{Body, Shape, upper};
-use super::{Entry, Lowering, Role, Scope, Slot, Variable};
-use crate::ast::{Arg, Expr, Pou, SectionKind, Word};
+use super::{Entry, Lowering, MAX_NESTING, Role, Scope, Slot, Variable};
+use crate::ast::{Arg, Expr, ExprKind, Pou, SectionKind, Word};
 use crate::fault::{Checked, Fault};
-use crate::lower::blocks::silent;
+use crate::lower::blocks::{silent, too_deep};
 use crate::term::{Term, Ty};
 use stillpoint_lang::diag::nearest;
 
@@ -127,14 +127,24 @@ impl<'a> Lowering<'a> {
         hint: Option<Ty>,
     ) -> Checked<Vec<Term>> {
         let mut ty = hint.filter(|t| matches!(t, Ty::Enum(_)));
-        if ty.is_none() {
-            ty = values
-                .iter()
-                .find_map(|v| self.expr(v, scope, None).ok().map(|t| t.ty));
+        let mut known: Vec<Option<Term>> = vec![None; values.len()];
+        for (value, known) in values.iter().zip(&mut known) {
+            if ty.is_some() {
+                break;
+            }
+            match self.expr(value, scope, None) {
+                Ok(term) => ty = Some(known.insert(term).ty),
+                // A bare name may become clear by the others; a whole expression is looked at once.
+                Err(_) if matches!(value.kind, ExprKind::Name(_)) => {}
+                Err(fault) => return Err(fault),
+            }
         }
         let mut terms: Vec<Term> = Vec::new();
-        for value in values {
-            let term = self.expr(value, scope, ty)?;
+        for (value, known) in values.iter().zip(known) {
+            let term = match known {
+                Some(term) => term,
+                None => self.expr(value, scope, ty)?,
+            };
             let want = *ty.get_or_insert(term.ty);
             if term.ty != want {
                 return Err(self.wrong_type(want, &term, &value.span));
@@ -187,6 +197,10 @@ impl<'a> Lowering<'a> {
                 "a cycle of the safe PLC has to end: use FOR",
             ));
         }
+        if self.nesting.len() >= MAX_NESTING {
+            return Err(too_deep(&e.span));
+        }
+        self.works(&e.span)?;
         let inputs: Vec<&Word> = (own.sections.iter())
             .filter(|s| s.kind == SectionKind::Input)
             .flat_map(|s| s.variables.iter().map(|v| &v.name))

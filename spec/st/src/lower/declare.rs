@@ -155,7 +155,7 @@ impl<'a> Lowering<'a> {
         };
         let name = &decl.name.text;
         if body == Body::Program && kind == SectionKind::Input {
-            return self.input(decl, ty).map(Declared::Entry);
+            return self.input(decl, ty, bounds.as_ref()).map(Declared::Entry);
         }
         let role = match (kind, body) {
             (_, Body::Function) | (SectionKind::Temp, _) => Role::Temp,
@@ -245,10 +245,20 @@ impl<'a> Lowering<'a> {
     }
 
     /// An input of the program is one of the signature, with its type.
-    fn input(&self, decl: &VarDecl, ty: Ty) -> Checked<Entry<'a>> {
+    fn input(&self, decl: &VarDecl, ty: Ty, bounds: Option<&(Term, Term)>) -> Checked<Entry<'a>> {
         let signature = self.signature;
         let port = self.port(&signature.inputs, &decl.name, "input", "VAR_INPUT")?;
         self.same_type(decl, ty, port.ty)?;
+        if bounds.is_some_and(|(low, high)| low.high > port.low || high.low < port.high) {
+            return Err(Fault::new(
+                &decl.ty.span,
+                format!(
+                    "the input '{}' can be {}..{}",
+                    decl.name.text, port.low, port.high
+                ),
+                "declare it with this range, or without one",
+            ));
+        }
         if decl.init.is_some() {
             return Err(Fault::new(
                 &decl.name.span,

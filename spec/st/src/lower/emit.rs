@@ -193,16 +193,18 @@ impl<'a> Lowering<'a> {
                 false => format!("IF {} THEN {table} := {value}; END_IF;\n", check.path.text),
             };
         }
-        let checked = |id| self.checks.iter().any(|c| c.variable == id);
+        let checked: BTreeSet<usize> = self.checks.iter().map(|c| c.variable).collect();
+        let read = self.read(needed);
         for (id, variable) in self.variables.iter().enumerate() {
             if !needed.contains(&Use::State(id)) {
                 continue;
             }
             // What the program never assigns stays; what no cycle reads of the one before is no state.
-            let read = self.is_read(id, needed);
             let value = match self.env.get(&Slot::Variable(id)) {
-                Some(term) if read && variable.role != Role::Temp => term.text.clone(),
-                None if !checked(id) => continue,
+                Some(term) if read.contains(&id) && variable.role != Role::Temp => {
+                    term.text.clone()
+                }
+                None if !checked.contains(&id) => continue,
                 _ => variable.init.text.clone(),
             };
             then += &format!("{} := {value};\n", variable.table);
@@ -210,11 +212,15 @@ impl<'a> Lowering<'a> {
         then
     }
 
-    /// Whether something that is needed reads the value of the cycle before.
-    fn is_read(&self, id: usize, needed: &BTreeSet<Use>) -> bool {
-        let state = Use::State(id);
+    /// The variables whose value of the cycle before is read by something that is needed.
+    fn read(&self, needed: &BTreeSet<Use>) -> BTreeSet<usize> {
         let lets = self.lets.iter().enumerate();
-        let mut lets = lets.filter(|(k, _)| needed.contains(&Use::Let(*k)));
-        lets.any(|(_, one)| one.term.uses.contains(&state))
+        let lets = lets.filter(|(k, _)| needed.contains(&Use::Let(*k)));
+        let uses = lets.flat_map(|(_, one)| &one.term.uses);
+        uses.filter_map(|u| match u {
+            Use::State(id) => Some(*id),
+            Use::Let(_) | Use::Duration(_) => None,
+        })
+        .collect()
     }
 }

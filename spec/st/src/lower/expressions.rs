@@ -298,6 +298,8 @@ impl<'a> Lowering<'a> {
                 let y = self.expr(b, scope, Some(x.ty))?;
                 Ok((x, y))
             }
+            // A bare name may become clear by the other side; a whole expression is looked at once.
+            Err(first) if !matches!(a.kind, ExprKind::Name(_)) => Err(first),
             Err(first) => {
                 let Ok(y) = self.expr(b, scope, None) else {
                     return Err(first);

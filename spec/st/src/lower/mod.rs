@@ -1,5 +1,6 @@
 //! Runs a program once with names in place of values, and writes down what it computes as a table.
 
+mod assign;
 mod blocks;
 mod calls;
 mod declare;
@@ -10,8 +11,6 @@ mod statements;
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::rc::Rc;
 use std::sync::{Arc, LazyLock};
-
-use stillpoint_lang::diag::position;
 
 use crate::ast::{File, Pou};
 use crate::fault::{Checked, Fault, Span};
@@ -24,6 +23,15 @@ const MAX_LETS: usize = 20_000;
 
 /// Statements that are run, with those of loops and blocks counted each time.
 const MAX_WORK: usize = 200_000;
+
+/// Branches within one another, with those of blocks and functions that are called there; more exhaust the stack.
+const MAX_DEPTH: usize = 150;
+
+/// Blocks and functions within one another.
+const MAX_NESTING: usize = 30;
+
+/// More faults than these help nobody.
+const MAX_FAULTS: usize = 40;
 
 /// Translates a program that was read.
 ///
@@ -53,6 +61,10 @@ pub(crate) fn lower(
         loops: Vec::new(),
         nesting: Vec::new(),
         work: 0,
+        depth: 0,
+        lines: std::iter::once(0)
+            .chain(source.match_indices('\n').map(|(at, _)| at + 1))
+            .collect(),
     };
     let scope = lowering.program(&tree.program);
     lowering.start_cycle();
@@ -185,6 +197,10 @@ struct Lowering<'a> {
     /// Blocks and functions around.
     nesting: Vec<String>,
     work: usize,
+    /// Branches around.
+    depth: usize,
+    /// Where each line begins.
+    lines: Vec<usize>,
 }
 
 impl<'a> Lowering<'a> {
@@ -195,7 +211,7 @@ impl<'a> Lowering<'a> {
 
     fn fault(&mut self, fault: Fault) {
         // What follows from another fault has no words.
-        if !fault.message.is_empty() {
+        if !fault.message.is_empty() && self.faults.len() < MAX_FAULTS {
             self.faults.push(Fault {
                 span: self.at(&fault.span),
                 ..fault
@@ -209,12 +225,12 @@ impl<'a> Lowering<'a> {
     }
 
     fn line(&self, span: &Span) -> usize {
-        position(self.source, span.start).map_or(0, |(line, _)| line)
+        self.lines.partition_point(|start| *start <= span.start)
     }
 
     /// The first line of a piece of the program, shortened.
     fn quoted(&self, span: &Span) -> String {
-        let text = self.source.get(span.clone()).unwrap_or_default();
+        let text = self.source.get(self.at(span)).unwrap_or_default();
         let line = text.lines().next().unwrap_or_default().trim();
         match line.char_indices().nth(70) {
             Some((cut, _)) => format!("{} ...", &line[..cut]),
@@ -276,6 +292,20 @@ impl<'a> Lowering<'a> {
             span,
         });
         Ok(leaf)
+    }
+
+    /// Counts a piece of work, unless the program is too large.
+    fn works(&mut self, span: &Span) -> Checked<()> {
+        self.work += 1;
+        match self.work.cmp(&(MAX_WORK + 1)) {
+            std::cmp::Ordering::Less => Ok(()),
+            std::cmp::Ordering::Equal => Err(Fault::new(
+                span,
+                format!("a cycle of the program has more than {MAX_WORK} statements"),
+                "make its loops shorter",
+            )),
+            std::cmp::Ordering::Greater => Err(blocks::silent(span)),
+        }
     }
 
     /// The value of a variable as it is now.

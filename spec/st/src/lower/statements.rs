@@ -3,8 +3,8 @@
 use std::rc::Rc;
 
 use super::declare::upper;
-use super::{Check, Entry, Env, Lowering, MAX_WORK, Role, Scope, Slot};
-use crate::ast::{Expr, ExprKind, For, Label, Stmt, StmtKind};
+use super::{Entry, Env, Lowering, MAX_DEPTH, MAX_FAULTS, MAX_WORK, Scope, Slot};
+use crate::ast::{Expr, For, Label, Stmt, StmtKind};
 use crate::fault::{Checked, Fault, Span};
 use crate::lower::blocks::silent;
 use crate::term::{Term, Ty};
@@ -13,16 +13,13 @@ impl<'a> Lowering<'a> {
     /// The statements of a body or branch, as far as no RETURN or EXIT ends them.
     pub(super) fn body(&mut self, statements: &'a [Stmt], scope: &Scope<'a>) {
         for (k, statement) in statements.iter().enumerate() {
-            self.work += 1;
-            if self.work > MAX_WORK {
-                if self.work == MAX_WORK + 1 {
-                    self.fault(Fault::new(
-                        &statement.span,
-                        format!("a cycle of the program has more than {MAX_WORK} statements"),
-                        "make its loops shorter",
-                    ));
-                }
-                return;
+            let result = self.works(&statement.span);
+            if let Err(fault) = result {
+                self.fault(fault);
+                break;
+            }
+            if self.faults.len() >= MAX_FAULTS {
+                break;
             }
             if let Err(fault) = self.statement(statement, scope) {
                 self.fault(fault);
@@ -36,7 +33,7 @@ impl<'a> Lowering<'a> {
                 let result = self.branch(&gone, &statement.span, |_| {}, |me| me.body(rest, scope));
                 self.note(result);
             }
-            return;
+            break;
         }
     }
 
@@ -48,21 +45,7 @@ impl<'a> Lowering<'a> {
     fn statement(&mut self, statement: &'a Stmt, scope: &Scope<'a>) -> Checked<()> {
         match &statement.kind {
             StmtKind::Assign(target, value) => {
-                let hint = self.target_type(target, scope);
-                let term = self.expr(value, scope, hint);
-                // Both sides are looked at, so that each fault is told.
-                let target_fault = self.target(target, scope).err();
-                let term = match (term, target_fault) {
-                    (Ok(term), None) => term,
-                    (Err(fault), None) => return Err(fault),
-                    (Err(fault), Some(other)) => {
-                        self.fault(fault);
-                        return Err(other);
-                    }
-                    (Ok(_), Some(other)) => return Err(other),
-                };
-                let id = self.target(target, scope)?;
-                self.assign_as(id, term, &value.span, &statement.span)
+                self.assignment(target, value, &statement.span, scope)
             }
             StmtKind::Call(target, args) => self.call_block(target, args, &statement.span, scope),
             StmtKind::If(branches, rest) => self.choose(branches, rest, scope),
@@ -95,12 +78,14 @@ impl<'a> Lowering<'a> {
             return Ok(());
         };
         let guard = match self.typed(condition, scope, Ty::Bool) {
-            Ok(term) => self.named(
-                "if",
-                &condition.span,
-                term,
-                Some(format!("IF {}", self.quoted(&condition.span))),
-            )?,
+            Ok(term) => {
+                let quoted = self.quoted(&condition.span);
+                let text = match self.site {
+                    Some(_) => quoted,
+                    None => format!("IF {quoted}"),
+                };
+                self.named("if", &condition.span, term, Some(text))?
+            }
             Err(fault) => {
                 // The branches are looked at all the same.
                 self.fault(fault);
@@ -321,6 +306,15 @@ impl<'a> Lowering<'a> {
         yes: impl FnOnce(&mut Self),
         no: impl FnOnce(&mut Self),
     ) -> Checked<()> {
+        if self.depth >= MAX_DEPTH {
+            return Err(Fault::new(
+                span,
+                format!(
+                    "more than {MAX_DEPTH} branches and places of RETURN lie within one another"
+                ),
+                "give a result to a variable and go on, in place of RETURN; nest fewer branches and blocks",
+            ));
+        }
         let guard = self.named("if", span, guard.clone(), None)?;
         let known = self.variables.len();
         let before = self.env.clone();
@@ -363,138 +357,10 @@ impl<'a> Lowering<'a> {
     fn alone(&mut self, guard: &Term, run: impl FnOnce(&mut Self)) -> (Env, usize) {
         let checks = self.checks.len();
         self.path.push(guard.clone());
+        self.depth += 1;
         run(self);
+        self.depth -= 1;
         self.path.pop();
         (std::mem::take(&mut self.env), checks)
-    }
-
-    /// The type of what is assigned, where that is a variable.
-    fn target_type(&self, target: &Expr, scope: &Scope<'a>) -> Option<Ty> {
-        let entry = match &target.kind {
-            ExprKind::Name(name) => scope.names.get(&upper(name)).cloned(),
-            ExprKind::Member(base, member) => self.member(base, member, scope).ok(),
-            _ => None,
-        };
-        match entry {
-            Some(Entry::Variable(id)) => Some(self.variables[id].ty),
-            _ => None,
-        }
-    }
-
-    /// The variable that is assigned.
-    fn target(&self, target: &Expr, scope: &Scope<'a>) -> Checked<usize> {
-        let not = |what: &str, help: &str| Err(Fault::new(&target.span, what, help));
-        match &target.kind {
-            ExprKind::Name(name) => match scope.names.get(&upper(name)) {
-                Some(Entry::Variable(id)) => {
-                    if self.variables[*id].role == Role::BlockInput {
-                        return not(
-                            &format!("'{name}' is an input, and is not assigned"),
-                            "assign to a variable of your own under VAR, and use that",
-                        );
-                    }
-                    self.free_of_loops(*id, &target.span)?;
-                    Ok(*id)
-                }
-                Some(Entry::Input(_)) => not(
-                    &format!("'{name}' is an input, and is not assigned"),
-                    "what an input is comes from the machine: assign to a variable of your own under VAR, and use that",
-                ),
-                Some(Entry::Constant(_)) => not(
-                    &format!("'{name}' is a constant, and is not assigned"),
-                    "declare it under VAR",
-                ),
-                Some(Entry::Block(_)) => not(
-                    &format!("'{name}' is a function block, and is not assigned"),
-                    "call it: `name(IN := x);`",
-                ),
-                Some(Entry::Failed) => Err(silent(&target.span)),
-                None => Err(self.unknown(name, &target.span, scope)),
-            },
-            ExprKind::Member(base, member) => match self.member(base, member, scope)? {
-                Entry::Variable(id) if self.variables[id].role == Role::BlockInput => Ok(id),
-                Entry::Variable(_) => not(
-                    "an output of a block is not assigned from outside",
-                    "give the block other inputs",
-                ),
-                _ => not(
-                    "the time of a block is given in its call or declaration",
-                    "write `t1(IN := x, PT := T#100ms);`",
-                ),
-            },
-            _ => not(
-                "this cannot be assigned",
-                "write the name of a variable before `:=`",
-            ),
-        }
-    }
-
-    fn free_of_loops(&self, id: usize, span: &Span) -> Checked<()> {
-        match self.loops.contains(&id) {
-            false => Ok(()),
-            true => Err(Fault::new(
-                span,
-                format!("'{}' counts the loop around it", self.variables[id].name),
-                "use another variable",
-            )),
-        }
-    }
-
-    /// Stores what a block gives out.
-    pub(super) fn store(&mut self, target: &Expr, term: Term, scope: &Scope<'a>) -> Checked<()> {
-        let id = self.target(target, scope)?;
-        self.assign(id, term, &target.span)
-    }
-
-    pub(super) fn assign(&mut self, id: usize, term: Term, span: &Span) -> Checked<()> {
-        self.assign_as(id, term, span, span)
-    }
-
-    /// Assigns, if the type fits; a value that can leave the range of the variable is checked in each cycle.
-    fn assign_as(&mut self, id: usize, term: Term, span: &Span, whole: &Span) -> Checked<()> {
-        let variable = &self.variables[id];
-        let name = variable.name.clone();
-        if term.ty != variable.ty {
-            return Err(self.wrong_type(variable.ty, &term, span));
-        }
-        let text = self.quoted(whole);
-        // A standard block keeps its ranges by itself.
-        let bounds = variable.bounds.clone().filter(|_| self.site.is_none());
-        let Some((low, high)) = bounds else {
-            let term = self.named(&name, whole, term, Some(text))?;
-            self.set(id, term);
-            return Ok(());
-        };
-        let term = self.named(&name, whole, term, Some(text.clone()))?;
-        if term.high < low.low || term.low > high.high {
-            return Err(Fault::new(
-                span,
-                format!(
-                    "this is {}..{}, '{name}' holds {}..{}",
-                    term.low, term.high, low.text, high.text
-                ),
-                "widen the range of the variable, or limit the value: LIMIT(low, value, high)",
-            ));
-        }
-        let inside = term.low >= low.high && term.high <= high.low;
-        if inside || term.text == low.text || term.text == high.text {
-            self.set(id, term);
-            return Ok(());
-        }
-        // The check is part of the rule of the table; after it the value lies in its range.
-        let path = self
-            .path
-            .iter()
-            .fold(Term::bool(true), |all, one| all.and(one));
-        let path = self.named("path", whole, path, None)?;
-        let kept = Term::limit(&low, &term, &high);
-        self.checks.push(Check {
-            path,
-            value: term,
-            variable: id,
-        });
-        let kept = self.named(&name, whole, kept, Some(text))?;
-        self.set(id, kept);
-        Ok(())
     }
 }

@@ -81,6 +81,7 @@ impl Parser {
             let condition = self.expr()?;
             self.expect_word("THEN")?;
             branches.push((condition, self.statements(&[])?));
+            few(branches.len(), start)?;
             if self.word("ELSIF") {
                 continue;
             }
@@ -112,6 +113,7 @@ impl Parser {
             }
             self.expect(":")?;
             branches.push((labels, self.statements(&["END_CASE"])?));
+            few(branches.len(), start)?;
         }
         let rest = match self.word("ELSE") {
             true => self.statements(&[])?,
@@ -166,6 +168,20 @@ impl Parser {
             by,
             body,
         })))
+    }
+}
+
+/// More branches than a reader can follow, and than are run within one another.
+const MAX_BRANCHES: usize = 100;
+
+fn few(branches: usize, span: &Span) -> Checked<()> {
+    match branches > MAX_BRANCHES {
+        false => Ok(()),
+        true => Err(Fault::new(
+            span,
+            format!("this has more than {MAX_BRANCHES} branches"),
+            "group them: several values in one branch, or one CASE within another",
+        )),
     }
 }
 

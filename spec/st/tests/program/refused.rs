@@ -91,6 +91,42 @@ fn long_and_deep_programs_end() {
         &variables,
         &format!("{loops} x := x XOR a; {} p := x;", "END_FOR; ".repeat(7)),
     ));
+    // Nor do parts of an expression whose type is sought.
+    let inner = format!("{}n{}", "MIN(1, MAX(".repeat(15), ", 2))".repeat(15));
+    assert!(load(&whole("", &format!("m := LIMIT(0, {inner}, 7);"))).is_ok());
+    told(&whole(
+        "",
+        &format!("p := {}bad{};", "(".repeat(30), " = a)".repeat(30)),
+    ));
+    told(&whole(
+        "",
+        &"IF a THEN p := b; RETURN; END_IF;\n".repeat(1_000),
+    ));
+    told(&whole(
+        "",
+        &format!(
+            "IF a THEN p := b; {} END_IF;",
+            "ELSIF b THEN p := c; ".repeat(1_000)
+        ),
+    ));
+    let blocks: String = (0..60)
+        .map(|k| {
+            format!(
+                "FUNCTION_BLOCK B{k} VAR x, y, z : B{}; END_VAR x(); END_FUNCTION_BLOCK\n",
+                k + 1
+            )
+        })
+        .collect();
+    told(&format!(
+        "{blocks} FUNCTION_BLOCK B60 END_FUNCTION_BLOCK {}",
+        whole("VAR b : B0; END_VAR", "b();")
+    ));
+    let calls: String = (0..25).map(|k| format!("FUNCTION f{k} : BOOL VAR_INPUT x : BOOL; END_VAR f{k} := f{0}(x) XOR f{0}(NOT x); END_FUNCTION\n", k + 1)).collect();
+    told(&format!(
+        "{calls} FUNCTION f25 : BOOL VAR_INPUT x : BOOL; END_VAR f25 := x; END_FUNCTION {}",
+        whole("", "p := f0(a);")
+    ));
+    told(&whole("", &"p := nothing;\n".repeat(30_000)));
     // Values that are merged again and again do not double.
     let many: String = (0..500)
         .map(|_| "IF a THEN p := q; ELSE q := p XOR b; END_IF;\n")
