@@ -2,7 +2,7 @@
 
 use super::blocks::silent;
 use super::declare::upper;
-use super::{Check, Entry, Lowering, Role, Scope};
+use super::{Check, Entry, Lowering, Role, Scope, Slot};
 use crate::ast::{Expr, ExprKind};
 use crate::fault::{Checked, Fault, Span};
 use crate::term::{Term, Ty};
@@ -25,7 +25,13 @@ impl<'a> Lowering<'a> {
                 return Err(fault);
             }
         };
-        self.assign_as(id, term?, &value.span, whole)
+        let done = term.and_then(|term| self.assign_as(id, term, &value.span, whole));
+        if done.is_err() {
+            // It is assigned, if not rightly.
+            let kept = (*self.value(Slot::Variable(id))).clone();
+            self.set(id, kept);
+        }
+        done
     }
 
     /// The type of what is assigned, where that is a variable.

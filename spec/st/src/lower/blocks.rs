@@ -249,14 +249,10 @@ impl<'a> Lowering<'a> {
 
     /// Variables that begin with their initial values in each run.
     pub(super) fn begin_temps(&mut self, scope: &Scope<'a>) {
-        let mut ids: Vec<usize> = (scope.names.values())
-            .filter_map(|entry| match entry {
-                Entry::Variable(id) => Some(*id),
-                _ => None,
-            })
-            .collect();
-        ids.sort_unstable();
-        for id in ids {
+        for entry in scope.names.values() {
+            let Entry::Variable(id) = *entry else {
+                continue;
+            };
             if self.variables[id].role == Role::Temp {
                 self.set(id, self.variables[id].init.clone());
             }

@@ -94,7 +94,6 @@ impl<'a> Lowering<'a> {
             self.variables[id].name.clone(),
             self.variables[id].span.clone(),
         );
-        let line = self.line(&span);
         let fresh = self.fresh(&format!("{name}_kept"));
         let leaf = Term::leaf(fresh.clone(), term.ty, term.low, term.high)
             .reading(Use::Let(self.lets.len()));
@@ -102,7 +101,7 @@ impl<'a> Lowering<'a> {
             name: fresh,
             term,
             span,
-            text: format!("line {line}: {name} as it was in the cycle before"),
+            text: format!("{name} as it was in the cycle before"),
         });
         leaf
     }

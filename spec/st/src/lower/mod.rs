@@ -156,7 +156,7 @@ enum Entry<'a> {
     Failed,
 }
 
-type Names<'a> = HashMap<String, Entry<'a>>;
+type Names<'a> = BTreeMap<String, Entry<'a>>;
 
 /// The names that a body sees.
 #[derive(Clone, Default)]
@@ -232,7 +232,7 @@ impl<'a> Lowering<'a> {
     fn quoted(&self, span: &Span) -> String {
         let text = self.source.get(self.at(span)).unwrap_or_default();
         let line = text.lines().next().unwrap_or_default().trim();
-        match line.char_indices().nth(70) {
+        match line.char_indices().nth(100) {
             Some((cut, _)) => format!("{} ...", &line[..cut]),
             None => line.to_owned(),
         }
@@ -308,6 +308,17 @@ impl<'a> Lowering<'a> {
         }
     }
 
+    /// A value under a name that stands for no line of the program, but for what becomes of a variable there.
+    fn unquoted(&mut self, name: &str, span: &Span, term: Term, what: &str) -> Checked<Term> {
+        let known = self.lets.len();
+        let named = self.named(name, span, term, None)?;
+        let line = self.line(&self.at(span));
+        if let Some(made) = self.lets.get_mut(known) {
+            made.text = format!("{name} {what} {line}");
+        }
+        Ok(named)
+    }
+
     /// The value of a variable as it is now.
     fn value(&self, slot: Slot) -> Rc<Term> {
         if let Some(term) = self.env.get(&slot) {
@@ -364,8 +375,7 @@ impl<'a> Lowering<'a> {
                 self.variables[id].name.clone(),
                 self.variables[id].span.clone(),
             );
-            let text = format!("{name} counts the cycle");
-            if let Ok(next) = self.named(&name, &span, next, Some(text)) {
+            if let Ok(next) = self.unquoted(&name, &span, next, "counts the cycle, line") {
                 self.set(id, next);
             }
         }

@@ -346,8 +346,7 @@ impl<'a> Lowering<'a> {
                 Slot::Return => "returned".to_owned(),
                 Slot::Exit => "left".to_owned(),
             };
-            let text = format!("{base} after the IF, CASE or loop");
-            let merged = self.named(&base, span, merged, Some(text))?;
+            let merged = self.unquoted(&base, span, merged, "after line")?;
             self.env.insert(slot, Rc::new(merged));
         }
         Ok(())
