@@ -19,6 +19,7 @@ mod reaction;
 mod recording;
 mod report;
 mod simulate;
+mod structured_text;
 mod survival;
 mod terminal;
 mod values;

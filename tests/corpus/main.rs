@@ -12,5 +12,6 @@ mod manuals;
 mod parameters;
 mod programs;
 mod reaction_times;
+mod structured_text;
 mod tables;
 mod trace;

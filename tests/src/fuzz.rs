@@ -17,6 +17,7 @@ use stillpoint_lang::Spec;
 use stillpoint_lang::diag::Diagnostics;
 use stillpoint_lang::syntax::{parse_decl, parse_effect, parse_expr, parse_type};
 use stillpoint_machine::{self as machine, Machine, families};
+use stillpoint_st::{Signature, compile};
 
 use crate::random::Random;
 use crate::{files, root};
@@ -36,7 +37,7 @@ pub struct Target {
 }
 
 /// Every target.
-pub static TARGETS: [Target; 8] = [
+pub static TARGETS: [Target; 9] = [
     Target {
         name: "certificate",
         component: "`stillpoint certify`",
@@ -81,6 +82,13 @@ pub static TARGETS: [Target; 8] = [
             read(&folders.map(|f| files(f, "toml")).concat())
         },
         run: machine,
+    },
+    Target {
+        name: "program",
+        component: "programs of a safe PLC in Structured Text",
+        property: "a table that takes the place of the family's example, or errors whose places lie in the text",
+        seeds: || read(&files("tests/machines", "st")),
+        run: program,
     },
     Target {
         name: "recording",
@@ -225,6 +233,28 @@ fn expression(data: &[u8]) -> bool {
 fn machine(data: &[u8]) -> bool {
     let path = milling_file();
     judged(machine::load_bytes(&path, data.to_vec(), &families(&path)))
+}
+
+fn program(data: &[u8]) -> bool {
+    static PLC: LazyLock<(Spec, Signature)> = LazyLock::new(|| {
+        let path = root().join("spec/families/heidenhain-fs/splc.toml");
+        let spec = Spec::load(&path).unwrap_or_else(|e| panic!("{e}"));
+        let signature = Signature::of(&spec, "splc").unwrap_or_else(|e| panic!("{e}"));
+        (spec, signature)
+    });
+    let Some(source) = text(data) else {
+        return false;
+    };
+    let (spec, signature) = &*PLC;
+    let compiled = compile("fuzzed.st", &source, signature);
+    if let Ok(compiled) = &compiled {
+        let mut spec = spec.clone();
+        let name = toml::Spanned::new(0..0, "splc".to_owned());
+        spec.replace("fuzzed.st", &source, &name, &compiled.machine)
+            .and_then(|()| spec.open_machine("splc").map(drop))
+            .unwrap_or_else(|e| panic!("accepted, and no table: {e}"));
+    }
+    judged(compiled)
 }
 
 /// A short run of the milling machine in both formats.

@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 
 use indexmap::IndexMap;
 use indexmap::map::Entry;
+use stillpoint_lang::ir::Property;
 use stillpoint_model::{Cluster, Error, Interrupt, Limits, Options, Progress, Trace, Verdict};
 
 use crate::excluded::{Exclusion, Judge};
@@ -282,6 +283,8 @@ pub struct Violation<'a> {
     pub id: String,
     /// In plain words.
     pub text: String,
+    /// The property; none for a value that left its range.
+    pub property: Option<&'a Property>,
     /// The run.
     pub trace: Option<&'a Trace>,
     /// For a property of two runs, the second one.
@@ -306,6 +309,7 @@ pub fn violations<'a>(subject: &'a Subject, checked: &'a [Checked]) -> Vec<Viola
                     task,
                     id: task.guarantee.clone().unwrap_or_else(|| label(property)),
                     text: property.text.clone(),
+                    property: Some(property),
                     trace: judged.trace.as_ref(),
                     second: done.outcome.pairs.get(&k).and_then(|p| p.second.as_ref()),
                     refuted: done.outcome.refuted.get(&k).map(String::as_str),
@@ -320,6 +324,7 @@ pub fn violations<'a>(subject: &'a Subject, checked: &'a [Checked]) -> Vec<Viola
                 text: site.map_or("a value left its range".to_owned(), |s| {
                     format!("an assignment leaves the range of its variable: {}", s.name)
                 }),
+                property: None,
                 trace: fault.trace.as_ref(),
                 second: None,
                 refuted: None,

@@ -8,6 +8,7 @@ mod cycles;
 pub mod excluded;
 mod explore;
 pub mod keep;
+pub mod lines;
 mod outcome;
 pub mod readings;
 mod recorded;

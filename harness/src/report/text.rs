@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use stillpoint_engine::check::{Checked, Settings, Summary, Unfired, violations};
+use stillpoint_engine::lines::{self, Line};
 use stillpoint_engine::subject::{Subject, Task};
 use stillpoint_engine::{Evaluator, verdict_name};
 use stillpoint_lang::ir::Topic;
@@ -51,6 +52,12 @@ pub fn text(subject: &Subject, checked: &[Checked], summaries: &[Summary], all: 
                     counted(trace.steps.len() as u64, "cycle")
                 );
                 out.push_str(&diagram(&violation.task.bound, trace, "violated here").text());
+                if let Some(property) = violation.property {
+                    program(
+                        &mut out,
+                        &lines::deciding(&violation.task.bound, property, trace),
+                    );
+                }
                 if let Some(second) = violation.second {
                     out.push_str("  against the run that differs only in the inputs named:\n");
                     out.push_str(&diagram(&violation.task.bound, second, "violated here").text());
@@ -231,6 +238,21 @@ fn run(out: &mut String, n: usize, task: &Task, done: &Checked, all: bool) {
         );
     }
     out.push('\n');
+}
+
+/// The lines of a program in Structured Text that decide the last cycle of a run.
+fn program(out: &mut String, lines: &[Line]) {
+    if !lines.is_empty() {
+        out.push_str("  what the program computes in the last cycle, as far as it decides this:\n");
+    }
+    for Line {
+        number,
+        text,
+        value,
+    } in lines
+    {
+        let _ = writeln!(out, "    line {number:>4}  {value:<6} {text}");
+    }
 }
 
 /// Rules that never fired, one line for each reason; the copies of one machine's rule are named once.

@@ -30,7 +30,8 @@ pub mod symmetry;
 pub mod syntax;
 mod text;
 pub mod timers;
+mod written;
 
-pub use replace::Written;
 pub use spec::{Spec, toml_error};
 pub use text::{decode, read_text};
+pub use written::Written;

@@ -2,24 +2,11 @@
 
 use std::sync::Arc;
 
-use serde::Deserialize;
 use toml::Spanned;
 
 use crate::Spec;
 use crate::diag::{Diagnostic, Result};
-use crate::schema;
-
-/// A machine as it is written in a file: of the right form, not yet looked at.
-#[derive(Clone, Deserialize)]
-#[serde(transparent)]
-pub struct Written(schema::Machine);
-
-impl Written {
-    /// The names of its outputs.
-    pub fn outputs(&self) -> impl Iterator<Item = &Spanned<String>> {
-        self.0.output.keys()
-    }
-}
+use crate::written::Written;
 
 impl Spec {
     /// Puts a machine of another file in the place of the one with its name, if there is one. Parameters and inputs that it
@@ -37,7 +24,7 @@ impl Spec {
         let Some(old) = self.machines.get(name.get_ref()) else {
             return Ok(());
         };
-        let mut def = machine.0.clone();
+        let mut def = machine.def().clone();
         let missing: Vec<&str> = (old.def.output.keys())
             .filter(|key| !def.output.contains_key(*key))
             .map(|key| key.get_ref().as_str())

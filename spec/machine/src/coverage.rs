@@ -89,7 +89,10 @@ impl Machine {
             list.push(format!("Group {}: {}.", group.name, axes.join(", ")));
         }
         for (name, text) in self.logic() {
-            list.push(format!("Logic {name} is that of the machine file: {text}."));
+            list.push(match self.program(name) {
+                Some(program) => format!("Logic {name} is program {program}: {text}."),
+                None => format!("Logic {name} is that of the machine file: {text}."),
+            });
         }
         list
     }

@@ -414,8 +414,8 @@ fn read_source(path: &Path, source: &Arc<str>, families: &Path) -> Result<Machin
         groups: &draft.groups,
         doors: &draft.doors,
     };
-    let mut plan = runs::plan(&family, &family.explore, parts, &judged)?;
-    let guaranteed = runs::guaranteed(&family, &draft.guarantees, parts, &judged)?;
+    let mut plan = runs::plan(&family, &family.explore, parts, &judged, &logic)?;
+    let guaranteed = runs::guaranteed(&family, &draft.guarantees, parts, &judged, &logic)?;
     plan.runs.splice(0..0, guaranteed);
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     let mut keys = ["control", "family"].into_iter();

@@ -1,15 +1,18 @@
-//! The logic that a machine file carries in the specification language: `[logic.NAME]` with the tables of `[machine.NAME]`.
-//! It takes the place of the machine of that name in the tables of the family, which must be one that the family lets go.
+//! The logic of a machine file: `[logic.NAME]` with the tables of `[machine.NAME]`, or with the key `source` that names a program in
+//! Structured Text beside the machine file. It takes the place of the machine of that name in the tables of the family, which must be
+//! one that the family lets go.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use indexmap::IndexMap;
 use serde::Deserialize;
-use stillpoint_lang::diag::{Diagnostics, Result, nearest};
+use stillpoint_lang::diag::{Diagnostic, Diagnostics, Result, nearest};
 use stillpoint_lang::ir::{System, Ty};
-use stillpoint_lang::{Spec, Written, toml_error};
+use stillpoint_lang::{Spec, Written, read_text, toml_error};
+use stillpoint_st::{Signature, compile};
 use toml::Spanned;
+use toml::de::{DeTable, DeValue, Deserializer};
 
 use super::document::Findings;
 use super::family::Family;
@@ -20,7 +23,19 @@ use super::{Basis, Machine};
 pub(super) struct Logic {
     file: String,
     source: Arc<str>,
-    machines: Vec<(Spanned<String>, Written)>,
+    machines: Vec<(Spanned<String>, Definition)>,
+}
+
+/// One machine, and the file that it was written in.
+#[derive(Clone)]
+struct Definition {
+    machine: Written,
+    file: String,
+    source: Arc<str>,
+    /// A program in Structured Text: its name, and that of its file.
+    program: Option<String>,
+    /// Times of a program, which each run has in its own cycles: name, and length in microseconds.
+    durations: Vec<(String, u64)>,
 }
 
 impl std::fmt::Debug for Logic {
@@ -37,21 +52,62 @@ struct File {
     logic: IndexMap<Spanned<String>, Written>,
 }
 
+/// A logic that stands in a file of its own.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Elsewhere {
+    source: Spanned<String>,
+    #[serde(default)]
+    #[allow(dead_code)] // a comment for readers of the file
+    text: String,
+}
+
 impl Logic {
     /// Reads the logic of a machine file whose other tables are known to be right, and checks it in the tables of the family.
     ///
     /// # Errors
     /// Everything wrong with it, each with its place in the machine file.
     pub fn read(file: &str, source: &Arc<str>, family: &Family) -> Result<Self> {
-        let tables: File = toml::from_str(source).map_err(|e| toml_error(file, source, &e))?;
-        let logic = Self {
+        let wrong = |e: &toml::de::Error| toml_error(file, source, e);
+        let (mut root, mut programs) = (DeTable::parse(source).map_err(|e| wrong(&e))?, Vec::new());
+        if let Some(DeValue::Table(tables)) = root.get_mut().get_mut("logic").map(Spanned::get_mut)
+        {
+            let named =
+                |table: &DeValue<'_>| table.as_table().is_some_and(|t| t.contains_key("source"));
+            let names: Vec<_> = tables
+                .iter()
+                .filter(|(_, table)| named(table.get_ref()))
+                .map(|(name, _)| name.clone())
+                .collect();
+            for key in names {
+                let name = Spanned::new(key.span(), key.get_ref().to_string());
+                if let Some(DeValue::Table(table)) = tables.remove(&key).map(Spanned::into_inner) {
+                    let table = Deserializer::from(Spanned::new(key.span(), table));
+                    programs.push((name, Elsewhere::deserialize(table).map_err(|e| wrong(&e))?));
+                }
+            }
+        }
+        let tables = File::deserialize(Deserializer::from(root)).map_err(|e| wrong(&e))?;
+        let here = |machine| Definition {
+            machine,
             file: file.to_owned(),
             source: source.clone(),
-            machines: tables.logic.into_iter().collect(),
+            program: None,
+            durations: Vec::new(),
+        };
+        let mut logic = Self {
+            file: file.to_owned(),
+            source: source.clone(),
+            machines: tables
+                .logic
+                .into_iter()
+                .map(|(name, machine)| (name, here(machine)))
+                .collect(),
         };
         let mut findings = Findings::new(file, source);
         let known = || family.logic.keys().map(String::as_str);
-        for (name, _) in &logic.machines {
+        let names = logic.machines.iter().map(|(name, _)| name);
+        for name in names.chain(programs.iter().map(|(name, _)| name)) {
             if !family.logic.contains_key(name.get_ref()) {
                 let message = format!("the family has no logic '{}' to replace", name.get_ref());
                 let help = match nearest(name.get_ref(), known()) {
@@ -66,10 +122,16 @@ impl Logic {
         }
         findings.finish(())?;
         let mut errors = Vec::new();
+        let mut all =
+            |checked: Result<()>| errors.extend(checked.err().into_iter().flat_map(|e| e.0));
+        for (name, program) in programs {
+            if let Some(slot) = family.logic.get(name.get_ref()) {
+                all(logic.translate(name, &program, &family.folder.join(&slot.file)));
+            }
+        }
         for (name, machine) in &logic.machines {
             if let Some(slot) = family.logic.get(name.get_ref()) {
-                let checked = logic.fits(name.get_ref(), machine, &family.folder.join(&slot.file));
-                errors.extend(checked.err().into_iter().flat_map(|e| e.0));
+                all(logic.fits(name.get_ref(), machine, &family.folder.join(&slot.file)));
             }
         }
         match errors.is_empty() {
@@ -78,14 +140,60 @@ impl Logic {
         }
     }
 
+    /// Reads and translates a program that stands beside the machine file.
+    fn translate(
+        &mut self,
+        name: Spanned<String>,
+        program: &Elsewhere,
+        tables: &Path,
+    ) -> Result<()> {
+        let beside = Path::new(&self.file).parent().unwrap_or(Path::new(""));
+        let path: PathBuf = beside.join(program.source.get_ref());
+        let source =
+            read_text(&path, "program in Structured Text").map_err(|Diagnostics(list)| {
+                let told = |d: Diagnostic| {
+                    Diagnostic::new(
+                        &self.file,
+                        &self.source,
+                        Some(program.source.span()),
+                        d.to_string(),
+                    )
+                    .label("named here")
+                    .help("`source` names a file in Structured Text, relative to the machine file")
+                };
+                Diagnostics(list.into_iter().map(told).collect())
+            })?;
+        let signature = Signature::of(&Spec::load(tables)?, name.get_ref())?;
+        let file = path.display().to_string();
+        let compiled = compile(&file, &source, &signature)?;
+        let definition = Definition {
+            machine: compiled.machine,
+            file,
+            source,
+            program: Some(format!("{} of {}", compiled.name, program.source.get_ref())),
+            durations: compiled.durations,
+        };
+        self.machines.push((name, definition));
+        Ok(())
+    }
+
+    /// The times of the programs that take part in a system with these machines.
+    pub fn durations(&self, machines: &[String]) -> impl Iterator<Item = &(String, u64)> {
+        let parts = self
+            .machines
+            .iter()
+            .filter(|(name, _)| machines.contains(name.get_ref()));
+        parts.flat_map(|(_, part)| &part.durations)
+    }
+
     /// Whether the machine is right in itself, and has the outputs of the one it replaces with their types.
-    fn fits(&self, name: &str, machine: &Written, path: &Path) -> Result<()> {
+    fn fits(&self, name: &str, written: &Definition, path: &Path) -> Result<()> {
         let (old, new) = (
             Spec::load(path)?.open_machine(name)?,
             self.spec(path)?.open_machine(name)?,
         );
-        let mut findings = Findings::new(&self.file, &self.source);
-        for key in machine.outputs() {
+        let mut findings = Findings::new(&written.file, &written.source);
+        for key in written.machine.outputs() {
             let full = format!("{name}.{}", key.get_ref());
             let of = |system: &System| {
                 let found = system.lazies.iter().find(|l| l.name == full)?;
@@ -110,7 +218,7 @@ impl Logic {
     pub fn spec(&self, path: &Path) -> Result<Spec> {
         let mut spec = Spec::load(path)?;
         for (name, machine) in &self.machines {
-            spec.replace(&self.file, &self.source, name, machine)?;
+            spec.replace(&machine.file, &machine.source, name, &machine.machine)?;
         }
         Ok(spec)
     }
@@ -132,6 +240,19 @@ impl Machine {
     /// The file cannot be read.
     pub fn spec(&self, path: &Path) -> Result<Spec> {
         self.basis.logic.spec(path)
+    }
+
+    /// The times that programs of the machine have as parameters of the systems they take part in: name, and length in microseconds.
+    pub fn logic_times(&self) -> impl Iterator<Item = &(String, u64)> {
+        let parts = self.basis.logic.machines.iter();
+        parts.flat_map(|(_, part)| &part.durations)
+    }
+
+    /// The program in Structured Text that a logic is: its name, and that of its file.
+    pub(super) fn program(&self, logic: &str) -> Option<&str> {
+        let parts = self.basis.logic.machines.iter();
+        let mut named = parts.filter(|(name, _)| name.get_ref() == logic);
+        named.find_map(|(_, part)| part.program.as_deref())
     }
 
     /// The machines of the tables that the machine file replaces by its own logic: name, and what it is.

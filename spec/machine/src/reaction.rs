@@ -230,7 +230,8 @@ impl Machine {
                 chains.push(plan.chain(&file, &ground)?);
             }
         }
-        let runs = runs::plan(family, &explore, self.parts(), &self.basis.judged)?.runs;
+        let (judged, logic) = (&self.basis.judged, &self.basis.logic);
+        let runs = runs::plan(family, &explore, self.parts(), judged, logic)?.runs;
         Ok(Reactions {
             source: data.source,
             notes: data.notes,

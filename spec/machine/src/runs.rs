@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use super::eval::Values;
 use super::family::{Binding, Explore, Family, Rounding, Scope};
 use super::guarantee::{Guarantee, asked};
+use super::logic::Logic;
 use super::plausible::{Judged, evaluate};
 use super::{Axis, Door, Group, Run};
 use stillpoint_lang::diag::{Diagnostic, Diagnostics, Result};
@@ -35,16 +36,17 @@ pub(super) fn plan(
     explored: &[Explore],
     parts: Parts<'_>,
     judged: &Judged,
+    logic: &Logic,
 ) -> Result<Plan> {
     let coupled = coupled(family, parts.axes, judged)?;
     let mut planned: Vec<Planned> = Vec::new();
     let mut files = BTreeMap::new();
     for explore in explored {
-        let scaled = is_scaled(family, explore, &mut files)?;
+        let system = declared(family, explore, &mut files, logic)?;
         for subject in subjects(family, explore, parts, &coupled, judged)? {
             // A group whose members differ is explored with the values of each.
             for of in 0..subject.members.len() {
-                let run = bind(family, explore, scaled, judged.cycle, &subject, of)?;
+                let run = bind(family, explore, &system, judged.cycle, &subject, of)?;
                 merge(&mut planned, run);
             }
         }
@@ -70,6 +72,7 @@ pub(super) fn guaranteed(
     guarantees: &[Guarantee],
     parts: Parts<'_>,
     judged: &Judged,
+    logic: &Logic,
 ) -> Result<Vec<Run>> {
     let mut planned: Vec<Planned> = Vec::new();
     let mut files = BTreeMap::new();
@@ -80,12 +83,12 @@ pub(super) fn guaranteed(
                 continue;
             }
             decided = true;
-            let scaled = is_scaled(family, explore, &mut files)?;
+            let system = declared(family, explore, &mut files, logic)?;
             let subject = Subject {
                 members: vec![(asked.axis, &asked.values)],
                 axes: vec![asked.axis.to_owned()],
             };
-            let mut run = bind(family, explore, scaled, judged.cycle, &subject, 0)?;
+            let mut run = bind(family, explore, &system, judged.cycle, &subject, 0)?;
             run.run.guarantee = Some(asked.guarantee.name.clone());
             merge(&mut planned, run);
         }
@@ -230,15 +233,24 @@ fn coupled(family: &Family, axes: &[Axis], judged: &Judged) -> Result<Vec<Vec<us
     Ok(groups.into_values().filter(|g| g.len() > 1).collect())
 }
 
-/// Whether the specification file declares the system with scaled timers; `files` keeps what was read.
+/// What the specification file says about a system.
+struct Declared {
+    /// Whether its timers are scaled.
+    scaled: bool,
+    /// The times of the programs in it.
+    durations: Vec<(String, u64)>,
+}
+
+/// How the specification file declares the system; `files` keeps what was read.
 ///
 /// # Errors
 /// The file or the system does not exist.
-fn is_scaled<'e>(
+fn declared<'e>(
     family: &Family,
     explore: &'e Explore,
     files: &mut BTreeMap<&'e str, toml::Table>,
-) -> Result<bool> {
+    logic: &Logic,
+) -> Result<Declared> {
     let fault = |message: String| -> Diagnostics {
         Diagnostic::new(&family.file, &family.source, None, message)
             .help("this is an error of the family's data, not of the machine file")
@@ -268,7 +280,16 @@ fn is_scaled<'e>(
                 explore.system
             ))
         })?;
-    Ok(system.get("timers").and_then(toml::Value::as_str) == Some("scaled"))
+    let instances = system.get("instance").and_then(toml::Value::as_table);
+    let machine = |i: &toml::Value| Some(i.get("machine")?.as_str()?.to_owned());
+    let machines: Vec<String> = instances
+        .into_iter()
+        .flat_map(|i| i.values().filter_map(machine))
+        .collect();
+    Ok(Declared {
+        scaled: system.get("timers").and_then(toml::Value::as_str) == Some("scaled"),
+        durations: logic.durations(&machines).cloned().collect(),
+    })
 }
 
 /// A time bound to a parameter, before and after rounding.
@@ -283,7 +304,7 @@ struct Time {
 fn bind(
     family: &Family,
     explore: &Explore,
-    scaled: bool,
+    system: &Declared,
     cycle: i64,
     subject: &Subject<'_>,
     of: usize,
@@ -360,8 +381,22 @@ fn bind(
             }
         }
     }
+    for (name, us) in &system.durations {
+        let time = i64::try_from(*us).unwrap_or(i64::MAX);
+        run.sources.insert(name.clone(), format!("T#{us}us"));
+        times.push(Time {
+            name: name.clone(),
+            exact: time % cycle == 0,
+            cycles: Rounding::Up.cycles(time, cycle),
+            rounding: Rounding::Up,
+        });
+    }
     let longest = times.iter().map(|t| t.cycles).max().unwrap_or(0);
-    let step = if scaled { up(longest, STEPS).max(1) } else { 1 };
+    let step = if system.scaled {
+        up(longest, STEPS).max(1)
+    } else {
+        1
+    };
     run.abstractions.extend(times_text(&times, step, cycle));
     let steps = times
         .into_iter()

@@ -39,9 +39,12 @@ impl Program {
         };
         let cycle_us = u64::try_from(cycle).unwrap_or(1).max(1);
         let mut params = run.params.clone();
-        if let Some(clear) = params.get_mut("t_clear") {
-            // One second.
-            *clear = vec![i64::try_from(1_000_000_u64.div_ceil(cycle_us)).unwrap_or(1)];
+        // One second, and the times of the program itself: in its own cycles, however the run scales them.
+        let second = ("t_clear".to_owned(), 1_000_000);
+        for (name, us) in std::iter::once(&second).chain(machine.logic_times()) {
+            if let Some(time) = params.get_mut(name) {
+                *time = vec![i64::try_from(us.div_ceil(cycle_us)).unwrap_or(1)];
+            }
         }
         let spec = machine.spec(&run.file).map_err(|e| e.to_string())?;
         let system = spec

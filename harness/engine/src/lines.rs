@@ -1,0 +1,113 @@
+//! Which lines of a program decide a cycle. What a program in Structured Text computes stands in the tables as named expressions
+//! whose description begins with their line: `line 12: x := a AND b;`.
+
+use std::collections::BTreeSet;
+
+use stillpoint_lang::bind::Bound;
+use stillpoint_lang::eval::Frame;
+use stillpoint_lang::ir::{BinaryOp, Node, Property};
+use stillpoint_model::Trace;
+
+use crate::{Cycle, replay};
+
+/// A line of a program, and what it gave in a cycle.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Line {
+    /// Its number, from 1.
+    pub number: usize,
+    /// What stands there.
+    pub text: String,
+    /// The value that it computed.
+    pub value: String,
+}
+
+/// The lines that decide what a property says of the last cycle of a run, in the order of the program: for a choice the branch
+/// that was taken, for AND and OR the operand that decides. None where no program is part of the system.
+pub fn deciding(bound: &Bound, property: &Property, trace: &Trace) -> Vec<Line> {
+    let cycles = replay(bound, trace);
+    let Some(cycle) = cycles.last() else {
+        return Vec::new();
+    };
+    let mut search = Search {
+        bound,
+        cycle,
+        seen: BTreeSet::new(),
+        lines: BTreeSet::new(),
+    };
+    let (atoms, observed) = property.form.expressions();
+    let system = &bound.system;
+    atoms.iter().for_each(|k| search.visit(&system.atoms[*k]));
+    observed
+        .iter()
+        .for_each(|k| search.visit(&system.observed[*k]));
+    search.lines.into_iter().collect()
+}
+
+struct Search<'a> {
+    bound: &'a Bound,
+    cycle: &'a Cycle,
+    seen: BTreeSet<u32>,
+    lines: BTreeSet<Line>,
+}
+
+impl Search<'_> {
+    fn value(&self, node: &Node) -> i64 {
+        let mut frame: Frame = self.cycle.frame.clone();
+        // An input that nobody read decides nothing: any value will do.
+        self.bound
+            .value(node, &mut frame, &mut |i| self.bound.inputs[i].0)
+    }
+
+    /// Adds the line of a named expression, if it has one.
+    fn note(&mut self, k: u32) {
+        let lazy = &self.bound.system.lazies[k as usize];
+        let told = lazy
+            .text
+            .strip_prefix("line ")
+            .and_then(|rest| rest.split_once(": "));
+        let Some((Ok(number), text)) = told.map(|(number, text)| (number.parse(), text)) else {
+            return;
+        };
+        let value = self.value(&Node::Lazy(k));
+        self.lines.insert(Line {
+            number,
+            text: text.to_owned(),
+            value: self.bound.system.show(lazy.ty, value),
+        });
+    }
+
+    fn visit(&mut self, node: &Node) {
+        match node {
+            Node::Lazy(k) => {
+                if self.seen.insert(*k) {
+                    self.note(*k);
+                    let bound = self.bound;
+                    self.visit(&bound.system.lazies[*k as usize].value);
+                }
+            }
+            Node::Sel(guard, no, yes) => {
+                // Why the branch was taken is its own line's matter.
+                if let Node::Lazy(k) = **guard {
+                    self.note(k);
+                }
+                let taken = self.value(guard) != 0;
+                self.visit(if taken { yes } else { no });
+            }
+            Node::Binary(op @ (BinaryOp::And | BinaryOp::Or), a, b) => {
+                let decides = i64::from(*op == BinaryOp::Or);
+                match (self.value(a) == decides, self.value(b) == decides) {
+                    (true, _) => self.visit(a),
+                    (false, true) => self.visit(b),
+                    (false, false) => {
+                        self.visit(a);
+                        self.visit(b);
+                    }
+                }
+            }
+            _ => node
+                .children()
+                .into_iter()
+                .for_each(|part| self.visit(part)),
+        }
+    }
+}

@@ -1,0 +1,7 @@
+//! Programs in Structured Text as tables: blocks against the definitions of the standard, statements against cases worked by hand,
+//! and what is refused.
+
+mod blocks;
+mod refused;
+mod rig;
+mod statements;
