@@ -113,7 +113,7 @@ fn the_program_says_what_the_tables_say() {
 #[test]
 #[ignore = "deep: minutes"]
 fn the_program_says_in_every_situation_what_the_tables_say() {
-    alike("composed.toml", "logic", 1_000);
+    alike("composed.toml", "logic", 500);
 }
 
 /// Explores the product under each reading of the manual that the program depends on, and with times of one to three cycles.
