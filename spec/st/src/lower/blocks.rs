@@ -321,13 +321,17 @@ impl<'a> Lowering<'a> {
     /// A name that stands for nothing.
     pub(super) fn unknown(&self, name: &str, span: &Span, scope: &Scope<'a>) -> Fault {
         let signature = self.signature;
-        let input = signature
-            .inputs
-            .iter()
-            .find(|p| p.name.eq_ignore_ascii_case(name));
-        let help = match input {
-            Some(port) => format!(
-                "declare it under VAR_INPUT: `{} : {};`",
+        let ports = [
+            ("VAR_INPUT", &signature.inputs),
+            ("VAR_OUTPUT", &signature.outputs),
+        ];
+        let mut ports = ports
+            .into_iter()
+            .flat_map(|(section, list)| list.iter().map(move |p| (section, p)));
+        let port = ports.find(|(_, p)| p.name.eq_ignore_ascii_case(name));
+        let help = match port {
+            Some((section, port)) => format!(
+                "declare it under {section}: `{} : {};`",
                 port.name,
                 signature.name(port.ty)
             ),

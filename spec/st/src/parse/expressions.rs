@@ -104,7 +104,11 @@ impl Parser {
                 self.at += 1;
                 let inner = self.expr()?;
                 self.expect(")")?;
-                return Ok(inner);
+                // With its brackets, as a reader sees it.
+                return Ok(Expr {
+                    span: self.since(start),
+                    ..inner
+                });
             }
             Token::Word(word)
                 if word.eq_ignore_ascii_case("TRUE") || word.eq_ignore_ascii_case("FALSE") =>

@@ -33,6 +33,11 @@ fn errors_name_place_and_fix() {
         ("an input is unknown", whole("VAR_INPUT door : BOOL; modes : Mode; END_VAR", "")),
         ("an input has another type", "PROGRAM x VAR_INPUT n : BOOL; END_VAR VAR_OUTPUT p, q : BOOL; m : INT; stop : Stop; END_VAR END_PROGRAM".to_owned()),
         ("names that are not declared", whole("VAR counter : INT (0..3); END_VAR", "countr := 1;\np := start;\nq := SS3 = stop;")),
+        (
+            "an output is never assigned",
+            "PROGRAM x VAR_OUTPUT p, q : BOOL; m : INT; stop : Stop; END_VAR q := p; p := TRUE; stop := SS1; END_PROGRAM".to_owned(),
+        ),
+        ("an output that is not declared, and one that is", "PROGRAM x VAR_OUTPUT p, q : BOOL; stop : Stop; END_VAR m := 1; END_PROGRAM".to_owned()),
         ("an input that is not declared", "PROGRAM x VAR_OUTPUT p, q : BOOL; m : INT; stop : Stop; END_VAR p := b; END_PROGRAM".to_owned()),
         ("wrong types", whole("", "p := n;\nm := a;\nstop := AUTO;\nq := a AND n;\nq := n = mode;\np := a < b;\nm := n + T#1s;\nstop := 1;")),
         ("WHILE", whole("", "WHILE a DO p := TRUE; END_WHILE;")),
