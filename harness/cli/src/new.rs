@@ -63,17 +63,16 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         )));
     }
     let given = |names: &[String]| names.iter().filter(|n| !n.is_empty()).cloned().collect();
-    let text = written(
-        &folder,
-        &Wanted {
-            name: arguments.name.clone(),
-            linear: given(&arguments.linear),
-            rotary: given(&arguments.rotary),
-            spindles: given(&arguments.spindles),
-            doors: given(&arguments.doors),
-        },
-    )?;
-    // A name that the file cannot have is told before the file is written.
+    let wanted = Wanted {
+        name: arguments.name.clone(),
+        linear: given(&arguments.linear),
+        rotary: given(&arguments.rotary),
+        spindles: given(&arguments.spindles),
+        doors: given(&arguments.doors),
+    };
+    wanted.check().map_err(Failure::Other)?;
+    let text = written(&folder, &wanted)?;
+    // What the family refuses is told before the file is written.
     load_bytes(
         &PathBuf::from("the new machine file"),
         text.clone().into_bytes(),

@@ -88,7 +88,7 @@ pub fn written(folder: &Path, wanted: &Wanted) -> Result<String> {
         };
         for subject in subjects {
             match wanted.filled(part.text.get_ref(), subject, &out) {
-                Ok(text) => out.push_str(text.strip_prefix('\n').unwrap_or(&text)),
+                Ok(text) => out.push_str(&text),
                 Err(place) => {
                     let message = format!("nothing is called '{place}' here");
                     check.findings.add(
@@ -105,6 +105,38 @@ pub fn written(folder: &Path, wanted: &Wanted) -> Result<String> {
 }
 
 impl Wanted {
+    /// What keeps a name from standing in a machine file.
+    ///
+    /// # Errors
+    /// The name, and what is wrong with it.
+    pub fn check(&self) -> std::result::Result<(), String> {
+        let axes: Vec<&String> = (self.linear.iter())
+            .chain(&self.rotary)
+            .chain(&self.spindles)
+            .collect();
+        let doors: Vec<&String> = self.doors.iter().collect();
+        for (what, names) in [
+            ("an axis", axes),
+            ("a door", doors),
+            ("the machine", vec![&self.name]),
+        ] {
+            for (n, name) in names.iter().enumerate() {
+                let plain = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
+                if name.is_empty() || !name.chars().all(plain) {
+                    return Err(format!(
+                        "'{name}' cannot be the name of {what}: it may have letters, digits, _ and -"
+                    ));
+                }
+                if names.iter().take(n).any(|known| known == name) {
+                    return Err(format!(
+                        "two are named '{name}': give {what} a name of its own"
+                    ));
+                }
+            }
+        }
+        Ok(())
+    }
+
     fn has(&self, kind: &Kind) -> bool {
         match kind {
             Kind::Linear => !self.linear.is_empty(),
@@ -147,7 +179,10 @@ impl Wanted {
             "name" => self.name.clone(),
             "axis" | "door" => subject.to_owned(),
             "plain" => all().cloned().collect::<Vec<_>>().join(", "),
-            "others" => quoted(&mut self.linear.iter().filter(|name| *name != subject)),
+            "others" => {
+                let axes = self.linear.iter().chain(&self.rotary);
+                quoted(&mut axes.filter(|name| *name != subject))
+            }
             "linear" => quoted(&mut self.linear.iter()),
             "rotary" => quoted(&mut self.rotary.iter()),
             "axes" => quoted(&mut self.linear.iter().chain(&self.rotary)),

@@ -1,5 +1,6 @@
 //! One value of a machine file that can be turned: what it may be, and the file with another one in its place.
 
+use indexmap::{IndexMap, IndexSet};
 use stillpoint_lang::diag::nearest;
 
 use super::family::{Param, Quantity};
@@ -25,23 +26,32 @@ impl Machine {
     /// There is none, and what there is.
     pub fn knob(&self, name: &str) -> Result<Knob, String> {
         let knobs = self.knobs();
-        match knobs.iter().find(|knob| knob.name == name) {
-            Some(knob) => Ok(knob.clone()),
-            None => {
-                let names = knobs.iter().map(|knob| knob.name.as_str());
-                Err(match nearest(name, names.clone()) {
-                    Some(near) => {
-                        format!("the file gives no value '{name}'; did you mean '{near}'?")
-                    }
-                    None => {
-                        let list = names.collect::<Vec<_>>().join(", ");
-                        format!(
-                            "the file gives no value '{name}'; it gives {list}. A default has to be written into the file first"
-                        )
-                    }
-                })
-            }
+        if let Some(knob) = knobs.iter().find(|knob| knob.name == name) {
+            return Ok(knob.clone());
         }
+        let names = || knobs.iter().map(|knob| knob.name.as_str());
+        if let Some(near) = nearest(name, names()) {
+            return Err(format!(
+                "the file gives no value '{name}'; did you mean '{near}'?"
+            ));
+        }
+        // What its owner has, or which owners there are.
+        let owner = |name: &str| name.rsplit_once('.').map(|(owner, _)| owner.to_owned());
+        let beside: Vec<&str> = names().filter(|n| owner(n) == owner(name)).collect();
+        let owners: IndexSet<String> = names().filter_map(owner).collect();
+        Err(match beside.is_empty() {
+            true => {
+                let list: Vec<&str> = owners.iter().map(String::as_str).collect();
+                format!(
+                    "the file gives no value '{name}'; it gives values of {}",
+                    list.join(", ")
+                )
+            }
+            false => format!(
+                "the file gives no value '{name}', a default has to be written into it first; it gives {}",
+                beside.join(", ")
+            ),
+        })
     }
 
     /// Every value that the file gives and that can be turned.
@@ -114,7 +124,7 @@ impl Machine {
     }
 }
 
-type Params<'a> = &'a indexmap::IndexMap<String, Param>;
+type Params<'a> = &'a IndexMap<String, Param>;
 
 impl Knob {
     /// The values it may have, in rising order: all of a choice, else the ends of its range and the finest step between them.
