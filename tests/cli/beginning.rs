@@ -7,7 +7,7 @@ use crate::common::{Folder, command, messages, session, status, stderr, stdout, 
 const MILLING: &str = "spec/machines/milling-840d.toml";
 
 /// A machine of each family from nothing to a clean verdict, as its user goes.
-fn to_a_clean_verdict(family: &str, options: &[&str]) {
+fn to_a_clean_verdict(family: &str, options: &[&str], guarantee: &str) {
     let folder = Folder::new(&format!("new-{family}"));
     let file = folder.file("machine.toml");
     let mut arguments = vec!["new", family, "--output", file.as_str()];
@@ -25,20 +25,22 @@ fn to_a_clean_verdict(family: &str, options: &[&str]) {
     let worse = text.replacen("within  = \"", "within  = \"0.", 1);
     assert_ne!(text, worse);
     std::fs::write(&file, worse).expect("written");
-    let output = stillpoint(&["check", &file]);
-    assert_eq!(status(&output), 1);
-    assert!(stdout(&output).contains("VIOLATED: a guarantee of this machine"));
+    let place = format!("guarantee.{guarantee}.way");
+    let output = stillpoint(&["check", &file, "--sweep", &place]);
+    assert_eq!(status(&output), 1, "{}", stderr(&output));
+    assert!(stdout(&output).contains(&format!("{guarantee} (violated)")));
 }
 
 #[test]
 fn a_lathe_from_nothing_to_a_clean_verdict() {
     let options = ["--name", "lathe", "--linear", "X,Z", "--spindles", "S"];
-    to_a_clean_verdict("sinumerik-840d", &options);
+    to_a_clean_verdict("sinumerik-840d", &options, "front_axes");
 }
 
 #[test]
 fn a_press_from_nothing_to_a_clean_verdict() {
-    to_a_clean_verdict("heidenhain-fs", &["--name", "press", "--linear", "Y"]);
+    let options = ["--name", "press", "--linear", "Y"];
+    to_a_clean_verdict("heidenhain-fs", &options, "front_axes_som_1");
 }
 
 /// What it writes is plausible for every kind of machine, without warnings but those that only the builder can answer.

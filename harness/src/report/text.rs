@@ -1,5 +1,6 @@
 //! The report as text.
 
+use std::collections::BTreeSet;
 use std::fmt::Write;
 
 use stillpoint_engine::check::{Checked, Settings, Summary, Unfired, violations};
@@ -104,14 +105,26 @@ fn guaranteed(out: &mut String, subject: &Subject, checked: &[Checked]) {
         let _ = writeln!(out, "  {verdict:<12} {}", answer.guarantee.name);
         let text = format!("{} [{}]", answer.guarantee.text, answer.guarantee.source);
         wrapped(out, &" ".repeat(15), &text);
+        // What is decided in parts is told part by part.
+        let systems: BTreeSet<&str> = (answer.runs.iter())
+            .map(|run| run.task.bound.system.name.as_str())
+            .collect();
+        let mut before = String::new();
         for run in &answer.runs {
             let bound = match run.bound {
                 Some(bound) => format!("in at most {}", time(bound)),
                 None => verdict_name(run.verdict).to_owned(),
             };
-            let _ = writeln!(out, "{:15}{}: {bound}", "", run.task.axes.join(", "));
+            let part = match systems.len() {
+                1 => run.task.axes.join(", "),
+                _ => run.task.title.clone(),
+            };
+            wrapped(out, &" ".repeat(15), &format!("{part}: {bound}"));
             let values = run.told().collect::<Vec<_>>().join("; ");
-            wrapped(out, &" ".repeat(17), &format!("with {values}"));
+            if values != before {
+                wrapped(out, &" ".repeat(17), &format!("with {values}"));
+            }
+            before = values;
         }
     }
     out.push('\n');

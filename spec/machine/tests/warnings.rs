@@ -84,6 +84,13 @@ fn ids(machine: &Machine) -> BTreeSet<String> {
     open.map(|w| w.id.clone()).collect()
 }
 
+/// The file without its guarantees: some of them name what a change takes away, and are refused then.
+fn unasked(text: &str) -> String {
+    let parts = text.split("\n\n");
+    let others = parts.filter(|part| !part.starts_with("[guarantee."));
+    others.collect::<Vec<_>>().join("\n\n")
+}
+
 fn changed(text: &str, from: &str, to: &str) -> String {
     assert!(text.contains(from), "{from}\nis not in\n{text}");
     text.replacen(from, to, 1)
@@ -148,6 +155,7 @@ fn dangerous_values_of_the_shipped_machines_are_warned_of() {
     for dangers in read::<Dangers>("tests/dangerous") {
         let file = &dangers.machine;
         let text = std::fs::read_to_string(root().join(file)).expect(file);
+        let text = unasked(&text);
         let clean = ids(&machine(text.clone()));
         assert!(clean.is_empty(), "{file}: {clean:?}");
         assert!(dangers.change.len() >= 8, "{file}");
