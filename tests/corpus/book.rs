@@ -205,12 +205,17 @@ fn the_pages_of_the_safety_functions_are_up_to_date() {
         names.contains("stop.md") && names.contains("stop-1.svg"),
         "{names:?}"
     );
-    let different = differences(&root().join("docs/src/functions/sinumerik-840d"), made);
-    assert!(
-        different.is_empty(),
-        "{}\nrun: stillpoint pages spec/families/sinumerik-840d --output docs/src/functions",
-        different.join("\n")
-    );
+    let other = pages(&root().join("spec/families/heidenhain-fs"));
+    let other = other.unwrap_or_else(|e| panic!("{e}"));
+    for (family, made) in [("sinumerik-840d", made), ("heidenhain-fs", &other)] {
+        let folder = root().join("docs/src/functions").join(family);
+        let different = differences(&folder, made);
+        assert!(
+            different.is_empty(),
+            "{}\nrun: stillpoint pages spec/families/{family} --output docs/src/functions",
+            different.join("\n")
+        );
+    }
 }
 
 #[test]
