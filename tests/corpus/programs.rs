@@ -2,11 +2,12 @@
 //! breaks it, and none finds one in the shipped machine.
 
 use std::collections::BTreeSet;
+use std::path::Path;
 
 use serde::Deserialize;
-use stillpoint_engine::check::{Checked, Settings, check, exit_status, summarise};
+use stillpoint_engine::check::{Checked, Settings, Summary, check, exit_status, summarise};
 use stillpoint_engine::subject::{self, Readings, Subject};
-use stillpoint_machine as machine;
+use stillpoint_machine::{self as machine, Machine};
 use stillpoint_model::Verdict;
 use stillpoint_tests::peer::each;
 use stillpoint_tests::root;
@@ -17,46 +18,78 @@ const LIBRARY: &str = "events.toml";
 /// A program that is wrong in one place.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Mistake {
-    text: String,
-    /// What stands in the machine file once, and what stands there instead.
-    replace: Vec<(String, String)>,
+pub(super) struct Mistake {
+    pub text: String,
+    /// What stands in the program once, and what stands there instead.
+    pub replace: Vec<(String, String)>,
     /// The property that finds it.
-    breaks: String,
+    pub breaks: String,
     /// The length of the shortest counterexample.
-    cycles: u64,
+    pub cycles: u64,
+    /// Of a program in Structured Text a piece of the line that the report names.
+    pub line: Option<String>,
 }
 
 /// A program that is another one, and right.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Right {
-    text: String,
-    replace: Vec<(String, String)>,
+pub(super) struct Right {
+    pub text: String,
+    pub replace: Vec<(String, String)>,
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Programs {
-    mistake: Vec<Mistake>,
-    right: Vec<Right>,
+pub(super) struct Programs {
+    pub mistake: Vec<Mistake>,
+    pub right: Vec<Right>,
+}
+
+impl Programs {
+    /// Reads a file of `tests/machines`.
+    pub fn of(file: &str) -> Self {
+        let path = root().join("tests/machines").join(file);
+        let text = std::fs::read_to_string(path).expect("readable");
+        toml::from_str(&text).unwrap_or_else(|e| panic!("{e}"))
+    }
+}
+
+impl Mistake {
+    /// Only what is asked for is judged: all of the others would take ten times as long.
+    pub fn asked(&self, mut subject: Subject) -> Subject {
+        subject
+            .tasks
+            .retain(|task| ids(task).any(|id| id == self.breaks));
+        for task in &mut subject.tasks {
+            let properties = &mut task.bound.system.properties;
+            properties.retain(|p| p.id == self.breaks);
+        }
+        subject
+    }
+
+    /// What is wrong with the answer, if it is not that the property breaks so.
+    pub fn missed(&self, judged: &[Summary]) -> Option<String> {
+        let found: Vec<(&str, Verdict, Option<u64>)> = (judged.iter())
+            .map(|one| (one.id.as_str(), one.verdict, one.length))
+            .collect();
+        let expected = [(self.breaks.as_str(), Verdict::Violated, Some(self.cycles))];
+        (found != expected).then(|| format!("{}: {found:?}, not {expected:?}", self.text))
+    }
 }
 
 fn programs() -> Programs {
-    let path = root().join("tests/machines/program-mistakes.toml");
-    let text = std::fs::read_to_string(path).expect("readable");
-    toml::from_str(&text).unwrap_or_else(|e| panic!("{e}"))
+    let programs = Programs::of("program-mistakes.toml");
+    assert!(programs.mistake.iter().all(|m| m.line.is_none()));
+    programs
 }
 
-/// The text of the shipped machine with another program.
-fn changed(title: &str, replace: &[(String, String)]) -> String {
-    let mut program = shipped();
-    for (from, to) in replace {
+/// A program with other texts in it, each in the place of one that stands there once.
+pub(super) fn changed(title: &str, program: String, replace: &[(String, String)]) -> String {
+    replace.iter().fold(program, |program, (from, to)| {
         let times = program.matches(from).count();
-        assert_eq!(times, 1, "{title}: '{from}' stands there");
-        program = program.replace(from, to);
-    }
-    program
+        assert_eq!(times, 1, "{title}: '{from}' stands there once");
+        program.replace(from, to)
+    })
 }
 
 fn shipped() -> String {
@@ -72,15 +105,20 @@ fn library(text: &str) -> Subject {
         &root().join("spec/families"),
     )
     .unwrap_or_else(|e| panic!("{e}"));
+    judging(&path, machine)
+}
+
+/// The explorations of a machine that judge its program by the event tables.
+pub(super) fn judging(path: &Path, machine: Machine) -> Subject {
     let runs: Vec<_> = (machine.runs.iter())
         .filter(|run| run.file.ends_with(LIBRARY))
         .cloned()
         .collect();
-    subject::of_runs(&path, machine, &runs, &Readings::new()).unwrap_or_else(|e| panic!("{e}"))
+    subject::of_runs(path, machine, &runs, &Readings::new()).unwrap_or_else(|e| panic!("{e}"))
 }
 
 /// There are many programs to check, so each has one thread.
-fn checked(subject: &Subject) -> Vec<Checked> {
+pub(super) fn checked(subject: &Subject) -> Vec<Checked> {
     let settings = Settings {
         threads: 1,
         ..Settings::default()
@@ -118,22 +156,9 @@ fn the_shipped_program_keeps_every_row_of_the_event_tables() {
 #[test]
 fn each_row_of_the_event_tables_finds_the_program_that_breaks_it() {
     let wrong = each(&programs().mistake, |mistake| {
-        // Only what is asked for is judged: all of the others would take ten times as long.
-        let mut subject = library(&changed(&mistake.text, &mistake.replace));
-        subject
-            .tasks
-            .retain(|task| ids(task).any(|id| id == mistake.breaks));
-        for task in &mut subject.tasks {
-            let properties = &mut task.bound.system.properties;
-            properties.retain(|p| p.id == mistake.breaks);
-        }
-        let judged = summarise(&subject, &checked(&subject));
-        let found: Vec<(&str, Verdict, Option<u64>)> = (judged.iter())
-            .map(|one| (one.id.as_str(), one.verdict, one.length))
-            .collect();
-        let cycles = Some(mistake.cycles);
-        let expected = [(mistake.breaks.as_str(), Verdict::Violated, cycles)];
-        (found != expected).then(|| format!("{}: {found:?}, not {expected:?}", mistake.text))
+        let program = changed(&mistake.text, shipped(), &mistake.replace);
+        let subject = mistake.asked(library(&program));
+        mistake.missed(&summarise(&subject, &checked(&subject)))
     });
     let wrong: Vec<String> = wrong.into_iter().flatten().collect();
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
@@ -143,7 +168,7 @@ fn each_row_of_the_event_tables_finds_the_program_that_breaks_it() {
 #[test]
 fn programs_that_are_right_in_another_way_are_not_accused() {
     each(&programs().right, |right| {
-        let subject = library(&changed(&right.text, &right.replace));
+        let subject = library(&changed(&right.text, shipped(), &right.replace));
         for one in summarise(&subject, &checked(&subject)) {
             assert_eq!(one.verdict, Verdict::Holds, "{}: {}", right.text, one.id);
         }

@@ -5,12 +5,11 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use serde::Deserialize;
 use stillpoint_certify::format::Kind;
 use stillpoint_certify::subject as certified;
-use stillpoint_engine::check::{Checked, Settings, Summary, check, summarise};
+use stillpoint_engine::check::{Settings, Summary, check, summarise};
 use stillpoint_engine::lines;
-use stillpoint_engine::subject::{self, Readings, Subject, Task};
+use stillpoint_engine::subject::{Readings, Subject, Task};
 use stillpoint_lang::Spec;
 use stillpoint_lang::bind::Bound;
 use stillpoint_machine as machine;
@@ -19,11 +18,12 @@ use stillpoint_st::{Signature, compile};
 use stillpoint_tests::peer::each;
 use stillpoint_tests::root;
 
+use crate::programs::{self, Programs, checked, judging};
+
 /// The machine, and its program.
 const MACHINE: &str = "tests/machines/machining-centre-st.toml";
 const PROGRAM: &str = "tests/machines/machining-centre-st.st";
 const TABLES: &str = "spec/machines/machining-centre-heidenhain.toml";
-const LIBRARY: &str = "events.toml";
 
 fn text(path: &str) -> String {
     std::fs::read_to_string(root().join(path)).unwrap_or_else(|e| panic!("{path}: {e}"))
@@ -195,20 +195,7 @@ fn task(spec: &Spec, bound: Bound, title: String) -> Task {
 fn library(path: &Path) -> Subject {
     let machine =
         machine::load(path, &root().join("spec/families")).unwrap_or_else(|e| panic!("{e}"));
-    let events = machine
-        .runs
-        .iter()
-        .filter(|run| run.file.ends_with(LIBRARY));
-    let runs: Vec<_> = events.cloned().collect();
-    subject::of_runs(path, machine, &runs, &Readings::new()).unwrap_or_else(|e| panic!("{e}"))
-}
-
-fn checked(subject: &Subject) -> Vec<Checked> {
-    let settings = Settings {
-        threads: 1,
-        ..Settings::default()
-    };
-    check(subject, &settings, &mut |_| Box::new(())).unwrap_or_else(|(t, e)| panic!("{t}: {e}"))
+    judging(path, machine)
 }
 
 fn judged(subject: &Subject) -> Vec<Summary> {
@@ -277,50 +264,13 @@ fn a_certificate_is_about_this_program() {
     assert_ne!(program.sha256, changed.sha256);
 }
 
-/// A program with a mistake.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Mistake {
-    text: String,
-    /// What stands in the program once, and what stands there instead.
-    replace: Vec<(String, String)>,
-    /// The property that finds it.
-    breaks: String,
-    /// The length of the shortest counterexample.
-    cycles: u64,
-    /// A piece of the line that the report names.
-    line: String,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Right {
-    text: String,
-    replace: Vec<(String, String)>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Programs {
-    mistake: Vec<Mistake>,
-    right: Vec<Right>,
-}
-
 fn programs() -> Programs {
-    toml::from_str(&text("tests/machines/st-mistakes.toml")).unwrap_or_else(|e| panic!("{e}"))
+    Programs::of("st-mistakes.toml")
 }
 
 /// The machine with a changed program, in a folder of its own.
 fn changed(title: &str, replace: &[(String, String)]) -> PathBuf {
-    let mut program = text(PROGRAM);
-    for (from, to) in replace {
-        assert_eq!(
-            program.matches(from).count(),
-            1,
-            "{title}: '{from}' stands there once"
-        );
-        program = program.replace(from, to);
-    }
+    let program = programs::changed(title, text(PROGRAM), replace);
     let name: String = title
         .chars()
         .map(|c| if c.is_ascii_alphanumeric() { c } else { '-' })
@@ -336,33 +286,13 @@ fn changed(title: &str, replace: &[(String, String)]) -> PathBuf {
 #[test]
 fn programs_with_a_mistake_are_found_with_their_line() {
     let wrong = each(&programs().mistake, |mistake| {
-        let mut subject = library(&changed(&mistake.text, &mistake.replace));
-        subject.tasks.retain(|task| {
-            task.bound
-                .system
-                .properties
-                .iter()
-                .any(|p| p.id == mistake.breaks)
-        });
-        for task in &mut subject.tasks {
-            task.bound
-                .system
-                .properties
-                .retain(|p| p.id == mistake.breaks);
-        }
+        let subject = mistake.asked(library(&changed(&mistake.text, &mistake.replace)));
         let done = checked(&subject);
-        let found: Vec<_> = summarise(&subject, &done)
-            .into_iter()
-            .map(|one| (one.id, one.verdict, one.length))
-            .collect();
-        let expected = [(
-            mistake.breaks.clone(),
-            Verdict::Violated,
-            Some(mistake.cycles),
-        )];
-        if found != expected {
-            return Some(format!("{}: {found:?}, not {expected:?}", mistake.text));
+        let missed = mistake.missed(&summarise(&subject, &done));
+        if missed.is_some() {
+            return missed;
         }
+        let expected = mistake.line.as_ref().expect("a line");
         let named: Vec<String> = (subject.tasks.iter().zip(&done))
             .filter_map(|(task, one)| {
                 let judged = &one.outcome.report.properties[0];
@@ -375,12 +305,8 @@ fn programs_with_a_mistake_are_found_with_their_line() {
             .flatten()
             .map(|line| line.text)
             .collect();
-        (!named.iter().any(|line| line.contains(&mistake.line))).then(|| {
-            format!(
-                "{}: no line has '{}': {named:#?}",
-                mistake.text, mistake.line
-            )
-        })
+        (!named.iter().any(|line| line.contains(expected)))
+            .then(|| format!("{}: no line has '{expected}': {named:#?}", mistake.text))
     });
     let wrong: Vec<String> = wrong.into_iter().flatten().collect();
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
