@@ -1,7 +1,7 @@
 //! The guarantees of a machine file as they are answered: each with its verdict, its tightest bound and the values it depends on.
 
 use indexmap::IndexSet;
-use stillpoint_engine::check::Checked;
+use stillpoint_engine::check::{Checked, severity};
 use stillpoint_engine::subject::{Subject, Task};
 use stillpoint_machine::guarantee::Guarantee;
 use stillpoint_model::Verdict;
@@ -50,7 +50,10 @@ pub fn answers<'a>(subject: &'a Subject, checked: &'a [Checked]) -> Vec<Answer<'
         let runs: Vec<Decided> = own
             .map(|(task, done)| decided_by(subject, guarantee, task, done))
             .collect();
-        let verdict = runs.iter().map(|run| run.verdict).max_by_key(|v| rank(*v));
+        let verdict = runs
+            .iter()
+            .map(|run| run.verdict)
+            .max_by_key(|v| severity(*v));
         Answer {
             guarantee,
             verdict: verdict.unwrap_or(Verdict::Inconclusive),
@@ -58,17 +61,6 @@ pub fn answers<'a>(subject: &'a Subject, checked: &'a [Checked]) -> Vec<Answer<'
         }
     };
     guarantees.map(answer).collect()
-}
-
-/// A guarantee is as good as the worst of what decides it; one that nothing has put to the test is not kept.
-pub(crate) fn rank(verdict: Verdict) -> u8 {
-    match verdict {
-        Verdict::Violated => 4,
-        Verdict::Unreachable => 3,
-        Verdict::Vacuous => 2,
-        Verdict::Inconclusive => 1,
-        Verdict::Holds | Verdict::Reached => 0,
-    }
 }
 
 fn decided_by<'a>(
@@ -80,7 +72,7 @@ fn decided_by<'a>(
     let report = &done.outcome.report;
     let verdicts = report.properties.iter().map(|p| p.verdict);
     let faulty = (!report.faults.is_empty()).then_some(Verdict::Violated);
-    let verdict = verdicts.chain(faulty).max_by_key(|v| rank(*v));
+    let verdict = verdicts.chain(faulty).max_by_key(|v| severity(*v));
     let cycles = report.properties.iter().filter_map(|p| p.bound).max();
     let cycle = task.bound.system.cycle_us;
     Decided {

@@ -5,9 +5,9 @@
 
 pub mod acceptance;
 pub mod atomic;
+pub mod browse;
 pub mod certificate;
 pub mod diff;
-pub mod explore;
 pub mod export;
 pub mod families;
 pub mod guarantees;

@@ -6,7 +6,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-use stillpoint_engine::check::{Settings, check, summarise};
+use stillpoint_engine::check::{Settings, check, severity, summarise};
 use stillpoint_engine::subject::{self, Readings};
 use stillpoint_engine::verdict_name;
 use stillpoint_lang::diag::Diagnostics;
@@ -157,7 +157,7 @@ impl Known<'_> {
             let verdict = self.verdicts[&explored(run)];
             let name = run.guarantee.clone().unwrap_or_default();
             let worst = found.entry(name).or_insert(verdict);
-            if crate::guarantees::rank(verdict) > crate::guarantees::rank(*worst) {
+            if severity(verdict) > severity(*worst) {
                 *worst = verdict;
             }
         }

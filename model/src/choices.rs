@@ -1,4 +1,4 @@
-//! Input choices: the odometer that enumerates them on demand, and the replay of recorded ones.
+//! Input choices: the odometer that enumerates them on demand, and the replay of those of a step made before.
 
 use crate::report::Step;
 use crate::system::Choices;
@@ -235,7 +235,7 @@ impl Choices for Odometer {
     }
 }
 
-/// Answers from a recorded step. What was not recorded was not read then, so it does not matter: it reads 0.
+/// Answers from a step made before. What is not among its choices was not read then, so it does not matter: it reads 0.
 #[derive(Clone, Copy, Debug)]
 pub struct Replay<'a> {
     step: &'a [(u32, u32)],

@@ -1,4 +1,4 @@
-//! The worker threads.
+//! The worker pool: the threads of one search.
 
 use crate::report::Error;
 use std::sync::atomic::{AtomicUsize, Ordering};

@@ -1,4 +1,4 @@
-//! Keys met over and over, each of them kept once, in memory in proportion to their number and not to the meetings.
+//! Interning: keys met over and over, each of them kept once, in memory in proportion to their number and not to the meetings.
 
 /// Different keys.
 pub(crate) struct Distinct<K> {

@@ -1,4 +1,4 @@
-//! A system together with the duty of a weak until.
+//! A system together with the duty of a weak until: a product with the automaton of its obligation.
 
 use crate::choices::Odometer;
 use crate::process::{Any, AnyProcess, Origin, Process};

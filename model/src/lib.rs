@@ -1,4 +1,4 @@
-//! Explores finite systems exhaustively and judges their properties.
+//! An explicit-state model checker: explores finite systems exhaustively and judges their properties.
 //!
 //! A [`System`] says what its initial states are and what one cycle does; it asks a [`Choices`] for each input it reads.
 //! [`explore`] makes every cycle from every reachable state, enumerating only the inputs that are read, and judges

@@ -1,4 +1,4 @@
-//! Duties with an end that the next few cycles decide: bounded responses and weak until.
+//! Duties (obligations) with an end that the next few cycles decide: bounded responses, which are bounded leads-to, and weak until.
 
 use crate::crew::Crew;
 use crate::cursor::Leaf;

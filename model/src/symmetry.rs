@@ -1,4 +1,4 @@
-//! Exploration up to symmetry: one state of each orbit stands for all of them.
+//! Symmetry reduction, exploration of the quotient by a group of renamings: one state of each orbit stands for all of them.
 //!
 //! A [`Permutation`] renames state variables, inputs and values of inputs so that every cycle becomes a cycle again: the
 //! caller answers for that. [`Symmetric`] replaces the state after each cycle by the least of its images. The states so

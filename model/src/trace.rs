@@ -1,4 +1,4 @@
-//! Shortest runs to places of interest, without parent pointers in the search: a second search keeps its levels, and a
+//! Reconstruction of counterexamples and witnesses, the shortest runs to places of interest, without parent pointers in the search: a second search keeps its levels, and a
 //! walk back through them finds the predecessors.
 
 use crate::choices::Odometer;

@@ -109,7 +109,9 @@ fn the_monitor_of_the_book_works() {
     );
     edit(&at(tries), |text| before_last_brace(text, &tries.blocks[0]));
     std::fs::write(at(table), &table.blocks[0]).expect("written");
-    let peers = folder.0.join("harness/src/diff/peer/heidenhain/same.rs");
+    let peers = folder
+        .0
+        .join("harness/src/families/heidenhain/peer/same.rs");
     edit(&peers, |text| before_last_brace(text, &table.blocks[1]));
 
     // The pages are not written anew: nobody has asked for the toy in the book.

@@ -364,6 +364,12 @@ fn mistakes_are_refused() {
             "needs true or false; got 7",
         ),
         (
+            "\"X.nck.Monitoring.PositionActualValue\":-150000",
+            "\"X.nck.Monitoring.PositionActualValue\":-2147483649",
+            ":2:",
+            "allowed: -2147483648 to 2147483647",
+        ),
+        (
             "\"X.nck.SGE_SS_DISABLE\":true",
             "\"X.nck.SGE_OTHER\":true",
             ":2:",

@@ -12,6 +12,8 @@ mod manuals;
 mod parameters;
 mod programs;
 mod reaction_times;
+mod safe_logic;
+mod structure;
 mod structured_text;
 mod tables;
 mod trace;

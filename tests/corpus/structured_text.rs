@@ -12,9 +12,9 @@ use stillpoint_engine::lines;
 use stillpoint_engine::subject::{Readings, Subject, Task};
 use stillpoint_lang::Spec;
 use stillpoint_lang::bind::Bound;
+use stillpoint_logic::st::{Signature, compile};
 use stillpoint_machine as machine;
 use stillpoint_model::Verdict;
-use stillpoint_st::{Signature, compile};
 use stillpoint_tests::peer::each;
 use stillpoint_tests::root;
 

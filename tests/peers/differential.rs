@@ -11,6 +11,7 @@ use stillpoint_harness::diff::slices::slices;
 use stillpoint_harness::diff::{
     Compared, Pairing, bytes, exhaustive, pairings, peer, sample, to_json,
 };
+use stillpoint_harness::families;
 use stillpoint_model::Options;
 use stillpoint_monitors::mutant::Mutant;
 use stillpoint_show::diagram::Diagram;
@@ -45,7 +46,7 @@ const FILES: [&str; 19] = [
 type Name = (&'static str, String);
 
 fn name(pairing: &Pairing) -> Name {
-    let family = peer::family(&pairing.bound.system.name).expect("a family with monitors");
+    let family = families::of_table(&pairing.bound.system.name).expect("a family with monitors");
     (family.name, pairing.machine.clone())
 }
 
@@ -90,8 +91,11 @@ fn explore(piece: &Pairing, mutant: Option<Mutant>) -> Compared {
 
 /// The machine that a mutant is one of; none where no table states what its monitor does, so that only its contract finds it.
 fn machine(mutant: Mutant) -> Option<Name> {
-    let family = peer::family_of(mutant).expect("a family with monitors");
-    let mut names = family.machines().chain(family.systems.iter().copied());
+    let family = families::of_mutant(mutant).expect("a family with monitors");
+    let mut names = family
+        .peers
+        .machines()
+        .chain(family.peers.systems.iter().copied());
     let found = names.find(|(_, module)| *module == mutant.monitor);
     // Both channels are compared in parts of their own: see the test `pair`.
     if mutant.monitor == "pair" {
@@ -108,14 +112,17 @@ fn machine(mutant: Mutant) -> Option<Name> {
 
 /// The wrong monitors that are compared with a table, and its name.
 fn mutants() -> impl Iterator<Item = (Mutant, Name)> {
-    peer::mutants().filter_map(|mutant| Some((mutant, machine(mutant)?)))
+    families::mutants().filter_map(|mutant| Some((mutant, machine(mutant)?)))
 }
 
 #[test]
 fn no_reachable_pair_differs() {
     let compared = each(&PIECES, |piece| explore(piece, None));
-    let known = peer::FAMILIES.iter().flat_map(|family| {
-        let names = family.machines().chain(family.systems.iter().copied());
+    let known = families::FAMILIES.iter().flat_map(|family| {
+        let names = family
+            .peers
+            .machines()
+            .chain(family.peers.systems.iter().copied());
         names
             .filter(|(machine, _)| !both_channels(machine))
             .map(|(machine, _)| (family.name, machine.to_owned()))
@@ -165,8 +172,12 @@ fn explored(excepted: bool) -> Vec<(Mutant, Option<Diagram>)> {
 
 #[test]
 fn every_wrong_monitor_is_found_by_exploration() {
-    let names: BTreeSet<&str> = peer::mutants().map(|mutant| mutant.name).collect();
-    assert_eq!(names.len(), peer::mutants().count(), "a name is given once");
+    let names: BTreeSet<&str> = families::mutants().map(|mutant| mutant.name).collect();
+    assert_eq!(
+        names.len(),
+        families::mutants().count(),
+        "a name is given once"
+    );
     for (mutant, diagram) in explored(false) {
         let diagram = diagram.unwrap_or_else(|| panic!("{mutant:?} survives"));
         let text = diagram.text();

@@ -4,6 +4,7 @@ use stillpoint_engine::subject::{self, Readings};
 use stillpoint_harness::diff::peer;
 use stillpoint_harness::diff::slices::slices;
 use stillpoint_harness::diff::{Compared, Pairing, exhaustive, pairings};
+use stillpoint_harness::families;
 use stillpoint_model::Options;
 use stillpoint_monitors::mutant::Mutant;
 use stillpoint_tests::root;
@@ -115,7 +116,7 @@ const WRONG: [(&str, usize); 15] = [
 #[test]
 fn every_wrong_coupling_is_found() {
     let parts = parts();
-    let all = peer::mutants().filter(|m| m.monitor == "pair");
+    let all = families::mutants().filter(|m| m.monitor == "pair");
     let names: Vec<&str> = all.map(|m| m.name).collect();
     assert_eq!(names, WRONG.map(|(name, _)| name));
     for (name, part) in WRONG {

@@ -7,17 +7,18 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, LazyLock};
 
 use stillpoint_engine::subject::{self, Readings};
+use stillpoint_harness::browse::http::Head;
 use stillpoint_harness::diff::product::Product;
 use stillpoint_harness::diff::{Pairing, bytes, pairings, peer};
-use stillpoint_harness::explore::http::Head;
 use stillpoint_harness::recording::csv::{self, Columns};
 use stillpoint_harness::recording::{Recording, Signal, Target as Machinery, ndjson};
 use stillpoint_harness::simulate::{self, Scenario};
 use stillpoint_lang::Spec;
 use stillpoint_lang::diag::Diagnostics;
 use stillpoint_lang::syntax::{parse_decl, parse_effect, parse_expr, parse_type};
+use stillpoint_logic::spf::{self, Interface, Mode, Output};
+use stillpoint_logic::st::{Signature, compile};
 use stillpoint_machine::{self as machine, Machine, families};
-use stillpoint_st::{Signature, compile};
 
 use crate::random::Random;
 use crate::{files, root};
@@ -37,7 +38,7 @@ pub struct Target {
 }
 
 /// Every target.
-pub static TARGETS: [Target; 9] = [
+pub static TARGETS: [Target; 10] = [
     Target {
         name: "certificate",
         component: "`stillpoint certify`",
@@ -112,6 +113,13 @@ pub static TARGETS: [Target; 9] = [
         run: request,
     },
     Target {
+        name: "safe_logic",
+        component: "the safe logic of a SINUMERIK 840D, SAFE.SPF",
+        property: "a program, which is the same when it is shown and read again, with a table; or errors whose places lie in the text",
+        seeds: || read(&files("tests/corpus/sinumerik-840d/safe-spf", "spf")),
+        run: safe_logic,
+    },
+    Target {
         name: "scenario",
         component: "scenarios of `stillpoint simulate`",
         property: "a scenario of the milling machine, or errors whose places lie in the text",
@@ -149,12 +157,17 @@ fn milling_file() -> PathBuf {
     root().join("spec/machines/milling-840d.toml")
 }
 
-static MILLING: LazyLock<(Machine, Vec<Signal>)> = LazyLock::new(|| {
-    let path = milling_file();
-    let machine = machine::load(&path, &families(&path)).unwrap_or_else(|e| panic!("{e}"));
+static MILLING: LazyLock<(Machine, Vec<Signal>)> = LazyLock::new(|| with_signals(&milling_file()));
+
+/// A machine that runs as a whole, with the signals of another family.
+static CENTRE: LazyLock<(Machine, Vec<Signal>)> =
+    LazyLock::new(|| with_signals(&root().join("spec/machines/machining-centre-heidenhain.toml")));
+
+fn with_signals(path: &Path) -> (Machine, Vec<Signal>) {
+    let machine = machine::load(path, &families(path)).unwrap_or_else(|e| panic!("{e}"));
     let signals = simulate::signals(&machine);
     (machine, signals)
-});
+}
 
 /// A text of valid UTF-8; else nothing is driven, since all readers refuse it alike.
 fn text(data: &[u8]) -> Option<Arc<str>> {
@@ -257,36 +270,96 @@ fn program(data: &[u8]) -> bool {
     judged(compiled)
 }
 
-/// A short run of the milling machine in both formats.
-fn recordings() -> Vec<Vec<u8>> {
-    let path = root().join("spec/scenarios/encoder-freeze.toml");
-    let machine = &MILLING.0;
-    let scenario = Scenario::load(&path, machine).unwrap_or_else(|e| panic!("{e}"));
-    let simulation = simulate::run(machine, &scenario).unwrap_or_else(|e| panic!("{e}"));
-    let mut short = simulation.recording.clone();
-    short.rows.truncate(20);
-    let written = |write: fn(&Recording, &mut dyn std::io::Write) -> std::io::Result<()>| {
-        let mut bytes = Vec::new();
-        write(&short, &mut bytes).expect("written to memory");
-        bytes
+fn safe_logic(data: &[u8]) -> bool {
+    static SPL: LazyLock<Spec> = LazyLock::new(|| {
+        let text = "spec = \"fuzzed\"\n[machine.spl]\ntext = \"t\"\notherwise = \"stay\"\n[machine.spl.output]\np = \"FALSE\"\n";
+        Spec::from_text("spl.toml".as_ref(), Arc::from(text)).unwrap_or_else(|e| panic!("{e}"))
+    });
+    let Some(source) = text(data) else {
+        return false;
     };
-    vec![written(ndjson::write), written(csv::write)]
+    let mut accepted = false;
+    for mode in [Mode::Strict, Mode::Listing] {
+        let read = spf::parse("fuzzed.spf", &source, mode);
+        if let Ok(program) = &read {
+            let shown: Arc<str> = Arc::from(program.to_string());
+            if !program.is_fragment() {
+                let again = spf::parse("again.spf", &shown, Mode::Strict);
+                let again = again.unwrap_or_else(|e| panic!("{e}\n{shown}"));
+                assert_eq!(again.to_string(), *shown);
+            }
+            let written = program.variables().into_iter().find(|used| used.writes);
+            let variable = written.map(|used| used.variable);
+            let variable = variable.filter(|v| v.to_string().starts_with("OUTS"));
+            let interface = Interface {
+                signature: Signature::of(&SPL, "spl").unwrap_or_else(|e| panic!("{e}")),
+                inputs: Vec::new(),
+                outputs: vec![(
+                    "p".to_owned(),
+                    variable.map_or(Output::Constant(true), |variable| Output::Variable {
+                        variable,
+                        inverted: false,
+                    }),
+                )],
+                scan: None,
+                readings: spf::Readings::default(),
+            };
+            let compiled = program.compile(&interface);
+            if let Ok(compiled) = &compiled {
+                let mut spec = SPL.clone();
+                let name = toml::Spanned::new(0..0, "spl".to_owned());
+                spec.replace("fuzzed.spf", &source, &name, &compiled.machine)
+                    .and_then(|()| spec.open_machine("spl").map(drop))
+                    .unwrap_or_else(|e| panic!("accepted, and no table: {e}"));
+            }
+            accepted |= judged(compiled);
+        }
+        accepted |= judged(read);
+    }
+    accepted
 }
 
+/// Short runs of both machines, in both formats.
+fn recordings() -> Vec<Vec<u8>> {
+    let runs = [
+        (&MILLING.0, "encoder-freeze.toml"),
+        (&CENTRE.0, "heidenhain-fs/emergency-stop.toml"),
+    ];
+    let both = runs.map(|(machine, scenario)| {
+        let path = root().join("spec/scenarios").join(scenario);
+        let scenario = Scenario::load(&path, machine).unwrap_or_else(|e| panic!("{e}"));
+        let simulation = simulate::run(machine, &scenario).unwrap_or_else(|e| panic!("{e}"));
+        let mut short = simulation.recording;
+        short.rows.truncate(20);
+        let written = |write: fn(&Recording, &mut dyn std::io::Write) -> std::io::Result<()>| {
+            let mut bytes = Vec::new();
+            write(&short, &mut bytes).expect("written to memory");
+            bytes
+        };
+        [written(ndjson::write), written(csv::write)]
+    });
+    both.concat()
+}
+
+/// The recording of a machine, of whichever it is one.
 fn recording(data: &[u8]) -> bool {
     let Some(text) = text(data) else {
         return false;
     };
-    let (machine, signals) = &*MILLING;
+    let read = [&*MILLING, &*CENTRE].map(|of| recording_of(&text, of));
+    read.contains(&true)
+}
+
+fn recording_of(text: &Arc<str>, (machine, signals): &(Machine, Vec<Signal>)) -> bool {
     let target = Machinery {
         machine: &machine.name,
         cycle_us: u64::try_from(machine.monitoring_cycle).unwrap_or(0),
         signals,
     };
     let result = if text.starts_with('{') {
-        ndjson::read("fuzzed", &text, &target)
+        ndjson::read("fuzzed", text, &target)
     } else {
-        csv::read("fuzzed", &text, &Columns::by_name(&text, &target), &target)
+        csv::read("fuzzed", text, &Columns::by_name(text, &target), &target)
     };
     if let Ok(recording) = &result {
         let mut bytes = Vec::new();

@@ -1,4 +1,4 @@
-//! Which cells matter later in a cycle.
+//! Live variables: which cells matter later in a cycle.
 
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::ir::{Node, Space};

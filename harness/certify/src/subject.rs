@@ -1,6 +1,7 @@
 //! What a certificate is about, taken from the specification alone.
 
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
@@ -60,15 +61,18 @@ impl Subject {
                 let machine = machine::load(path, &families).map_err(unreadable)?;
                 files.push(path.to_owned());
                 files.extend(machine.data_files());
-                let mut specs: BTreeMap<&Path, Spec> = BTreeMap::new();
+                let mut specs: BTreeMap<_, Spec> = BTreeMap::new();
                 for run in &machine.runs {
-                    if !specs.contains_key(run.file.as_path()) {
-                        let spec = machine.spec(&run.file).map_err(unreadable)?;
-                        files.extend(spec.files().map(PathBuf::from));
-                        specs.insert(&run.file, spec);
-                    }
+                    let spec = match specs.entry((&run.file, &run.wiring)) {
+                        Entry::Occupied(known) => known.into_mut(),
+                        Entry::Vacant(new) => {
+                            let spec = machine.spec(run).map_err(unreadable)?;
+                            files.extend(spec.files().map(PathBuf::from));
+                            new.insert(spec)
+                        }
+                    };
                     let cycle = u64::try_from(run.cycle).ok();
-                    let bound = specs[run.file.as_path()].system(&run.system, cycle);
+                    let bound = spec.system(&run.system, cycle);
                     subject.add(run.title.clone(), bind(bound, &run.params, readings)?);
                 }
             }

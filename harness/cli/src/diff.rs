@@ -61,8 +61,8 @@ pub struct Arguments {
 }
 
 pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
-    if let Some(trace) = &arguments.trace {
-        return replay(arguments, trace);
+    if let Some(path) = &arguments.trace {
+        return replay(arguments, path);
     }
     let mutant = arguments
         .mutant
@@ -160,7 +160,7 @@ fn explore(
 }
 
 /// Replays a recording.
-fn replay(arguments: &Arguments, trace: &Path) -> Result<u8, Failure> {
+fn replay(arguments: &Arguments, path: &Path) -> Result<u8, Failure> {
     let machine = machine::load(&arguments.file, &machine::families(&arguments.file))?;
     families::of(&machine).map_err(Failure::Other)?;
     let signals = simulate::signals(&machine);
@@ -169,12 +169,12 @@ fn replay(arguments: &Arguments, trace: &Path) -> Result<u8, Failure> {
         cycle_us: u64::try_from(machine.monitoring_cycle).unwrap_or(0),
         signals: &signals,
     };
-    let text = recording::read_file(trace)?;
-    let name = trace.display().to_string();
+    let text = recording::read_file(path)?;
+    let name = path.display().to_string();
     let recording = match &arguments.columns {
         Some(map) => {
             let columns = match map.contains('=') {
-                true => Columns::parse(map).map_err(Failure::Other)?,
+                true => Columns::parse(map, &target).map_err(Failure::Other)?,
                 false => Columns::load(Path::new(map))?,
             };
             csv::read(&name, &text, &columns, &target)?

@@ -5,8 +5,8 @@ use std::time::Duration;
 
 use clap::Args;
 use stillpoint_engine::subject;
-use stillpoint_harness::explore::server::Listening;
-use stillpoint_harness::explore::{Bounds, Explorer};
+use stillpoint_harness::browse::server::Listening;
+use stillpoint_harness::browse::{Bounds, Walks};
 use stillpoint_harness::export::select;
 
 use super::{Failure, emit, values};
@@ -59,10 +59,10 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         memory: arguments.memory,
         threads: arguments.threads,
     };
-    let explorer = Explorer::new(subject, start, bounds);
+    let walks = Walks::new(subject, start, bounds);
     let listening = Listening::new(arguments.port).map_err(Failure::Other)?;
     emit(&format!("{}\n", listening.url()));
     eprintln!("The page is there until this command is ended (Ctrl+C).");
-    listening.serve(&explorer);
+    listening.serve(&walks);
     Ok(0)
 }

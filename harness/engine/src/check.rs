@@ -205,15 +205,28 @@ fn unfired(task: &Task, outcome: &Outcome) -> Vec<(String, Unfired)> {
 
 /// Rank of a verdict when several runs are put together: what says most about a fault comes first.
 fn rank(one: &Summary) -> u8 {
+    // A property of the family is put to the test elsewhere, a guarantee of this machine nowhere else.
+    if one.guarantee {
+        return severity(one.verdict);
+    }
     match one.verdict {
         Verdict::Violated => 6,
         Verdict::Unreachable if !one.excluded => 5,
         Verdict::Inconclusive => 4,
-        // A property of the family is put to the test elsewhere, a guarantee of this machine nowhere else.
-        Verdict::Vacuous if one.guarantee => 4,
         Verdict::Holds | Verdict::Reached => 3,
         Verdict::Unreachable => 2,
         Verdict::Vacuous => 1,
+    }
+}
+
+/// A guarantee is as good as the worst of what decides it; one that nothing has put to the test is not kept.
+pub fn severity(verdict: Verdict) -> u8 {
+    match verdict {
+        Verdict::Violated => 4,
+        Verdict::Unreachable => 3,
+        Verdict::Vacuous => 2,
+        Verdict::Inconclusive => 1,
+        Verdict::Holds | Verdict::Reached => 0,
     }
 }
 

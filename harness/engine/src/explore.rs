@@ -12,7 +12,7 @@ use stillpoint_model::{
 
 use crate::keep::beside;
 use crate::outcome::{Evaluator, Outcome, Pair, label, undecided};
-use crate::recorded;
+use crate::stated;
 use crate::table::{Generated, Interpreted, properties};
 
 /// Explores `bound` and judges all its properties; `interpret` forces the interpreter.
@@ -57,7 +57,7 @@ pub fn run_together(
             )
         }
     };
-    let refuted = recorded::judge(bound, &mut found.report.properties);
+    let refuted = stated::judge(bound, &mut found.report.properties);
     Ok(Outcome {
         report: found.report,
         evaluator,

@@ -11,8 +11,8 @@ pub mod keep;
 pub mod lines;
 mod outcome;
 pub mod readings;
-mod recorded;
 pub mod reduce;
+mod stated;
 pub mod subject;
 pub mod table;
 

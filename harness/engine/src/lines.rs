@@ -1,11 +1,11 @@
-//! Which lines of a program decide a cycle. What a program in Structured Text computes stands in the tables as named expressions
+//! Which lines of a program decide a cycle. What a program computes stands in the tables as named expressions
 //! whose description begins with their line: `line 12: x := a AND b;`.
 
 use std::collections::BTreeSet;
 
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::eval::Frame;
-use stillpoint_lang::ir::{BinaryOp, Node, Property};
+use stillpoint_lang::ir::{BinaryOp, Lazy, LazyKind, Node, Property};
 use stillpoint_model::Trace;
 
 use crate::{Cycle, replay};
@@ -22,7 +22,8 @@ pub struct Line {
 }
 
 /// The lines that decide what a property says of the last cycle of a run, in the order of the program: for a choice the branch
-/// that was taken, for AND and OR the operand that decides. None where no program is part of the system.
+/// that was taken, for AND and OR the operand that decides. Where the property reads nothing of the program itself, the lines that
+/// decide what the program gives in that cycle. None where no program is part of the system.
 pub fn deciding(bound: &Bound, property: &Property, trace: &Trace) -> Vec<Line> {
     let cycles = replay(bound, trace);
     let Some(cycle) = cycles.last() else {
@@ -40,7 +41,21 @@ pub fn deciding(bound: &Bound, property: &Property, trace: &Trace) -> Vec<Line> 
     observed
         .iter()
         .for_each(|k| search.visit(&system.observed[*k]));
+    if search.lines.is_empty() {
+        search.outputs();
+    }
     search.lines.into_iter().collect()
+}
+
+/// The line of a program that the text of a named expression begins with.
+fn line(text: &str) -> Option<(usize, &str)> {
+    let (number, text) = text.strip_prefix("line ")?.split_once(": ")?;
+    Some((number.parse().ok()?, text))
+}
+
+/// The instance that a name belongs to.
+fn instance(name: &str) -> Option<&str> {
+    name.split_once('.').map(|(instance, _)| instance)
 }
 
 struct Search<'a> {
@@ -58,14 +73,23 @@ impl Search<'_> {
             .value(node, &mut frame, &mut |i| self.bound.inputs[i].0)
     }
 
+    /// What a property does not read of the program acts through what the program gives: everything that it gives.
+    fn outputs(&mut self) {
+        let lazies = &self.bound.system.lazies;
+        let told = lazies.iter().filter(|lazy| line(&lazy.text).is_some());
+        let of: BTreeSet<&str> = told.filter_map(|lazy| instance(&lazy.name)).collect();
+        let given = |lazy: &Lazy| {
+            lazy.kind == LazyKind::Output && instance(&lazy.name).is_some_and(|i| of.contains(i))
+        };
+        let given = (0..).zip(lazies).filter(|(_, lazy)| given(lazy));
+        let given: Vec<u32> = given.map(|(k, _)| k).collect();
+        given.into_iter().for_each(|k| self.visit(&Node::Lazy(k)));
+    }
+
     /// Adds the line of a named expression, if it has one.
     fn note(&mut self, k: u32) {
         let lazy = &self.bound.system.lazies[k as usize];
-        let told = lazy
-            .text
-            .strip_prefix("line ")
-            .and_then(|rest| rest.split_once(": "));
-        let Some((Ok(number), text)) = told.map(|(number, text)| (number.parse(), text)) else {
+        let Some((number, text)) = line(&lazy.text) else {
             return;
         };
         let value = self.value(&Node::Lazy(k));

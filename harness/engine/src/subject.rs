@@ -1,6 +1,7 @@
 //! What a command works on: the systems of a specification file, or the runs of a machine file.
 
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -141,12 +142,12 @@ pub fn of_runs(
     readings: &Readings,
 ) -> Result<Subject> {
     let mut tasks = Vec::new();
-    let mut specs: BTreeMap<PathBuf, Spec> = BTreeMap::new();
+    let mut specs: BTreeMap<_, Spec> = BTreeMap::new();
     for run in runs {
-        if !specs.contains_key(&run.file) {
-            specs.insert(run.file.clone(), machine.spec(&run.file)?);
-        }
-        let spec = &specs[&run.file];
+        let spec = match specs.entry((&run.file, &run.wiring)) {
+            Entry::Occupied(known) => known.into_mut(),
+            Entry::Vacant(new) => new.insert(machine.spec(run)?),
+        };
         let cycle = u64::try_from(run.cycle).ok();
         let system = spec.system(&run.system, cycle)?;
         let source: Arc<str> = Arc::from("");

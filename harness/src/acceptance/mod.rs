@@ -1,10 +1,10 @@
 //! `acceptance`: the protocol of the acceptance test of a machine, and what of it has to be repeated after a change.
 
+mod document;
+mod expected;
 mod results;
 mod run;
-mod show;
 mod since;
-mod trace;
 
 use std::io;
 use std::path::Path;
@@ -15,10 +15,10 @@ use stillpoint_lang::files;
 use stillpoint_machine::Machine;
 use stillpoint_machine::acceptance::{Expect, Protocol, Simulated, Test};
 
+pub use document::document;
+pub use expected::expected;
 pub use run::{Ran, Unfit, on_the_machine, run};
-pub use show::document;
 pub use since::{Change, Repeat, Since, since};
-pub use trace::expected;
 
 /// What the protocol belongs to.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -3,7 +3,7 @@
 use stillpoint_machine::acceptance::Test;
 use stillpoint_show::document::{Block, Inline, Tone};
 
-use super::show::anchor;
+use super::document::anchor;
 use super::{Ran, on_the_machine};
 
 /// What the tests gave on the simulated axis: the result, and the section with the details.

@@ -1,4 +1,4 @@
-//! Certificates: files with everything that is needed to check the verdicts of a report again.
+//! Certificates, inductive invariants with ranking functions and witnesses: files with everything that is needed to check the verdicts of a report again.
 //!
 //! What a certificate has to show is defined by its checker, the crate `stillpoint-certify`. This module finds the sets,
 //! ranks and runs it asks for, with another walk through the reachable states; nothing that is confirmed rests on it.

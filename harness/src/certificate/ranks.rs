@@ -1,4 +1,4 @@
-//! Ranks of the states in which something is awaited, and distances to a goal.
+//! Ranks (ranking functions) of the states in which something is awaited, and distances to a goal.
 
 use petgraph::algo::kosaraju_scc;
 use petgraph::graph::{DiGraph, NodeIndex};

@@ -1,4 +1,4 @@
-//! `diff`: checks the production monitors against the tables, exhaustively, with random runs, or both against a recording.
+//! `diff`, the differential check, a refinement check by product construction: checks the production monitors against the tables, exhaustively, with random runs, or both against a recording.
 
 pub mod bytes;
 pub mod compact;

@@ -9,6 +9,8 @@ use stillpoint_lang::bind::Bound;
 use stillpoint_lang::files;
 use stillpoint_lang::ir::System;
 
+use crate::families;
+
 use super::random::Random;
 use super::{DiffError, peer};
 
@@ -53,11 +55,11 @@ pub fn pairings(subject: &Subject) -> Result<Vec<Pairing>, DiffError> {
             Some(machine) => machine.runs[k].file.clone(),
             None => subject.path.clone(),
         };
-        let Some(family) = peer::family(&task.bound.system.name) else {
+        let Some(family) = families::of_table(&task.bound.system.name) else {
             continue;
         };
         let spec = files.get(&file)?;
-        for (name, _) in family.machines() {
+        for (name, _) in family.peers.machines() {
             let mut instances = task.bound.system.instances.iter();
             if instances.any(|i| i.machine == name) {
                 let system = spec.open_machine(name)?;
@@ -65,7 +67,7 @@ pub fn pairings(subject: &Subject) -> Result<Vec<Pairing>, DiffError> {
                 add(&mut out, name, false, &task.axes, system, given)?;
             }
         }
-        for &(name, _) in family.systems {
+        for &(name, _) in family.peers.systems {
             if task.bound.system.name.ends_with(&format!("/{name}")) {
                 let system = task.bound.system.clone();
                 let given = parameters_of(&task.bound, &system);
@@ -93,7 +95,8 @@ pub(super) fn parameters_of(run: &Bound, system: &System) -> BTreeMap<String, Ve
 
 /// Gives the parameters that the monitor has as constants their values.
 fn fix(name: &str, system: &System, given: &mut BTreeMap<String, Vec<i64>>) {
-    let fixed = peer::family(&system.name).map_or(&[][..], |family| family.fixed);
+    let family = families::of_table(&system.name);
+    let fixed = family.map_or(&[][..], |family| family.peers.fixed);
     for (_, param, value) in fixed.iter().filter(|(machine, ..)| *machine == name) {
         given.insert((*param).to_owned(), vec![*value]);
     }
@@ -142,11 +145,11 @@ fn add_unused(out: &mut Vec<Pairing>, files: &mut Files, folder: &Path) -> Resul
     let mut paths = files::list(folder).map_err(fault)?;
     paths.retain(|p| p.extension().is_some_and(|e| e == "toml"));
     let name = folder.file_name().unwrap_or_default().to_string_lossy();
-    let Some(family) = peer::family(&name) else {
+    let Some(family) = families::of_table(&name) else {
         return Ok(());
     };
-    let machines: Vec<_> = family.machines().collect();
-    let kinds = [("machine", &machines[..]), ("system", family.systems)];
+    let machines: Vec<_> = family.peers.machines().collect();
+    let kinds = [("machine", &machines[..]), ("system", family.peers.systems)];
     for path in paths {
         let text = files::read_to_string(&path).map_err(fault)?;
         for (kind, names) in kinds {

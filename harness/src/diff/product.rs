@@ -1,4 +1,4 @@
-//! The product of a table and its monitor: one system that drives both with the same inputs and compares them.
+//! The synchronous product of a table and its monitor: one system that drives both with the same inputs and compares them.
 
 use stillpoint_engine::table;
 use stillpoint_lang::bind::Bound;

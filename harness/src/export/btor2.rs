@@ -14,7 +14,7 @@ use stillpoint_lang::ir::BinaryOp;
 use super::Unsupported;
 use super::about::{about, not_carried};
 use super::circuit::{Circuit, Claim, Id, Op, Sort};
-use super::fold::{Folded, Range, hull};
+use super::folded::{Folded, Range, hull};
 use super::types::is_arithmetic;
 use super::writer::{meaning, statement};
 

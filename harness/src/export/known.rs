@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use stillpoint_lang::ir::{Node, Space};
 
-use super::fold::Folded;
+use super::folded::Folded;
 
 /// Whether something has its value at a place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

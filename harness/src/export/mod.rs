@@ -7,7 +7,7 @@ mod about;
 pub mod btor2;
 mod circuit;
 pub mod dot;
-mod fold;
+mod folded;
 pub mod json;
 mod known;
 pub mod murphi;

@@ -14,7 +14,7 @@ use stillpoint_lang::ir::{BinaryOp, Var};
 use super::Unsupported;
 use super::about::{about, not_carried};
 use super::circuit::{Circuit, Claim, Id, Op, Sort};
-use super::fold::Folded;
+use super::folded::Folded;
 use super::syntax::{Syntax, usual};
 use super::writer::{Naming, Writer, meaning, statement};
 

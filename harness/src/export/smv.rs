@@ -15,7 +15,7 @@ use stillpoint_lang::ir::{BinaryOp, Ty, Var};
 use super::Unsupported;
 use super::about::{about, not_carried};
 use super::circuit::{Circuit, Op};
-use super::fold::Folded;
+use super::folded::Folded;
 use super::syntax::{Syntax, usual};
 use super::writer::{Naming, Writer, meaning, statement};
 

@@ -35,25 +35,6 @@ fn strength(op: BinaryOp) -> u8 {
     }
 }
 
-fn symbol(op: BinaryOp) -> &'static str {
-    match op {
-        BinaryOp::Or => "OR",
-        BinaryOp::Xor => "XOR",
-        BinaryOp::And => "AND",
-        BinaryOp::Eq => "=",
-        BinaryOp::Ne => "<>",
-        BinaryOp::Lt => "<",
-        BinaryOp::Gt => ">",
-        BinaryOp::Le => "<=",
-        BinaryOp::Ge => ">=",
-        BinaryOp::Add => "+",
-        BinaryOp::Sub => "-",
-        BinaryOp::Mul => "*",
-        BinaryOp::Div => "/",
-        BinaryOp::Mod => "MOD",
-    }
-}
-
 impl Printer<'_> {
     fn type_of(&self, node: &Node) -> Option<Ty> {
         type_of(self.system, node)
@@ -110,7 +91,7 @@ impl Printer<'_> {
                 let text = format!(
                     "{} {} {}",
                     self.show(a, both, s),
-                    symbol(*op),
+                    op.symbol(),
                     self.show(b, both, s + 1)
                 );
                 if s < around {

@@ -1,278 +1,61 @@
-//! What the harness knows of a family of drives: the trait [`Drive`].
+//! The families of drives that the harness has code for: a registry, one entry a family.
 //!
-//! A simulation, a recording, a replay, the results of an acceptance test and a walk work with any family that implements it.
-//! Which family a machine file belongs to, and what implements it, stands in [`of`] and nowhere else.
+//! Everything that is code of a family stands in its own module, its room, and is reached through its [`Family`]: its monitors as
+//! [`Peers`] of its tables, and what its whole machines are to the commands, as a [`Drive`]. Only this file names families.
 
+mod drive;
 pub mod heidenhain;
 pub mod sinumerik;
 
-use stillpoint_machine::{Axis as MachineAxis, AxisKind, Machine};
+use stillpoint_machine::Machine;
+use stillpoint_monitors::mutant::Mutant;
 
-use crate::plant::{Axis, Door};
-use crate::recording::vocabulary::Unit;
-use crate::recording::{Kind, Role, Signal, Value};
+use crate::diff::peer::Peers;
+pub use drive::*;
 
-/// The families whose production monitors run whole machines.
-static FAMILIES: [&dyn Drive; 2] = [&sinumerik::Sinumerik, &heidenhain::Heidenhain];
+/// The families with monitors. A new one is registered here, and nowhere else in the harness.
+pub static FAMILIES: [&Family; 2] = [&sinumerik::FAMILY, &heidenhain::FAMILY];
 
-/// What implements the family of a machine.
+/// A family of drives: what of it is code.
+pub struct Family {
+    /// Its name in a machine file, and the folder of its tables: the first part of their names.
+    pub name: &'static str,
+    /// The module of its monitors.
+    pub module: &'static str,
+    /// Its monitors as peers of its tables, for `diff`.
+    pub peers: Peers,
+    /// Its deliberately wrong monitors.
+    pub mutants: fn() -> Vec<Mutant>,
+    /// What its whole machines are to the commands; none where its monitors run no whole axes.
+    pub drive: Option<&'static dyn Drive>,
+}
+
+/// What runs whole machines of the family of a machine.
 ///
 /// # Errors
 /// A sentence: its whole axes cannot be run, and what can be done instead.
 pub fn of(machine: &Machine) -> Result<&'static dyn Drive, String> {
-    let mut all = FAMILIES.into_iter();
-    all.find(|drive| drive.name() == machine.family)
-        .ok_or_else(|| {
-            format!(
-                "{}: no production monitors run the axes of the family {}; there are check, reaction, acceptance and explore",
-                machine.name, machine.family
-            )
-        })
+    let family = FAMILIES.into_iter().find(|f| f.name == machine.family);
+    family.and_then(|family| family.drive).ok_or_else(|| {
+        format!(
+            "{}: no production monitors run the axes of the family {}; there are check, reaction, acceptance and explore",
+            machine.name, machine.family
+        )
+    })
 }
 
-/// A family of drives whose production monitors run in both channels.
-pub trait Drive: Sync {
-    /// Its name in a machine file.
-    fn name(&self) -> &'static str;
-
-    /// What it calls things.
-    fn words(&self) -> &'static Words;
-
-    /// Whether the monitors accept the values of a machine.
-    ///
-    /// # Errors
-    /// A sentence that names the axis.
-    fn accepts(&self, machine: &Machine) -> Result<(), String>;
-
-    /// What has signals in both channels: the axes of the machine in their order, then what else there is.
-    fn owners(&self, machine: &Machine) -> Vec<Owner>;
-
-    /// The alarms, each with the channel that raises it.
-    fn alarms(&self) -> Vec<(String, usize)>;
-
-    /// What is watched of an axis and drawn beside its position.
-    fn windows(&self, axis: &MachineAxis) -> Windows;
-
-    /// The limit of a stage of [`Words::stages`], in base units per minute.
-    fn stage(&self, machine: &Machine, axis: &MachineAxis, stage: usize) -> Option<i64>;
-
-    /// Why a channel stops, in words.
-    fn reason(&self, said: &Said<'_>) -> String;
-
-    /// The monitors of the machine at the start of a scenario.
-    ///
-    /// # Errors
-    /// Those of [`Drive::accepts`].
-    fn power<'a>(
-        &self,
-        machine: &'a Machine,
-        axes: &[Axis],
-        start: &Start,
-    ) -> Result<Box<dyn Monitors + 'a>, String>;
-
-    /// Drives the monitors of one axis alone, with its tables beside them if asked for.
-    ///
-    /// # Errors
-    /// Those of [`Drive::accepts`]; tables and monitors that do not fit each other; the family has no such monitors.
-    fn play(
-        &self,
-        machine: &Machine,
-        axis: usize,
-        tables: bool,
-        play: &mut dyn FnMut(&mut dyn Rig),
-    ) -> Result<(), String>;
-
-    /// What the inputs of the tables are to the channels of an axis: what a walk through them gives to the monitors.
-    /// Empty: no walk can be recorded.
-    fn feeds(&self) -> &'static [Feed];
+/// The family with monitors that a machine, a system or a file of its tables belongs to, by its full name.
+pub fn of_table(name: &str) -> Option<&'static Family> {
+    let folder = name.split('/').next()?;
+    FAMILIES.into_iter().find(|family| family.name == folder)
 }
 
-/// What a family calls things, in scenarios, in reports and in diagrams.
-pub struct Words {
-    /// The channels, in the order in which they are stored.
-    pub channels: [&'static str; 2],
-    /// The stops in rising order, from none on.
-    pub stops: &'static [&'static str],
-    /// The same for a reader who looks for one.
-    pub stops_listed: &'static [&'static str],
-    /// What a sentence puts before the name of a stop.
-    pub stop: &'static str,
-    /// What a mode can select, and the function that an axis needs for it.
-    pub selections: (&'static [&'static str], Option<&'static str>),
-    /// It is selected for the whole machine.
-    pub of_machine: bool,
-    /// The pairs of limit positions that can be selected, and the function that an axis needs for it.
-    pub limits: (&'static [&'static str], Option<&'static str>),
-    /// The stops that can be asked for from outside, each with the function that an axis needs for it.
-    pub asked: &'static [(&'static str, Option<&'static str>)],
-    /// The stages of the speed, of whose limit a setpoint may be a share.
-    pub stages: &'static [&'static str],
-    /// The inputs that every recording tells, beside the position.
-    pub told: &'static [&'static str],
-    /// An input, as an example.
-    pub example: &'static str,
-    /// Inputs that are true for a cycle: lanes of their own.
-    pub events: &'static [&'static str],
-    /// Outputs that are shown where they change: both channels in one lane while they agree.
-    pub lanes: &'static [&'static str],
-    /// What is drawn beside a curve: limit of the speed, the same backwards, window of the standstill, limit positions.
-    pub curves: [&'static str; 4],
+/// The family of a wrong monitor.
+pub fn of_mutant(mutant: Mutant) -> Option<&'static Family> {
+    FAMILIES.into_iter().find(|f| f.module == mutant.family)
 }
 
-/// What has signals: an axis, or a part of the machine that is none.
-pub struct Owner {
-    /// Its name, the first part of the names of its signals.
-    pub name: String,
-    /// The kind of the axis; none for what is no axis.
-    pub axis: Option<AxisKind>,
-    /// The signals that a channel reads.
-    pub inputs: Vec<Port>,
-    /// The signals that a channel writes.
-    pub outputs: Vec<Port>,
-}
-
-impl Owner {
-    /// The full name of a signal in a channel.
-    pub fn signal(&self, channel: &str, name: &str) -> String {
-        format!("{}.{channel}.{name}", self.name)
-    }
-
-    /// Its signals in a channel, as a recording declares them.
-    pub fn signals(&self, channel: &str) -> Vec<Signal> {
-        let rotary = self.axis == Some(AxisKind::Rotary);
-        let declared = |port: &Port, role| Signal {
-            name: self.signal(channel, port.name),
-            kind: port.kind,
-            unit: port.unit.text(rotary).to_owned(),
-            role,
-        };
-        let inputs = self.inputs.iter().map(|port| declared(port, Role::Input));
-        let outputs = self.outputs.iter().map(|port| declared(port, Role::Output));
-        inputs.chain(outputs).collect()
-    }
-}
-
-/// A signal of a channel.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Port {
-    /// Its name within the channel.
-    pub name: &'static str,
-    /// What its values are.
-    pub kind: Kind,
-    /// What a number counts.
-    pub unit: Unit,
-}
-
-/// What is watched of an axis, in um or thousandths of a degree.
-#[derive(Clone, Debug)]
-pub struct Windows {
-    /// How far it may get from where it stood.
-    pub standstill: i64,
-    /// The upper limit positions.
-    pub plus: [i32; 2],
-    /// The lower limit positions.
-    pub minus: [i32; 2],
-    /// The limit positions are watched at all.
-    pub limited: bool,
-}
-
-/// What a channel says of an axis in the cycle of a stop, and in the one before.
-pub struct Said<'a> {
-    /// The channel.
-    pub side: usize,
-    /// The value of one of its signals, so many cycles before.
-    pub value: &'a dyn Fn(&str, usize) -> Option<Value>,
-}
-
-impl Said<'_> {
-    /// A name; empty where there is none.
-    pub fn text(&self, name: &str) -> String {
-        match (self.value)(name, 0) {
-            Some(Value::Text(text)) => text.into_owned(),
-            _ => String::new(),
-        }
-    }
-}
-
-/// How a scenario begins.
-pub struct Start {
-    /// Running and safely referenced.
-    pub running: bool,
-    /// As in the acceptance test mode: the limit of the speed setpoint is off.
-    pub acceptance_mode: bool,
-}
-
-/// An input that keeps a value.
-pub struct Forced {
-    /// Whose it is, by the place of the owner.
-    pub owner: usize,
-    /// In which channel.
-    pub side: usize,
-    /// Which one, by its place among those of the owner.
-    pub input: usize,
-    /// The value.
-    pub value: bool,
-}
-
-/// A cycle of a simulation.
-pub struct Now<'a> {
-    /// Its number.
-    pub cycle: u32,
-    /// The axes. What they do in this cycle is set in them.
-    pub axes: &'a mut [Axis],
-    /// The doors.
-    pub doors: &'a [Door],
-    /// The inputs that keep a value.
-    pub forced: &'a [Forced],
-}
-
-/// The monitors of a whole machine.
-pub trait Monitors {
-    /// One cycle.
-    fn step(&mut self, now: Now<'_>);
-
-    /// Whether a door could be opened in this cycle.
-    fn released(&self, door: usize) -> bool;
-
-    /// What a channel has read and written of an owner in this cycle, in the order of its signals.
-    fn told(&self, owner: usize, side: usize) -> Vec<Value>;
-}
-
-/// The monitors of one axis, driven and observed by its signals.
-pub trait Rig {
-    /// Every input at rest: run up, nothing selected, no stop asked for; in the first cycle power-on.
-    fn rest(&mut self, first: bool);
-
-    /// Gives an input of a channel a value. False: it is none of its values.
-    fn set(&mut self, side: usize, input: usize, value: &Value) -> bool;
-
-    /// The value of an input.
-    fn get(&self, side: usize, input: usize) -> Value;
-
-    /// Takes over what was kept through power-off, from the inputs given and from what the channels say in the first cycle.
-    fn resume(&mut self, said: &dyn Fn(usize, &str) -> Option<Value>);
-
-    /// One cycle.
-    fn step(&mut self);
-
-    /// What a channel says in this cycle.
-    fn output(&self, side: usize, output: usize) -> Value;
-
-    /// What the table of the channel says to it; none where it says nothing.
-    fn specified(&self, side: usize, output: usize) -> Option<Value>;
-
-    /// Cycles of both channels in which a table has stepped.
-    fn table_cycles(&self) -> u64;
-}
-
-/// An input of the tables that is one or more signals of a channel, the lowest bit first.
-pub struct Feed {
-    /// The input.
-    pub table: &'static str,
-    /// The signals.
-    pub signals: &'static [&'static str],
-    /// They are set by a user.
-    pub user: bool,
-    /// They hold for one cycle only.
-    pub pulse: bool,
+/// Every deliberately wrong monitor, family by family.
+pub fn mutants() -> impl Iterator<Item = Mutant> {
+    FAMILIES.into_iter().flat_map(|family| (family.mutants)())
 }

@@ -143,7 +143,7 @@ fn is_mutant(place: &str) -> bool {
 }
 
 /// The harness of the contract of the module a file of `impl/src` belongs to: `stop_contract` for
-/// `impl/src/sinumerik/stop.rs`, where the inventory says `[contract stop_contract on sinumerik::stop {`.
+/// `impl/src/family/stop.rs`, where the inventory says `[contract stop_contract on family::stop {`.
 fn contract<'a>(place: &str, harnesses: &'a [Harness]) -> Option<&'a str> {
     modules(place).into_iter().flatten().find_map(|module| {
         harnesses
@@ -153,8 +153,8 @@ fn contract<'a>(place: &str, harnesses: &'a [Harness]) -> Option<&'a str> {
     })
 }
 
-/// The modules a file of `impl/src` may belong to: one of its own, or its folder's. `sinumerik::stop` for
-/// `impl/src/sinumerik/stop.rs`, `sinumerik::channel` for `impl/src/sinumerik/channel/laws.rs`; none for what all families share.
+/// The modules a file of `impl/src` may belong to: one of its own, or its folder's. `family::stop` for
+/// `impl/src/family/stop.rs`, `family::channel` for `impl/src/family/channel/laws.rs`; none for what all families share.
 fn modules(place: &str) -> [Option<String>; 2] {
     let name = |path: Option<&str>| {
         let (family, _) = place.strip_prefix("impl/src/")?.split_once('/')?;
@@ -298,19 +298,19 @@ mod tests {
         let named = |[own, folder]: [Option<String>; 2]| (own, folder);
         let some = |name: &str| Some(name.to_owned());
         assert_eq!(
-            named(modules("impl/src/sinumerik/channel/laws.rs")),
-            (some("sinumerik::laws"), some("sinumerik::channel"))
+            named(modules("impl/src/family/channel/laws.rs")),
+            (some("family::laws"), some("family::channel"))
         );
         assert_eq!(named(modules("impl/src/kernel.rs")), (None, None));
         let harnesses = [Harness {
             name: "c".to_owned(),
-            contract: some("sinumerik::stop"),
+            contract: some("family::stop"),
             ids: Vec::new(),
         }];
         let found = |place| contract(place, &harnesses);
-        assert_eq!(found("impl/src/sinumerik/stop.rs"), Some("c"));
-        assert_eq!(found("impl/src/sinumerik/stop/laws.rs"), Some("c"));
-        assert_eq!(found("impl/src/sinumerik/folder/stop.rs"), Some("c"));
+        assert_eq!(found("impl/src/family/stop.rs"), Some("c"));
+        assert_eq!(found("impl/src/family/stop/laws.rs"), Some("c"));
+        assert_eq!(found("impl/src/family/folder/stop.rs"), Some("c"));
         assert_eq!(found("impl/src/other/stop.rs"), None);
     }
 }

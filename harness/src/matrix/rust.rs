@@ -24,7 +24,7 @@ pub(super) struct Found {
 pub(super) struct Harness {
     /// Its name.
     pub(super) name: String,
-    /// The monitor whose contract it proves, `sinumerik::stop`; none for a run.
+    /// The monitor whose contract it proves, `family::stop`; none for a run.
     pub(super) contract: Option<String>,
     /// The requirements that a run names; those of a contract stand at its clauses.
     pub(super) ids: Vec<String>,

@@ -1,4 +1,4 @@
-//! What is simulated of a machine: its axes with their encoders, and what its user has done to them. No family of drives is
+//! The plant model, what is simulated of a machine: its axes with their encoders, and what its user has done to them. No family of drives is
 //! known here.
 
 mod motion;

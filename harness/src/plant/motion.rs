@@ -15,9 +15,9 @@ use std::collections::VecDeque;
 pub struct Mechanics {
     /// With which it follows its setpoint.
     pub acceleration: i64,
-    /// At the current limit: STOP B, C and reactions to them.
+    /// At the current limit: the hardest stop that keeps the torque.
     pub braking: i64,
-    /// Along the path: STOP D and E.
+    /// Along the path.
     pub path_braking: i64,
     /// Of friction, without torque.
     pub friction: i64,

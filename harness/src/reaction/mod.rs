@@ -1,7 +1,7 @@
 //! `reaction`: the reaction chains of a machine from the sensor to standstill, each summand with its source and, where an
 //! explored property bounds it, with that property; and the way of the axis meanwhile.
 
-mod show;
+mod document;
 mod text;
 mod travel;
 
@@ -15,7 +15,7 @@ use stillpoint_machine::reaction::{Basis, Chain, Claim, Reactions, Step};
 use stillpoint_machine::units::Dimension;
 use stillpoint_model::Verdict;
 
-pub use show::document;
+pub use document::document;
 pub use text::text;
 pub use travel::{End, Motion, end};
 

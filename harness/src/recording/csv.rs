@@ -5,10 +5,10 @@
 //! ```toml
 //! cycle = "Cycle"                          # or: time_us, time_ms, time_s
 //! [signals]
-//! "X.nck.SGE_SS_DISABLE" = "SBH off"
+//! "X.CHANNEL.SIGNAL" = "a heading"
 //! ```
 //!
-//! or the same on the command line: `cycle=Cycle,X.nck.SGE_SS_DISABLE=SBH off`. Columns without a signal are not read.
+//! or the same on the command line: `cycle=Cycle,X.CHANNEL.SIGNAL=a heading`. Columns without a signal are not read.
 
 use std::collections::BTreeMap;
 use std::io;
@@ -20,7 +20,7 @@ use serde::Deserialize;
 use stillpoint_lang::diag::{Diagnostic, Diagnostics, Result, nearest};
 use stillpoint_lang::read_text;
 
-use super::{Kind, Recording, Target, Value};
+use super::{Kind, Recording, Role, Target, Value};
 
 /// Which column is the clock of the table.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -113,18 +113,27 @@ impl Columns {
         }
     }
 
-    /// Reads `SIGNAL=HEADING,...` of the command line.
+    /// Reads `SIGNAL=HEADING,...` of the command line, for a recording of the machine `target`.
     ///
     /// # Errors
     /// A sentence that names the item.
-    pub fn parse(text: &str) -> std::result::Result<Self, String> {
+    pub fn parse(text: &str, target: &Target<'_>) -> std::result::Result<Self, String> {
+        let example = || {
+            let mut inputs = target.signals.iter().filter(|s| s.role == Role::Input);
+            inputs.next().map_or("SIGNAL", |s| s.name.as_str())
+        };
         let mut columns = Self::default();
         for item in text.split(',') {
             let (signal, heading) = item
                 .split_once('=')
                 .map(|(a, b)| (a.trim(), b.trim().to_owned()))
                 .filter(|(a, b)| !a.is_empty() && !b.is_empty())
-                .ok_or_else(|| format!("`{item}` is no column; write SIGNAL=HEADING, e.g. X.nck.SGE_SS_DISABLE=\"SBH off\""))?;
+                .ok_or_else(|| {
+                    format!(
+                        "`{item}` is no column; write SIGNAL=HEADING, e.g. {}=\"a heading\"",
+                        example()
+                    )
+                })?;
             let clock = match signal {
                 "cycle" => Some(Clock::Cycle(heading.clone())),
                 "time_us" => Some(Clock::Time(heading.clone(), 1)),
@@ -302,7 +311,7 @@ pub fn read(
         let mut values = Vec::new();
         for (signal, column) in recording.signals.iter().zip(&places) {
             let cell = &row[*column];
-            values.push(value_of(&cell.text, signal.kind).map_err(|allowed| {
+            let value = value_of(&cell.text, signal.kind).map_err(|allowed| {
                 let message = format!(
                     "{} needs {}; got \"{}\"",
                     signal.name,
@@ -310,7 +319,13 @@ pub fn read(
                     cell.text
                 );
                 fail(cell.at.clone(), message, allowed.to_owned())
-            })?);
+            })?;
+            if value.as_ref().is_some_and(|v| !signal.allowed.admits(v)) {
+                let message = format!("{} cannot be \"{}\"", signal.name, cell.text);
+                let help = format!("allowed: {}", signal.allowed);
+                return Err(fail(cell.at.clone(), message, help));
+            }
+            values.push(value);
         }
         recording.rows.push(values);
     }

@@ -168,10 +168,42 @@ impl Role {
     }
 }
 
+/// Which values of its kind a signal can have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Allowed {
+    /// All of them.
+    All,
+    /// Whole numbers from the first to the second.
+    Between(i64, i64),
+    /// These names.
+    OneOf(&'static [&'static str]),
+}
+
+impl Allowed {
+    /// Whether a value of the right kind is among them.
+    pub fn admits(self, value: &Value) -> bool {
+        match (self, value) {
+            (Self::Between(least, most), Value::Int(n)) => (least..=most).contains(n),
+            (Self::OneOf(names), Value::Text(text)) => names.contains(&text.as_ref()),
+            _ => true,
+        }
+    }
+}
+
+impl fmt::Display for Allowed {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::All => f.write_str("all values of its kind"),
+            Self::Between(least, most) => write!(f, "{least} to {most}"),
+            Self::OneOf(names) => f.write_str(&names.join(", ")),
+        }
+    }
+}
+
 /// A signal of a recording.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Signal {
-    /// Its full name: `X.nck.SGA_STOP_AB`.
+    /// Its full name: `X.CHANNEL.SIGNAL`.
     pub name: String,
     /// What its values are.
     pub kind: Kind,
@@ -179,6 +211,8 @@ pub struct Signal {
     pub unit: String,
     /// What it is to the monitors.
     pub role: Role,
+    /// The values that it can have.
+    pub allowed: Allowed,
 }
 
 /// The machine that a recording must be of.
@@ -193,6 +227,12 @@ pub struct Target<'a> {
 }
 
 impl Target<'_> {
+    /// The values that a signal of this machine can have; all of them where it is none.
+    pub fn allowed(&self, name: &str) -> Allowed {
+        let known = self.signals.iter().find(|s| s.name == name);
+        known.map_or(Allowed::All, |s| s.allowed)
+    }
+
     /// Why a signal is none of this machine, with a fix. What no monitor reads or writes may be anything.
     pub fn refuses(&self, signal: &Signal) -> Option<(String, String)> {
         if signal.role == Role::Plant {
@@ -215,7 +255,8 @@ impl Target<'_> {
                 help,
             ));
         };
-        (known != signal).then(|| {
+        let declared = |s: &Signal| (s.kind, s.unit.clone(), s.role);
+        (declared(known) != declared(signal)).then(|| {
             let shown = |s: &Signal| {
                 let unit = if s.unit.is_empty() {
                     String::new()

@@ -11,7 +11,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 use stillpoint_lang::diag::{Diagnostics, Result};
 
-use super::{FORMAT, Kind, Recording, Role, Signal, Target, VERSION, Value};
+use super::{Allowed, FORMAT, Kind, Recording, Role, Signal, Target, VERSION, Value};
 
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -147,11 +147,17 @@ pub fn read(name: &str, text: &Arc<str>, target: &Target<'_>) -> Result<Recordin
                 row[*place] = None;
                 continue;
             }
-            row[*place] = Some(of_json(value, declared.kind).ok_or_else(|| {
+            let known = of_json(value, declared.kind).ok_or_else(|| {
                 let message = format!("{signal} needs {}; got {value}", declared.kind.noun());
                 let help = format!("the header declares it as {}", declared.kind.keyword());
                 reader.fail(reader.find(start, line, signal), &message, &help)
-            })?);
+            })?;
+            if !declared.allowed.admits(&known) {
+                let message = format!("{signal} cannot be {value}");
+                let help = format!("allowed: {}", declared.allowed);
+                return Err(reader.fail(reader.find(start, line, signal), &message, &help));
+            }
+            row[*place] = Some(known);
         }
         recording.rows.push(row.clone());
         next = parsed.cycle.checked_add(1);
@@ -273,6 +279,10 @@ impl<'a> Reader<'a> {
                 return wrong(&declared.name, message, help);
             };
             let signal = Signal {
+                allowed: match role {
+                    Role::Plant => Allowed::All,
+                    Role::Input | Role::Output => target.allowed(&declared.name),
+                },
                 name: declared.name,
                 kind,
                 unit: declared.unit,

@@ -1,6 +1,6 @@
 //! What the signals of a machine are called.
 //!
-//! A signal of an axis is `X.NAME`, one of a channel of the axis `X.nck.NAME` or `X.drive.NAME`. Names with a point after
+//! A signal of an axis is `X.NAME`, one of a channel of the axis `X.CHANNEL.NAME`. Names with a point after
 //! that, `Monitoring. ...` and `Safety. ...`, are browse paths of OPC UA for the Powertrain, part 2 (OPC 40400-2, 7.7 to
 //! 7.9): position and speed, and for each safety function its `SelectionState` and `ActivationState` with the values named
 //! there. The other names are those of a family, or our own.
@@ -24,6 +24,8 @@ pub enum Unit {
     None,
     /// 1 um or 0.001 degrees.
     Increment,
+    /// 0.1 um or 0.0001 degrees.
+    Tenth,
     /// Increments per cycle.
     IncrementPerCycle,
     /// Pulses of the encoder per cycle.
@@ -37,6 +39,8 @@ impl Unit {
             (Self::None, _) => "",
             (Self::Increment, false) => "um",
             (Self::Increment, true) => "mdeg",
+            (Self::Tenth, false) => "0.1 um",
+            (Self::Tenth, true) => "0.1 mdeg",
             (Self::IncrementPerCycle, false) => "um/cycle",
             (Self::IncrementPerCycle, true) => "mdeg/cycle",
             (Self::PulsesPerCycle, _) => "pulses/cycle",

@@ -1,17 +1,17 @@
-//! `diff --trace`: the inputs of a recording on the monitors and on the tables, its outputs against theirs.
+//! `diff --trace`, a passive conformance test: the inputs of a recording on the monitors and on the tables, its outputs against
+//! theirs.
 //!
-//! The monitors of both channels get what each channel saw and tell each other what they tell, as in a machine. The tables
-//! get the same inputs of a channel; what the comparison, the user agreement and the other channel say to it comes from the
-//! monitors. A recorded output agrees within a tolerance of n cycles if its value is there within n cycles on the other
+//! The monitors of both channels get what each channel saw and tell each other what they tell, as in a machine. The tables,
+//! where a family has some that describe the same, get the same inputs of a channel; what no table says comes from the monitors. A recorded output agrees within a tolerance of n cycles if its value is there within n cycles on the other
 //! side, and the other way round.
 
-mod show;
+mod report;
 
 use stillpoint_machine::Machine;
 use stillpoint_show::diagram::Diagram;
 
-use crate::families::{self, Owner, Rig};
-use crate::recording::{Recording, Role, Value, vocabulary};
+use crate::families::{self, Owner, Rig, Words};
+use crate::recording::{Recording, Role, Value};
 
 /// What has come of a replay.
 #[derive(Debug, Clone)]
@@ -102,19 +102,26 @@ pub fn replay(
 ) -> Result<Replayed, String> {
     let drive = families::of(machine)?;
     drive.accepts(machine)?;
-    let channels = drive.words().channels;
     let mut axes = Vec::new();
     let mut left_out = Vec::new();
     let mut columns = Vec::new();
-    for (k, owner) in drive.owners(machine).iter().enumerate() {
-        let recorded = Recorded::new(recording, owner, channels);
-        if !recorded.has_position() || recorded.outputs.is_empty() {
-            left_out.push(owner.name.clone());
+    let owners = drive.owners(machine);
+    for places in drive.together(machine) {
+        let parts = places.iter();
+        let parts: Vec<Recorded> = parts
+            .map(|k| Recorded::new(recording, *k, &owners[*k], drive.words()))
+            .collect();
+        let not = parts.iter().filter(|part| !part.is_compared());
+        left_out.extend(not.map(|part| part.owner.name.clone()));
+        if !parts
+            .iter()
+            .any(|p| p.owner.axis.is_some() && p.is_compared())
+        {
             continue;
         }
-        drive.play(machine, k, true, &mut |rig| {
-            let (replayed, own) = recorded.replay(rig);
-            axes.push(replayed);
+        drive.play(machine, &places, true, &mut |rig| {
+            let (replayed, own) = run(recording, &parts, rig);
+            axes.extend(replayed);
             columns.extend(own);
         })?;
     }
@@ -122,7 +129,7 @@ pub fn replay(
         return Err(format!(
             "the recording has no axis of {} with `{}` of a channel and an output: nothing can be replayed",
             machine.name,
-            vocabulary::POSITION
+            drive.words().position
         ));
     }
     let mut divergences: Vec<Divergence> = columns
@@ -136,7 +143,7 @@ pub fn replay(
         cycles: recording.rows.len() as u64,
         tolerance,
         outputs_compared: columns.iter().map(told).sum(),
-        diagram: show::diagram(recording, &columns, &divergences),
+        diagram: report::diagram(recording, &columns, &divergences),
         axes,
         left_out,
         divergences,
@@ -167,10 +174,12 @@ fn diverges(recording: &Recording, column: &Column, tolerance: usize) -> Option<
     })
 }
 
-/// The signals of one axis in a recording.
+/// The signals of an owner in a recording.
 struct Recorded<'a> {
-    recording: &'a Recording,
+    place: usize,
     owner: &'a Owner,
+    /// Its position is recorded, if it is an axis.
+    has_position: bool,
     /// For each input and each channel, its place in the recording.
     inputs: Vec<[Option<usize>; 2]>,
     /// The outputs that the recording has: channel, output, place.
@@ -178,35 +187,40 @@ struct Recorded<'a> {
 }
 
 impl<'a> Recorded<'a> {
-    fn new(recording: &'a Recording, owner: &'a Owner, channels: [&str; 2]) -> Self {
-        let place = |side: usize, signal: &str, role: Role| {
+    fn new(recording: &Recording, place: usize, owner: &'a Owner, words: &Words) -> Self {
+        let find = |side: usize, signal: &str, role: Role| {
             recording
-                .find(&owner.signal(channels[side], signal))
+                .find(&owner.signal(words.channels[side], signal))
                 .filter(|k| recording.signals[*k].role == role)
         };
         let inputs = owner.inputs.iter();
-        let inputs = inputs.map(|port| [0, 1].map(|side| place(side, port.name, Role::Input)));
+        let inputs = inputs.map(|port| [0, 1].map(|side| find(side, port.name, Role::Input)));
+        let inputs: Vec<[Option<usize>; 2]> = inputs.collect();
         let mut outputs = Vec::new();
         for side in 0..2 {
             for (n, port) in owner.outputs.iter().enumerate() {
-                if let Some(k) = place(side, port.name, Role::Output) {
+                if let Some(k) = find(side, port.name, Role::Output) {
                     outputs.push((side, n, k));
                 }
             }
         }
+        let mut known = owner.inputs.iter().zip(&inputs);
+        let has_position = owner.axis.is_none()
+            || known.any(|(port, places)| {
+                port.name == words.position && places.iter().any(Option::is_some)
+            });
         Self {
-            recording,
+            place,
             owner,
-            inputs: inputs.collect(),
+            has_position,
+            inputs,
             outputs,
         }
     }
 
-    fn has_position(&self) -> bool {
-        let mut inputs = self.owner.inputs.iter().zip(&self.inputs);
-        inputs.any(|(port, places)| {
-            port.name == vocabulary::POSITION && places.iter().any(Option::is_some)
-        })
+    /// Whether anything of it can be compared.
+    fn is_compared(&self) -> bool {
+        self.has_position && !self.outputs.is_empty()
     }
 
     fn missing(&self) -> Vec<String> {
@@ -216,59 +230,73 @@ impl<'a> Recorded<'a> {
     }
 
     /// What the channels saw in a cycle; what is recorded of one channel only counts for both.
-    fn see(&self, row: usize, rig: &mut dyn Rig) {
-        rig.rest(row == 0);
-        let values = self.recording.rows[row].as_slice();
+    fn see(&self, values: &[Option<Value>], rig: &mut dyn Rig) {
         for side in 0..2 {
             for (input, places) in self.inputs.iter().enumerate() {
                 let place = places[side].or(places[1 - side]);
                 if let Some(value) = place.and_then(|k| values[k].as_ref()) {
-                    // The reader has checked the kind; a number outside its range is left at rest.
-                    let _ = rig.set(side, input, value);
+                    // The reader has checked kind and values.
+                    let _ = rig.set(self.place, side, input, value);
                 }
             }
         }
     }
 
-    /// What a channel says in the first cycle.
-    fn first(&self, side: usize, output: &str) -> Option<Value> {
+    /// What a channel says in a cycle.
+    fn said(&self, values: &[Option<Value>], side: usize, output: &str) -> Option<Value> {
         let mut outputs = self.outputs.iter();
         let (_, _, k) =
             outputs.find(|(s, n, _)| *s == side && self.owner.outputs[*n].name == output)?;
-        self.recording.rows.first()?[*k].clone()
+        values[*k].clone()
     }
+}
 
-    fn replay(&self, rig: &mut dyn Rig) -> (AxisReplayed, Vec<Column>) {
-        let columns = |against| -> Vec<Column> {
-            let outputs = self.outputs.iter();
-            let columns = outputs.map(|(.., k)| Column {
-                signal: *k,
-                against,
-                values: Vec::new(),
+/// Replays what runs together.
+fn run(
+    recording: &Recording,
+    parts: &[Recorded<'_>],
+    rig: &mut dyn Rig,
+) -> (Vec<AxisReplayed>, Vec<Column>) {
+    let compared: Vec<&Recorded> = parts.iter().filter(|part| part.is_compared()).collect();
+    let outputs = || {
+        let parts = compared.iter();
+        parts.flat_map(|part| part.outputs.iter().map(|output| (part.place, *output)))
+    };
+    let columns = |against| -> Vec<Column> {
+        let columns = outputs().map(|(_, (.., k))| Column {
+            signal: k,
+            against,
+            values: Vec::new(),
+        });
+        columns.collect()
+    };
+    let mut monitors = columns(Against::Monitors);
+    let mut specified = columns(Against::Specification);
+    for (row, values) in recording.rows.iter().enumerate() {
+        rig.rest(row == 0);
+        parts.iter().for_each(|part| part.see(values, rig));
+        if row == 0 {
+            rig.resume(&|owner, side, output| {
+                let part = parts.iter().find(|part| part.place == owner)?;
+                part.said(values, side, output)
             });
-            columns.collect()
-        };
-        let mut monitors = columns(Against::Monitors);
-        let mut specified = columns(Against::Specification);
-        for row in 0..self.recording.rows.len() {
-            self.see(row, rig);
-            if row == 0 {
-                rig.resume(&|side, output| self.first(side, output));
-            }
-            rig.step();
-            for (n, (side, output, _)) in self.outputs.iter().enumerate() {
-                monitors[n].values.push(Some(rig.output(*side, *output)));
-                specified[n].values.push(rig.specified(*side, *output));
-            }
         }
-        let replayed = AxisReplayed {
-            name: self.owner.name.clone(),
-            outputs: self.outputs.len(),
-            table_cycles: rig.table_cycles(),
-            missing: self.missing(),
-        };
-        specified.retain(|column| column.values.iter().any(Option::is_some));
-        monitors.extend(specified);
-        (replayed, monitors)
+        rig.step();
+        for (n, (owner, (side, output, _))) in outputs().enumerate() {
+            monitors[n]
+                .values
+                .push(Some(rig.output(owner, side, output)));
+            specified[n].values.push(rig.specified(owner, side, output));
+        }
     }
+    let replayed = compared.iter().map(|part| AxisReplayed {
+        name: part.owner.name.clone(),
+        outputs: part.outputs.len(),
+        table_cycles: rig.table_cycles(),
+        missing: part.missing(),
+    });
+    let replayed = replayed.collect();
+    specified.retain(|column| column.values.iter().any(Option::is_some));
+    monitors.extend(specified);
+    (replayed, monitors)
 }

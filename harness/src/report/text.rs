@@ -253,7 +253,7 @@ fn run(out: &mut String, n: usize, task: &Task, done: &Checked, all: bool) {
     out.push('\n');
 }
 
-/// The lines of a program in Structured Text that decide the last cycle of a run.
+/// The lines of a program that decide the last cycle of a run.
 fn program(out: &mut String, lines: &[Line]) {
     if !lines.is_empty() {
         out.push_str("  what the program computes in the last cycle, as far as it decides this:\n");

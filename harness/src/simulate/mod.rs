@@ -7,11 +7,11 @@
 //! Everything is an integer; equal files give equal results on every machine. What is simulated is the axis and the
 //! encoders; what answers are the monitors of `stillpoint-monitors` as they would be embedded.
 
+mod diagram;
 mod file;
 mod resolve;
 mod run;
 mod scenario;
-mod show;
 mod summary;
 
 pub use run::run;
@@ -21,7 +21,7 @@ pub use summary::{Judged, Simulation, Stop};
 use stillpoint_machine::{AxisKind, Machine};
 
 use crate::families;
-use crate::recording::{Kind, Role, Signal, vocabulary};
+use crate::recording::{Allowed, Kind, Role, Signal, vocabulary};
 
 /// Signals of the axis itself, with what is told of each cycle.
 const OF_AXIS: [(&str, Kind, &str, &str); 4] = [
@@ -45,6 +45,7 @@ pub fn signals(machine: &Machine) -> Vec<Signal> {
                 kind: Kind::Bool,
                 unit: String::new(),
                 role: Role::Plant,
+                allowed: Allowed::All,
             })
         })
         .collect();
@@ -59,6 +60,7 @@ pub fn signals(machine: &Machine) -> Vec<Signal> {
                 kind: *kind,
                 unit: (if rotary { turning } else { linear }).to_string(),
                 role: Role::Plant,
+                allowed: Allowed::All,
             }));
         }
         all.extend(channels.iter().flat_map(|channel| owner.signals(channel)));

@@ -1,4 +1,4 @@
-//! One search over several processes, for state spaces that outgrow the memory of one machine.
+//! Distributed search, one over several processes, for state spaces that outgrow the memory of one machine.
 //!
 //! The search is a timely dataflow whose time is the depth. Each worker of each process owns the states whose hash is
 //! its own: it keeps them, and makes the cycles from them. What a cycle leads to goes to its owner, with the next depth

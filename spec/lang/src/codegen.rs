@@ -274,8 +274,8 @@ impl Layout {
                     .collect();
                 format!("(match {} {{ {arms}_ => {{ {last} }} }})", self.int(k))
             }
-            Node::Min(values) => self.fold("min", values),
-            Node::Max(values) => self.fold("max", values),
+            Node::Min(values) => self.nested("min", values),
+            Node::Max(values) => self.nested("max", values),
             Node::Binary(op, a, b) if !is_truth(node) => {
                 let op = match op {
                     BinaryOp::Add => "+",
@@ -290,7 +290,7 @@ impl Layout {
         }
     }
 
-    fn fold(&self, name: &str, values: &[Node]) -> String {
+    fn nested(&self, name: &str, values: &[Node]) -> String {
         let mut nodes = values.iter().map(|n| self.int(n));
         let first = nodes.next().unwrap_or_else(|| "0i64".to_owned());
         nodes.fold(first, |acc, v| {

@@ -1,4 +1,4 @@
-//! Constants folded: what is left of expressions and effects when the parameters have their values.
+//! Constant folding (partial evaluation): what is left of expressions and effects when the parameters have their values.
 
 use crate::bind::Bound;
 use crate::eval::{Cells, Driven, Frame, value};

@@ -366,9 +366,9 @@ pub enum Topic {
     Reaction,
 }
 
-/// What the report on a bounded response is to show, over parameters: recorded, so that a change fails the check.
+/// What the report on a bounded response is to show, over parameters: stated, so that a change fails the check.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Recorded {
+pub struct Stated {
     /// The least bound that holds, in cycles.
     pub exactly: Option<Node>,
     /// The fastest reaction, in cycles.
@@ -393,7 +393,7 @@ pub struct Property {
     /// Form.
     pub form: Form,
     /// What its report is to show.
-    pub recorded: Recorded,
+    pub stated: Stated,
     /// The expressions as written, for reports: (key, text).
     pub written: Vec<(String, String)>,
 }

@@ -1,4 +1,4 @@
-//! The parts of a system that have nothing in common but inputs.
+//! The parts of a system that have nothing in common but inputs: the connected components of what reads and writes what.
 //!
 //! Two instances belong to one part if one of them reads or writes a state variable that the other one reads or writes;
 //! a property keeps everything it speaks of in one part. So each part makes its steps as if it were alone, and a cycle

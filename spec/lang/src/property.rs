@@ -2,7 +2,7 @@
 
 use crate::assemble::Builder;
 use crate::diag::Diagnostic;
-use crate::ir::{Form, Node, Property, Recorded, Space, Topic, Ty};
+use crate::ir::{Form, Node, Property, Space, Stated, Topic, Ty};
 use crate::schema::{self, Scalar, Text};
 use crate::syntax::ast::{Expr, Kind};
 use toml::Spanned;
@@ -168,11 +168,11 @@ pub(crate) fn resolve(
             .help("remove it"));
     }
     let bounded = def.within.is_some();
-    let recorded = Recorded {
+    let stated = Stated {
         exactly: cycles(b, def.exactly.as_ref(), index)?,
         fastest: cycles(b, def.fastest.as_ref(), index)?,
     };
-    if recorded != Recorded::default() && !bounded {
+    if stated != Stated::default() && !bounded {
         return Err(b
             .spec
             .error(
@@ -207,7 +207,7 @@ pub(crate) fn resolve(
         req: def.req.clone(),
         topic,
         form,
-        recorded,
+        stated,
         written,
     })
 }

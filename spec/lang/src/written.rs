@@ -45,6 +45,12 @@ impl Written {
         self.0.param.insert(name, Short(port));
     }
 
+    /// Adds an input with its type.
+    pub fn add_input(&mut self, name: Text, ty: Text, text: &str) {
+        let port = port(ty, None, None, text);
+        self.0.input.insert(name, Short(port));
+    }
+
     /// Adds a state variable with its type and initial value.
     pub fn add_state(&mut self, name: Text, ty: Text, init: Text, text: &str) {
         let init = Spanned::new(init.span(), Scalar::Text(init.into_inner()));

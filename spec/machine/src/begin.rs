@@ -6,6 +6,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::ground::DataFile;
+use super::template::filled;
 use stillpoint_lang::diag::Result;
 
 /// The file of the parts in the folder of a family.
@@ -87,7 +88,8 @@ pub fn written(folder: &Path, wanted: &Wanted) -> Result<String> {
             Each::Door => &wanted.doors,
         };
         for subject in subjects {
-            match wanted.filled(part.text.get_ref(), subject, &out) {
+            let place = |name: &str| wanted.place(name, subject, &out);
+            match filled(part.text.get_ref(), place) {
                 Ok(text) => out.push_str(&text),
                 Err(place) => {
                     let message = format!("nothing is called '{place}' here");
@@ -144,29 +146,6 @@ impl Wanted {
             Kind::Axes => !self.linear.is_empty() || !self.rotary.is_empty(),
             Kind::Spindle => !self.spindles.is_empty(),
         }
-    }
-
-    /// The text with its places filled in; an error is the place that cannot be.
-    fn filled(
-        &self,
-        text: &str,
-        subject: &str,
-        before: &str,
-    ) -> std::result::Result<String, String> {
-        let mut out = String::new();
-        let mut rest = text;
-        while let Some((plain, after)) = rest.split_once('{') {
-            out.push_str(plain);
-            let (place, tail) = after.split_once('}').unwrap_or((after, ""));
-            out.push_str(
-                &self
-                    .place(place, subject, before)
-                    .ok_or_else(|| place.to_owned())?,
-            );
-            rest = tail;
-        }
-        out.push_str(rest);
-        Ok(out)
     }
 
     fn place(&self, place: &str, subject: &str, before: &str) -> Option<String> {

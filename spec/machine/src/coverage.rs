@@ -94,6 +94,8 @@ impl Machine {
                 None => format!("Logic {name} is that of the machine file: {text}."),
             });
         }
+        list.extend(self.logic_missing());
+        list.extend(self.logic_notes());
         list
     }
 }

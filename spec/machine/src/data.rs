@@ -115,6 +115,7 @@ fn allowed(param: &Param, kind: AxisKind) -> Allowed {
     let range = match param.quantity {
         Quantity::Bool => "true, false".to_owned(),
         Quantity::Groups => "names of groups".to_owned(),
+        Quantity::Signal => param.names(),
         Quantity::Choice => {
             let names = param.choices.iter().map(|(name, _)| format!("\"{name}\""));
             names.collect::<Vec<_>>().join(", ")

@@ -12,7 +12,8 @@ use toml::Spanned;
 use super::AxisKind;
 use super::ground::read_names;
 use super::guarantee::Pattern;
-use super::units::Dimension;
+use super::signal::{self, Signals};
+use super::units::{Dimension, quoted};
 use stillpoint_lang::syntax::ast::Expr;
 
 /// Everything that `family.toml` says, checked.
@@ -92,6 +93,8 @@ pub(super) struct Known {
     pub whole: Vec<String>,
     /// Whether machine files declare groups.
     pub groups: bool,
+    /// The numbered signals of the family.
+    pub signals: Signals,
     /// The times, and what is made of them, by the roundings of the parameters in them.
     pub roundings: BTreeMap<String, Vec<Rounding>>,
 }
@@ -128,14 +131,31 @@ impl Known {
     }
 }
 
+/// The language of a safe program that stands in a file of its own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+pub(super) enum Language {
+    /// IEC 61131-3 Structured Text; its inputs and outputs have the names of the machine that it replaces.
+    #[default]
+    #[serde(rename = "Structured Text")]
+    StructuredText,
+    /// Synchronous actions with numbered signals, which the values of the machine file connect.
+    #[serde(rename = "SAFE.SPF")]
+    SafeSpf,
+}
+
 /// A machine of the tables that a machine file may replace.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Slot {
     /// The specification file that declares it.
     pub file: String,
+    /// The language of programs that can stand in its place.
+    #[serde(default)]
+    pub language: Language,
     /// What it is, in a few words.
     pub text: String,
+    /// What is assumed of it where the machine file has none.
+    pub missing: Option<String>,
 }
 
 /// A safety function that can be enabled for an axis.
@@ -172,6 +192,8 @@ pub(super) enum Quantity {
     Frequency,
     Count,
     Choice,
+    /// A safe signal, by the coding of the machine data: `"OUTSI[3]"`, `"NOT INSE[1]"`, `"04010103H"`.
+    Signal,
     Bool,
     /// Groups that come before this one, by name; inside a bit for each, in the order of the machine file.
     Groups,
@@ -190,7 +212,9 @@ impl Quantity {
             (Self::Time, _) => Dimension::Time,
             (Self::Percent, _) => Dimension::Percent,
             (Self::Frequency, _) => Dimension::Frequency,
-            (Self::Count | Self::Choice | Self::Bool | Self::Groups, _) => Dimension::Count,
+            (Self::Count | Self::Choice | Self::Signal | Self::Bool | Self::Groups, _) => {
+                Dimension::Count
+            }
         }
     }
 }
@@ -209,6 +233,7 @@ pub(super) struct Param {
     pub count: usize,
     /// What the values of an array are, for messages: `SG1 to SG4`.
     pub elements: String,
+    /// The values of a choice; all signals that a signal can be.
     pub choices: Vec<(String, i64)>,
     /// The kinds of axes that have it, as a machine file names them; empty: all.
     pub kinds: Vec<String>,
@@ -265,10 +290,19 @@ impl Param {
         names.any(|n| n == name)
     }
 
+    /// The names that a choice or a signal can have, for messages.
+    pub fn names(&self) -> String {
+        let names: Vec<&str> = self.choices.iter().map(|(n, _)| n.as_str()).collect();
+        match self.quantity {
+            Quantity::Signal => signal::ranges(&names),
+            _ => quoted(&names),
+        }
+    }
+
     /// The value as a user writes it.
     pub fn show(&self, value: i64, kind: AxisKind) -> String {
         match self.quantity {
-            Quantity::Choice => self
+            Quantity::Choice | Quantity::Signal => self
                 .choices
                 .iter()
                 .find(|(_, code)| *code == value)
@@ -329,6 +363,10 @@ pub(super) struct Explore {
     pub cycle: Option<Formula>,
     /// A time that passes before what is explored begins, and that a bound found there does not have.
     pub before: Option<Formula>,
+    /// The time from one scan of a program in it to the next, where that is not its cycle.
+    pub scan: Option<Formula>,
+    /// The ports of the program that takes a machine's place, each with the parameter that names its signal, and the index there.
+    pub wires: Vec<(String, String, usize)>,
     pub params: Vec<Binding>,
 }
 

@@ -15,6 +15,7 @@ use super::family::{
     Scope, Slot,
 };
 use super::guarantee;
+use super::signal::{Bits, Signals};
 use super::value::{Raw, number};
 use stillpoint_lang::diag::Result;
 use stillpoint_lang::read_text;
@@ -43,6 +44,8 @@ struct FamilyFile {
     #[serde(default)]
     group_let: IndexMap<String, Spanned<String>>,
     #[serde(default)]
+    signal: IndexMap<String, Bits>,
+    #[serde(default)]
     logic: IndexMap<String, Slot>,
     #[serde(default)]
     plausibility: Vec<RuleData>,
@@ -68,6 +71,11 @@ pub(super) struct ParamData {
     rotary: Option<LimitsData>,
     #[serde(default)]
     choice: IndexMap<String, i64>,
+    /// Which numbered signals of the family it can be, and whether also inverted.
+    #[serde(default)]
+    signals: Vec<Spanned<String>>,
+    #[serde(default)]
+    inverted: bool,
     #[serde(default)]
     kinds: Vec<String>,
     #[serde(default = "one")]
@@ -124,6 +132,9 @@ pub(super) struct ExploreData {
     members: usize,
     cycle: Option<Spanned<String>>,
     before: Option<Spanned<String>>,
+    scan: Option<Spanned<String>>,
+    #[serde(default)]
+    wire: IndexMap<String, Spanned<String>>,
     #[serde(default)]
     note: String,
 }
@@ -165,6 +176,7 @@ pub(super) fn load(folder: &Path) -> Result<Family> {
     let source = read_text(&path, "family file")?;
     let mut check = Check {
         findings: Findings::new(&file, &source),
+        signals: Signals::default(),
     };
     let Some(mut family) = check.family(folder, &file, &source) else {
         return Err(check.findings.into_diagnostics());
@@ -176,6 +188,8 @@ pub(super) fn load(folder: &Path) -> Result<Family> {
 /// Reads one file of a family's data and collects what is wrong in it.
 pub(super) struct Check {
     pub findings: Findings,
+    /// The numbered signals of the family.
+    pub signals: Signals,
 }
 
 impl Check {
@@ -209,6 +223,7 @@ impl Check {
             let help = format!("at most {MOST_GROUPS}: a list of groups has a bit for each");
             self.findings.add(None, message, "", help);
         }
+        self.signals = Signals(data.signal);
         let control = self.params(data.control);
         let axis = self.params(data.axis);
         let group = data.group.map(|group| self.params(group));
@@ -218,6 +233,7 @@ impl Check {
             control: owned(&control),
             axis: OF_AXIS.map(str::to_owned).to_vec(),
             groups: group.is_some(),
+            signals: self.signals.clone(),
             ..Known::default()
         };
         let all = [&control, &axis].into_iter().chain(&group).chain([&door]);
@@ -303,6 +319,17 @@ impl Check {
             range: data.range,
             default,
         });
+        let mut choices: Vec<(String, i64)> = data.choice.into_iter().collect();
+        for name in &data.signals {
+            match self.signals.named(name.get_ref(), data.inverted) {
+                Some(list) => choices.extend(list),
+                None => {
+                    let help = format!("signals of the family: {}", self.signals.names());
+                    let message = format!("there is no signal '{}'", name.get_ref());
+                    self.findings.add(name.span(), message, "", help);
+                }
+            }
+        }
         let mut param = Param {
             quantity: data.quantity.into_inner(),
             manual: manual.trim().to_owned(),
@@ -310,7 +337,7 @@ impl Check {
             id: data.id,
             count: data.count,
             elements: data.elements,
-            choices: data.choice.into_iter().collect(),
+            choices,
             kinds: data.kinds,
             step: data.step.max(1),
             cycles: data
@@ -339,7 +366,7 @@ impl Check {
         let (min, max) = match (param.quantity, &data.range) {
             (Quantity::Bool, None) => (0, 1),
             (Quantity::Groups, None) => (0, i64::MAX),
-            (Quantity::Choice, None) => {
+            (Quantity::Choice | Quantity::Signal, None) => {
                 (codes.clone().min().unwrap_or(0), codes.max().unwrap_or(0))
             }
             (_, Some((min, max))) => (self.value(param, min, kind), self.value(param, max, kind)),
@@ -447,6 +474,24 @@ impl Check {
         };
         let cycle = optional(data.cycle)?;
         let before = optional(data.before)?;
+        let scan = optional(data.scan)?;
+        let mut wires = Vec::new();
+        for (port, text) in data.wire {
+            let written = text.get_ref();
+            let (name, index) = match written.strip_suffix(']').and_then(|t| t.split_once('[')) {
+                Some((name, index)) => (name, index.parse().ok()),
+                None => (written.as_str(), Some(0)),
+            };
+            match index.filter(|_| known.iter().any(|k| k == name)) {
+                Some(index) => wires.push((port, name.to_owned(), index)),
+                None => {
+                    let help =
+                        "name a parameter that is a signal, with [0] for the first of a list";
+                    let message = format!("'{written}' is no parameter here");
+                    self.findings.add(text.span(), message, "", help);
+                }
+            }
+        }
         let mut params = Vec::new();
         for (name, text) in data.param {
             params.push(Binding::Value(name, self.formula(text, known)?));
@@ -501,6 +546,8 @@ impl Check {
             members: data.members,
             cycle,
             before,
+            scan,
+            wires,
             params,
         })
     }

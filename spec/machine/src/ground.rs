@@ -12,6 +12,7 @@ use super::eval::{Values, eval, given, names};
 use super::family::{Family, Formula, Quantity};
 use super::family_file::Check;
 use super::plausible::insert;
+use super::signal::Signals;
 use super::{Axis, AxisKind, Door, Group, Machine, Settings};
 use stillpoint_lang::diag::{Diagnostic, Result};
 use stillpoint_lang::read_text;
@@ -53,6 +54,7 @@ impl DataFile {
     pub fn check(&self) -> Check {
         Check {
             findings: Findings::new(&self.file, &self.source),
+            signals: Signals::default(),
         }
     }
 }

@@ -16,12 +16,16 @@ use super::family_file::{Check, ExploreData, ParamData};
 use super::ground::{About as Subjects, DataFile, grounds};
 use super::plausible::{Judged, evaluate, insert};
 use super::runs::Parts;
-use super::uses::of_system;
+use super::template::filled;
+use super::uses::{of_system, of_wires};
 use super::{Machine, Place, Settings};
 use stillpoint_lang::diag::Result;
 
 /// The file of the patterns in the folder of a family.
 pub(super) const FILE: &str = "guarantees.toml";
+
+/// In the expressions of patterns: whether the machine file has a program whose signals its values connect.
+const PROGRAMMED: &str = "programmed";
 
 /// What a machine file asks of its machine.
 #[derive(Debug, Clone)]
@@ -103,6 +107,7 @@ pub(super) fn load(
     let file = DataFile::read(folder, FILE, "guarantees")?;
     let data: File = file.parse()?;
     let mut check = file.check();
+    check.signals = known.signals.clone();
     let places: Vec<Place> = data.argument.keys().map(Spanned::span).collect();
     let argument = data.argument.into_iter();
     let argument = argument.map(|(name, data)| (name.into_inner(), data));
@@ -143,6 +148,7 @@ impl Context<'_> {
         };
         names.extend(arguments.keys().cloned());
         names.extend(self.group_lets.iter().map(|(name, _)| name.clone()));
+        names.push(PROGRAMMED.to_owned());
         let mut roundings = self.known.roundings.clone();
         let times = arguments
             .iter()
@@ -151,6 +157,7 @@ impl Context<'_> {
         let known = Known {
             axis: names,
             roundings,
+            signals: self.known.signals.clone(),
             ..Known::default()
         };
         for name in &data.required {
@@ -179,8 +186,7 @@ impl Context<'_> {
         about: About,
     ) -> IndexMap<String, Param> {
         let mut told = IndexMap::new();
-        let places = text.get_ref().split('{').skip(1);
-        for place in places.filter_map(|p| p.split('}').next()) {
+        let place = |place: &str| {
             match self.arguments.get_key_value(place) {
                 Some((name, argument)) => {
                     told.insert(name.clone(), argument.clone());
@@ -196,7 +202,10 @@ impl Context<'_> {
                     check.findings.add(text.span(), message, "", help);
                 }
             }
-        }
+            Some(String::new())
+        };
+        // Every place is looked at; there is no text yet.
+        let _ = filled(text.get_ref(), place);
         told
     }
 }
@@ -205,13 +214,16 @@ impl Pattern {
     /// What is guaranteed, in words.
     pub fn told(&self, door: Option<&str>, axes: &[Spanned<String>], values: &Settings) -> String {
         let axes: Vec<&str> = axes.iter().map(|a| a.get_ref().as_str()).collect();
-        let mut text = self.text.replace("{axes}", &axes.join(", "));
-        text = text.replace("{door}", door.unwrap_or_default());
-        for (name, setting) in values {
-            let shown = setting.shown.join(", ").replace('"', "");
-            text = text.replace(&format!("{{{name}}}"), &shown);
-        }
-        text
+        let place = |name: &str| {
+            Some(match (name, values.get(name)) {
+                ("axes", _) => axes.join(", "),
+                ("door", _) => door.unwrap_or_default().to_owned(),
+                (_, Some(setting)) => setting.shown.join(", ").replace('"', ""),
+                // An argument for other kinds of axes.
+                (_, None) => format!("{{{name}}}"),
+            })
+        };
+        filled(&self.text, place).unwrap_or_default()
     }
 }
 
@@ -234,7 +246,12 @@ impl Machine {
         let Some(ground) = ground else {
             return IndexMap::new();
         };
-        let names: Vec<String> = pattern.explore.iter().flat_map(of_system).collect();
+        let programmed = self.basis.logic.is_programmed();
+        let wires = pattern.explore.iter().filter(|_| programmed);
+        let names = wires.flat_map(of_wires);
+        let names: Vec<String> = names
+            .chain(pattern.explore.iter().flat_map(of_system))
+            .collect();
         let groups = grounds(self, Subjects::Group);
         let group = groups
             .iter()
@@ -274,6 +291,7 @@ pub(super) fn asked<'a>(
     guarantees: &'a [Guarantee],
     parts: Parts<'a>,
     judged: &Judged,
+    programmed: bool,
 ) -> Result<Vec<Asked<'a>>> {
     let mut list = Vec::new();
     let values: BTreeMap<&str, &Values> = (parts.axes.iter().zip(&judged.axes))
@@ -307,6 +325,7 @@ pub(super) fn asked<'a>(
                 insert(&mut values, &door.values);
             }
             insert(&mut values, &guarantee.values);
+            values.insert(PROGRAMMED.to_owned(), vec![i64::from(programmed)]);
             list.push(Asked {
                 guarantee,
                 axis,

@@ -130,7 +130,7 @@ impl Knob {
     /// The values it may have, in rising order: all of a choice, else the ends of its range and the finest step between them.
     pub fn range(&self) -> Range {
         match self.param.quantity {
-            Quantity::Choice => {
+            Quantity::Choice | Quantity::Signal => {
                 Range::All(self.param.choices.iter().map(|(_, code)| *code).collect())
             }
             Quantity::Bool => Range::All(vec![0, 1]),
@@ -149,8 +149,11 @@ impl Knob {
     /// The text of the machine file with this value in the place of the given one.
     pub fn turned(&self, source: &str, value: i64) -> String {
         let shown = self.param.show(value, self.kind);
-        let plain = matches!(self.param.quantity, Quantity::Bool | Quantity::Choice)
-            || self.param.quantity.dimension(self.kind).units().is_empty();
+        let named = matches!(
+            self.param.quantity,
+            Quantity::Bool | Quantity::Choice | Quantity::Signal
+        );
+        let plain = named || self.param.quantity.dimension(self.kind).units().is_empty();
         let text = match plain {
             true => shown,
             false => format!("\"{shown}\""),

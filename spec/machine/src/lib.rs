@@ -33,12 +33,14 @@ mod plausible;
 pub mod reaction;
 mod read;
 mod runs;
+mod signal;
 mod template;
 pub mod units;
 pub mod uses;
 mod value;
 pub mod warnings;
 mod whole;
+mod wired;
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -171,6 +173,9 @@ pub struct Setting {
     pub places: Vec<Place>,
 }
 
+/// The signals of a program by the port that each is connected to.
+pub type Wiring = BTreeMap<String, String>;
+
 /// One exploration: a system of a specification file under fixed parameters.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Run {
@@ -188,6 +193,8 @@ pub struct Run {
     pub cycle: i64,
     /// A time in microseconds that passes before what it explores begins.
     pub before: i64,
+    /// The signals that a program of the machine file has at the ports of the machine it stands for, `OUTSI[3]` or `NOT INSE[1]`.
+    pub wiring: Wiring,
     /// Values of the system's parameters; one cell for a scalar. Times in cycles, or in steps.
     pub params: BTreeMap<String, Vec<i64>>,
     /// For each parameter the expression over the values of the file that it was computed from.

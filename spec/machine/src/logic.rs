@@ -10,13 +10,14 @@ use serde::Deserialize;
 use stillpoint_lang::diag::{Diagnostic, Diagnostics, Result, nearest};
 use stillpoint_lang::ir::{System, Ty};
 use stillpoint_lang::{Spec, Written, read_text, toml_error};
-use stillpoint_st::{Signature, compile};
+use stillpoint_logic::st::{Signature, compile};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, Deserializer};
 
 use super::document::Findings;
-use super::family::Family;
-use super::{Basis, Machine};
+use super::family::{Family, Language, Slot};
+use super::wired::Wired;
+use super::{Basis, Machine, Place, Run, Wiring};
 
 /// The machines of a machine file, in its order.
 #[derive(Clone, Default)]
@@ -24,6 +25,8 @@ pub(super) struct Logic {
     file: String,
     source: Arc<str>,
     machines: Vec<(Spanned<String>, Definition)>,
+    /// Programs whose signals each run connects.
+    wired: Vec<Wired>,
 }
 
 /// One machine, and the file that it was written in.
@@ -41,6 +44,7 @@ struct Definition {
 impl std::fmt::Debug for Logic {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let names = self.machines.iter().map(|(name, _)| name.get_ref());
+        let names = names.chain(self.wired.iter().map(|w| w.name.get_ref()));
         f.debug_list().entries(names).finish()
     }
 }
@@ -103,6 +107,7 @@ impl Logic {
                 .into_iter()
                 .map(|(name, machine)| (name, here(machine)))
                 .collect(),
+            wired: Vec::new(),
         };
         let mut findings = Findings::new(file, source);
         let known = || family.logic.keys().map(String::as_str);
@@ -126,7 +131,7 @@ impl Logic {
             |checked: Result<()>| errors.extend(checked.err().into_iter().flat_map(|e| e.0));
         for (name, program) in programs {
             if let Some(slot) = family.logic.get(name.get_ref()) {
-                all(logic.translate(name, &program, &family.folder.join(&slot.file)));
+                all(logic.take(name, &program, slot, &family.folder.join(&slot.file)));
             }
         }
         for (name, machine) in &logic.machines {
@@ -140,31 +145,42 @@ impl Logic {
         }
     }
 
-    /// Reads and translates a program that stands beside the machine file.
-    fn translate(
+    /// Reads a program that stands beside the machine file, and translates it where its signals are known.
+    fn take(
         &mut self,
         name: Spanned<String>,
         program: &Elsewhere,
+        slot: &Slot,
         tables: &Path,
     ) -> Result<()> {
         let beside = Path::new(&self.file).parent().unwrap_or(Path::new(""));
         let path: PathBuf = beside.join(program.source.get_ref());
-        let source =
-            read_text(&path, "program in Structured Text").map_err(|Diagnostics(list)| {
-                let told = |d: Diagnostic| {
-                    Diagnostic::new(
-                        &self.file,
-                        &self.source,
-                        Some(program.source.span()),
-                        d.to_string(),
-                    )
-                    .label("named here")
-                    .help("`source` names a file in Structured Text, relative to the machine file")
-                };
-                Diagnostics(list.into_iter().map(told).collect())
-            })?;
-        let signature = Signature::of(&Spec::load(tables)?, name.get_ref())?;
+        let what = match slot.language {
+            Language::StructuredText => "program in Structured Text",
+            Language::SafeSpf => "program SAFE.SPF",
+        };
+        let source = read_text(&path, what).map_err(|Diagnostics(list)| {
+            let told = |d: Diagnostic| {
+                Diagnostic::new(
+                    &self.file,
+                    &self.source,
+                    Some(program.source.span()),
+                    d.to_string(),
+                )
+                .label("named here")
+                .help(format!(
+                    "`source` names a {what}, relative to the machine file"
+                ))
+            };
+            Diagnostics(list.into_iter().map(told).collect())
+        })?;
+        let spec = Spec::load(tables)?;
         let file = path.display().to_string();
+        if slot.language == Language::SafeSpf {
+            self.wired.push(Wired::read(name, file, source, &spec)?);
+            return Ok(());
+        }
+        let signature = Signature::of(&spec, name.get_ref())?;
         let compiled = compile(&file, &source, &signature)?;
         let definition = Definition {
             machine: compiled.machine,
@@ -190,7 +206,7 @@ impl Logic {
     fn fits(&self, name: &str, written: &Definition, path: &Path) -> Result<()> {
         let (old, new) = (
             Spec::load(path)?.open_machine(name)?,
-            self.spec(path)?.open_machine(name)?,
+            self.spec(path, &Wiring::new())?.open_machine(name)?,
         );
         let mut findings = Findings::new(&written.file, &written.source);
         for key in written.machine.outputs() {
@@ -211,12 +227,50 @@ impl Logic {
         findings.finish(())
     }
 
-    /// A specification file of the family with this logic in it.
+    /// Whether a program whose signals a run connects takes the place of one of these machines.
+    pub fn takes(&self, machines: &[String]) -> bool {
+        self.wired
+            .iter()
+            .any(|w| machines.contains(w.name.get_ref()))
+    }
+
+    /// Whether there is such a program.
+    pub fn is_programmed(&self) -> bool {
+        !self.wired.is_empty()
+    }
+
+    /// Whether such a program is told something through this port.
+    pub fn is_told(&self, port: &str) -> bool {
+        self.wired.iter().any(|w| w.is_told(port))
+    }
+
+    /// The times of such programs with these signals, which are counted in their scans.
+    ///
+    /// # Errors
+    /// A program cannot be explored.
+    pub fn scanned(&self, wiring: &Wiring) -> Result<Vec<(String, u64)>> {
+        let mut all = Vec::new();
+        for wired in &self.wired {
+            all.extend(wired.compiled(wiring)?.durations);
+        }
+        Ok(all)
+    }
+
+    /// A fault of the machine file.
+    pub fn fault(&self, place: Option<Place>, message: String) -> Diagnostic {
+        Diagnostic::new(&self.file, &self.source, place, message)
+    }
+
+    /// A specification file of the family with this logic in it, the signals of programs connected so.
     ///
     /// # Errors
     /// The file cannot be read, or the logic lacks an output of what it replaces.
-    pub fn spec(&self, path: &Path) -> Result<Spec> {
+    pub fn spec(&self, path: &Path, wiring: &Wiring) -> Result<Spec> {
         let mut spec = Spec::load(path)?;
+        for wired in self.wired.iter().filter(|_| !wiring.is_empty()) {
+            let machine = wired.compiled(wiring)?.machine;
+            spec.replace(&wired.file, &wired.source, &wired.name, &machine)?;
+        }
         for (name, machine) in &self.machines {
             spec.replace(&machine.file, &machine.source, name, &machine.machine)?;
         }
@@ -234,12 +288,12 @@ fn type_name(system: &System, ty: Ty) -> &str {
 }
 
 impl Machine {
-    /// A specification file of its family, with the logic of the machine file in the place of the family's own.
+    /// The specification file of a run, with the logic of the machine file in the place of the family's own.
     ///
     /// # Errors
-    /// The file cannot be read.
-    pub fn spec(&self, path: &Path) -> Result<Spec> {
-        self.basis.logic.spec(path)
+    /// The file cannot be read, or a program cannot be explored.
+    pub fn spec(&self, run: &Run) -> Result<Spec> {
+        self.basis.logic.spec(&run.file, &run.wiring)
     }
 
     /// The times that programs of the machine have as parameters of the systems they take part in: name, and length in microseconds.
@@ -248,18 +302,46 @@ impl Machine {
         parts.flat_map(|(_, part)| &part.durations)
     }
 
-    /// The program in Structured Text that a logic is: its name, and that of its file.
+    /// The program that a logic is: its name, and that of its file.
     pub(super) fn program(&self, logic: &str) -> Option<&str> {
-        let parts = self.basis.logic.machines.iter();
-        let mut named = parts.filter(|(name, _)| name.get_ref() == logic);
-        named.find_map(|(_, part)| part.program.as_deref())
+        let Logic {
+            machines, wired, ..
+        } = &self.basis.logic;
+        let parts = machines.iter().filter(|(name, _)| name.get_ref() == logic);
+        let mut tables = parts.filter_map(|(_, part)| part.program.as_deref());
+        let mut wired = wired.iter().filter(|w| w.name.get_ref() == logic);
+        tables
+            .next()
+            .or_else(|| wired.next().map(|w| w.file.as_str()))
+    }
+
+    /// Logic that guarantees depend on and that the machine file does not have, with what is assumed of it.
+    pub(super) fn logic_missing(&self) -> impl Iterator<Item = String> + '_ {
+        let Basis { family, logic, .. } = &*self.basis;
+        let asked = self.runs.iter().any(|run| run.guarantee.is_some());
+        let slots = family.logic.iter().filter(move |_| asked);
+        slots.filter_map(|(name, slot)| {
+            let known = logic.wired.iter().any(|w| w.name.get_ref() == name);
+            let known = known || logic.machines.iter().any(|(n, _)| n.get_ref() == name);
+            let text = slot.missing.as_ref().filter(|_| !known)?;
+            Some(format!("Logic {name} is not in the file: {text}."))
+        })
+    }
+
+    /// What is worth telling of programs that are right, each with its line.
+    pub(super) fn logic_notes(&self) -> impl Iterator<Item = String> + '_ {
+        self.basis.logic.wired.iter().flat_map(|wired| {
+            let notes = wired.program.notes().iter();
+            notes.map(|note| format!("{}, {note}.", wired.file))
+        })
     }
 
     /// The machines of the tables that the machine file replaces by its own logic: name, and what it is.
     pub fn logic(&self) -> impl Iterator<Item = (&str, &str)> {
         let Basis { family, logic, .. } = &*self.basis;
-        let slots = logic.machines.iter();
-        slots.filter_map(|(name, _)| {
+        let names = logic.machines.iter().map(|(name, _)| name);
+        let names = names.chain(logic.wired.iter().map(|w| &w.name));
+        names.filter_map(|name| {
             let slot = family.logic.get(name.get_ref())?;
             Some((name.get_ref().as_str(), slot.text.as_str()))
         })

@@ -7,7 +7,8 @@ use super::family::{Binding, Explore, Family, Rounding, Scope};
 use super::guarantee::{Guarantee, asked};
 use super::logic::Logic;
 use super::plausible::{Judged, evaluate};
-use super::{Axis, Door, Group, Run};
+use super::wired::wiring;
+use super::{Axis, Door, Group, Run, Wiring};
 use stillpoint_lang::diag::{Diagnostic, Diagnostics, Result};
 
 /// A scaled system has at most this many steps in its longest time.
@@ -76,7 +77,7 @@ pub(super) fn guaranteed(
 ) -> Result<Vec<Run>> {
     let mut planned: Vec<Planned> = Vec::new();
     let mut files = BTreeMap::new();
-    for asked in asked(family, guarantees, parts, judged)? {
+    for asked in asked(family, guarantees, parts, judged, logic.is_programmed())? {
         let mut decided = false;
         for explore in &asked.pattern.explore {
             if evaluate(family, &explore.when, &asked.values, judged.cycle)? == 0 {
@@ -88,7 +89,18 @@ pub(super) fn guaranteed(
                 members: vec![(asked.axis, &asked.values)],
                 axes: vec![asked.axis.to_owned()],
             };
+            let wiring = match logic.takes(&system.machines) {
+                true => wiring(family, explore, &asked, logic)?,
+                false => Wiring::new(),
+            };
+            let mut system = system;
+            if let Some(scan) = explore.scan.as_ref().filter(|_| !wiring.is_empty()) {
+                let scan = evaluate(family, scan, &asked.values, judged.cycle)?.max(1);
+                let scans = logic.scanned(&wiring)?;
+                system.scanned = scans.into_iter().map(|d| (d, scan)).collect();
+            }
             let mut run = bind(family, explore, &system, judged.cycle, &subject, 0)?;
+            run.run.wiring = wiring;
             run.run.guarantee = Some(asked.guarantee.name.clone());
             merge(&mut planned, run);
         }
@@ -237,8 +249,12 @@ fn coupled(family: &Family, axes: &[Axis], judged: &Judged) -> Result<Vec<Vec<us
 struct Declared {
     /// Whether its timers are scaled.
     scaled: bool,
+    /// The machines in it.
+    machines: Vec<String>,
     /// The times of the programs in it.
     durations: Vec<(String, u64)>,
+    /// Times that are counted in the scans of a program, each with the time from one scan to the next.
+    scanned: Vec<((String, u64), i64)>,
 }
 
 /// How the specification file declares the system; `files` keeps what was read.
@@ -289,6 +305,8 @@ fn declared<'e>(
     Ok(Declared {
         scaled: system.get("timers").and_then(toml::Value::as_str) == Some("scaled"),
         durations: logic.durations(&machines).cloned().collect(),
+        scanned: Vec::new(),
+        machines,
     })
 }
 
@@ -318,6 +336,7 @@ fn bind(
         system: explore.system.clone(),
         cycle,
         before: 0,
+        wiring: Wiring::new(),
         params: BTreeMap::new(),
         sources: BTreeMap::new(),
         abstractions: Vec::new(),
@@ -381,7 +400,9 @@ fn bind(
             }
         }
     }
-    for (name, us) in &system.durations {
+    let durations = system.durations.iter().map(|d| (d, cycle));
+    let scanned = system.scanned.iter().map(|(d, scan)| (d, *scan));
+    for ((name, us), cycle) in durations.chain(scanned) {
         let time = i64::try_from(*us).unwrap_or(i64::MAX);
         run.sources.insert(name.clone(), format!("T#{us}us"));
         times.push(Time {
@@ -447,8 +468,8 @@ fn ranks(values: &[i64]) -> Vec<i64> {
 fn merge(list: &mut Vec<Planned>, new: Planned) {
     let same = list.iter_mut().find(|known| {
         let (a, b) = (&known.run, &new.run);
-        (&a.file, &a.system, a.cycle, a.before, &a.params)
-            == (&b.file, &b.system, b.cycle, b.before, &b.params)
+        (&a.file, &a.system, a.cycle, a.before, &a.params, &a.wiring)
+            == (&b.file, &b.system, b.cycle, b.before, &b.params, &b.wiring)
             && a.guarantee == b.guarantee
             && (known.each, known.of_member) == (new.each, new.of_member)
             && (!new.of_member || known.names == new.names)

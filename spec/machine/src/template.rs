@@ -32,6 +32,26 @@ enum Piece {
     Value(Expr, Option<Quantity>, String),
 }
 
+/// A text with plain places, filled in with what `place` gives for each.
+///
+/// # Errors
+/// The first place that it does not know.
+pub(super) fn filled(
+    text: &str,
+    mut place: impl FnMut(&str) -> Option<String>,
+) -> std::result::Result<String, String> {
+    let mut out = String::new();
+    let mut rest = text;
+    while let Some((plain, after)) = rest.split_once('{') {
+        out.push_str(plain);
+        let (name, tail) = after.split_once('}').unwrap_or((after, ""));
+        out.push_str(&place(name).ok_or_else(|| name.to_owned())?);
+        rest = tail;
+    }
+    out.push_str(rest);
+    Ok(out)
+}
+
 /// What the texts of an entry may name.
 pub(super) struct Words<'a> {
     /// What the entry is about.

@@ -44,7 +44,9 @@ pub fn uses(folder: &Path, name: &str) -> Result<Uses> {
     let reads = |names: Vec<String>| family.resolved(names).contains(name);
     let rules = family.rules.iter();
     let rules = rules.filter(|r| reads(read_names(&r.when.expr)));
-    let systems = family.explore.iter().filter(|e| reads(of_system(e)));
+    let patterns = family.patterns.values().flat_map(|p| &p.explore);
+    let systems = family.explore.iter().chain(patterns);
+    let systems = systems.filter(|e| reads(of_system(e)) || reads(of_wires(e).collect()));
     let known = warnings::catalogue(folder)?.into_iter();
     let known = known.filter(|w| w.reads.iter().any(|n| n == name));
     Ok(Uses {
@@ -68,10 +70,16 @@ fn functions(family: &Family, name: &str) -> Result<Vec<String>> {
     Ok(pages.map(|p| p.title).collect())
 }
 
+/// The signals that a program in an explored system is connected to.
+pub(super) fn of_wires(explore: &Explore) -> impl Iterator<Item = String> + '_ {
+    explore.wires.iter().map(|(_, name, _)| name.clone())
+}
+
 /// The names that an explored system reads.
 pub(super) fn of_system(explore: &Explore) -> Vec<String> {
     let mut names = read_names(&explore.when.expr);
     let times = explore.cycle.iter().chain(&explore.before);
+    let times = times.chain(&explore.scan);
     names.extend(times.flat_map(|f| read_names(&f.expr)));
     for binding in &explore.params {
         match binding {

@@ -5,7 +5,8 @@ use toml::de::DeValue;
 use super::AxisKind;
 use super::document::kind_of;
 use super::family::{Param, Quantity};
-use super::units::{self, Dimension, UnitError, quoted};
+use super::signal;
+use super::units::{self, Dimension, UnitError};
 use stillpoint_lang::diag::nearest;
 
 /// A value as TOML gives it.
@@ -67,7 +68,7 @@ impl Raw {
 /// The value in base units; the range is not looked at.
 pub(super) fn number(raw: &Raw, param: &Param, kind: AxisKind) -> Result<i64, Refusal> {
     match (param.quantity, raw) {
-        (Quantity::Choice, _) => choice(raw, param),
+        (Quantity::Choice | Quantity::Signal, _) => choice(raw, param),
         (Quantity::Bool, Raw::Bool(b)) => Ok(i64::from(*b)),
         (Quantity::Bool, _) => Err(Refusal {
             message: format!("true or false is needed; got {}", raw.written()),
@@ -194,16 +195,20 @@ fn choice(raw: &Raw, param: &Param) -> Result<i64, Refusal> {
         return Err(Refusal {
             message: format!("one of the names is needed; got {}", raw.written()),
             label: "not a name".to_owned(),
-            help: format!("write {}", quoted(&names)),
+            help: format!("write {}", param.names()),
         });
     };
-    let found = param.choices.iter().find(|(name, _)| name == text);
+    let coded = (param.quantity == Quantity::Signal)
+        .then(|| signal::coded(text))
+        .flatten();
+    let mut all = param.choices.iter();
+    let found = all.find(|(name, code)| name == text || Some(*code) == coded);
     found.map(|(_, code)| *code).ok_or_else(|| Refusal {
         message: format!("\"{text}\" is not one of the values"),
         label: "no such value".to_owned(),
         help: match nearest(text, names.iter().copied()) {
-            Some(near) => format!("did you mean \"{near}\"? Allowed: {}", quoted(&names)),
-            None => format!("allowed: {}", quoted(&names)),
+            Some(near) => format!("did you mean \"{near}\"? Allowed: {}", param.names()),
+            None => format!("allowed: {}", param.names()),
         },
     })
 }

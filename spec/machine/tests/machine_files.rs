@@ -115,7 +115,7 @@ fn each_run_fits_its_system() {
     for machine in [milling(), centre()] {
         assert!(machine.runs.len() >= 10, "{} runs", machine.runs.len());
         for run in &machine.runs {
-            let spec = machine.spec(&run.file).unwrap_or_else(|e| panic!("{e}"));
+            let spec = machine.spec(run).unwrap_or_else(|e| panic!("{e}"));
             let system = spec
                 .system(&run.system, u64::try_from(run.cycle).ok())
                 .unwrap_or_else(|e| panic!("{e}"));
@@ -196,7 +196,7 @@ fn a_logic_takes_the_place_of_that_of_the_tables() {
         )
     };
     let tables = fingerprint(Spec::load(&run.file).unwrap_or_else(|e| panic!("{e}")));
-    let own = fingerprint(machine.spec(&run.file).unwrap_or_else(|e| panic!("{e}")));
+    let own = fingerprint(machine.spec(run).unwrap_or_else(|e| panic!("{e}")));
     assert!(
         tables.0 > 0 && own.0 == 0,
         "{} and {} rules",
@@ -206,7 +206,7 @@ fn a_logic_takes_the_place_of_that_of_the_tables() {
     assert_ne!(tables.1, own.1);
     // That of the machining centre is the example of the tables with other comments.
     let centre = centre();
-    let same = fingerprint(centre.spec(&run.file).unwrap_or_else(|e| panic!("{e}")));
+    let same = fingerprint(centre.spec(run).unwrap_or_else(|e| panic!("{e}")));
     assert_eq!(same, tables);
 }
 

@@ -6,12 +6,12 @@ use std::time::Duration;
 
 use stillpoint_engine::subject::{self, Readings, Task};
 use stillpoint_engine::table::Interpreted;
-use stillpoint_harness::explore::classes::classes;
-use stillpoint_harness::explore::jump::jump;
-use stillpoint_harness::explore::live::{Standing, live};
-use stillpoint_harness::explore::path::Path;
-use stillpoint_harness::explore::walk::walk;
-use stillpoint_harness::explore::{Bounds, identity};
+use stillpoint_harness::browse::classes::classes;
+use stillpoint_harness::browse::jump::jump;
+use stillpoint_harness::browse::live::{Standing, live};
+use stillpoint_harness::browse::path::Path;
+use stillpoint_harness::browse::walk::walk;
+use stillpoint_harness::browse::{Bounds, identity};
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::ir::Form;
 use stillpoint_model::{Options, Verdict, initials};

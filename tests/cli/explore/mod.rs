@@ -6,5 +6,5 @@ mod api;
 mod chromium;
 mod count;
 mod page;
-mod recorded;
+mod recording;
 mod served;

@@ -1,8 +1,9 @@
-//! `stillpoint reaction` and `stillpoint acceptance` for a machine with HEIDENHAIN functional safety.
+//! `stillpoint reaction`, `stillpoint acceptance` and recordings for a machine with HEIDENHAIN functional safety.
 
 mod acceptance;
 mod conversion;
 mod reaction;
+mod recording;
 
 use serde_json::Value;
 

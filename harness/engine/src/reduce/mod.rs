@@ -18,7 +18,7 @@ use stillpoint_model::{
 use crate::explore::{self, Judged};
 use crate::keep::beside;
 use crate::outcome::{Evaluator, Explored, Outcome, Pair, Reduction, Reductions, label, undecided};
-use crate::recorded;
+use crate::stated;
 use crate::table::{Generated, Interpreted};
 
 mod images;
@@ -318,7 +318,7 @@ impl<'a> Sum<'a> {
                 _ => undecided(property),
             })
             .collect();
-        let refuted = recorded::judge(self.bound, &mut self.report.properties);
+        let refuted = stated::judge(self.bound, &mut self.report.properties);
         let interpreted = |p: &Explored| p.evaluator == Evaluator::Interpreter;
         Outcome {
             report: self.report,

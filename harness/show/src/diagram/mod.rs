@@ -1,6 +1,6 @@
 //! Timing diagrams: signals over cycles.
 
-mod fold;
+mod columns;
 mod panel;
 mod svg;
 mod text;

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::ops::Range;
 
-use super::fold::Column;
+use super::columns::Column;
 use super::panel::{self, Scale};
 use super::{Diagram, Lane};
 use crate::escape::{cut, html, lines};
@@ -29,8 +29,8 @@ fn width_of(words: &str) -> i32 {
     letters.min(1000) * LETTER / 10 + 1
 }
 
-/// Width that a folded column needs for its number; 0 for another one.
-fn folded_width(column: Column) -> i32 {
+/// Width that a gathered column needs for its number; 0 for another one.
+fn gathered_width(column: Column) -> i32 {
     match column {
         Column::Cycle(_) => 0,
         Column::Idle { count, .. } | Column::Cut { count, .. } => {
@@ -68,7 +68,7 @@ impl Diagram {
     /// The diagram as SVG, with or without the rules that it needs to stand alone.
     pub(crate) fn draw(&self, standalone: bool) -> String {
         let least = if self.panels.is_empty() { 3 } else { 12 };
-        let columns = self.folded(least, MOST_COLUMNS);
+        let columns = self.drawn(least, MOST_COLUMNS);
         let widths = self.widths(&columns);
         let lanes = self.lanes.iter().map(|l| width_of(&l.name) + 12);
         let curves = self.panels.iter().flat_map(|p| &p.curves);
@@ -116,7 +116,7 @@ impl Diagram {
     fn widths(&self, columns: &[Column]) -> Vec<i32> {
         let count = columns.iter().filter(|c| matches!(c, Column::Cycle(_)));
         let count = i32::try_from(count.count()).unwrap_or(i32::MAX).max(1);
-        let folded: i32 = columns.iter().map(|c| folded_width(*c)).sum();
+        let gathered: i32 = columns.iter().map(|c| gathered_width(*c)).sum();
         // A curve is read as a whole, so that its columns may be narrow: one row, if the run is not too long.
         let base = if self.panels.is_empty() {
             // Every column has its time, if all of them fit one row then.
@@ -129,13 +129,13 @@ impl Diagram {
                 26
             }
         } else {
-            ((ROOM - folded) / count).clamp(2, 26)
+            ((ROOM - gathered) / count).clamp(2, 26)
         };
         let mut widths: Vec<i32> = columns
             .iter()
             .map(|c| match c {
                 Column::Cycle(_) => base,
-                folded => base.max(folded_width(*folded)),
+                gathered => base.max(gathered_width(*gathered)),
             })
             .collect();
         // Beside curves the time is drawn to scale: words that do not fit are cut there.
@@ -351,7 +351,7 @@ fn rows_within(widths: &[i32], room: i32) -> Vec<Range<usize>> {
 }
 
 impl Lane {
-    /// Stretches of columns with one value; a folded column in which it counts stands alone.
+    /// Stretches of columns with one value; a gathered column in which it counts stands alone.
     fn segments(&self, columns: &[Column]) -> Vec<Range<usize>> {
         let mut out: Vec<Range<usize>> = Vec::new();
         for (n, column) in columns.iter().enumerate() {
@@ -369,7 +369,7 @@ impl Lane {
         out
     }
 
-    /// Whether the value is not the same throughout a folded column.
+    /// Whether the value is not the same throughout a gathered column.
     fn moves(&self, column: Column) -> bool {
         let (first, count) = (column.first(), column.count());
         (first + 1..first + count).any(|k| !self.same(first, k))

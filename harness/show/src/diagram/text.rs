@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::fold::Column;
+use super::columns::Column;
 use super::{Diagram, Lane};
 use crate::number::{millis, trimmed};
 
@@ -14,7 +14,7 @@ const PAGE: usize = 96;
 impl Diagram {
     /// The diagram as text: levels as lines, values where they change, remarks under their columns.
     pub fn text(&self) -> String {
-        let columns = self.folded(2, MOST_COLUMNS);
+        let columns = self.drawn(2, MOST_COLUMNS);
         let mut lanes = self.quantities();
         lanes.extend(self.lanes.iter().cloned());
         let names = lanes.iter().map(|l| l.name.chars().count());
@@ -171,7 +171,7 @@ mod tests {
     }
 
     #[test]
-    fn folds_stretches_in_which_signals_stay_or_count() {
+    fn gathers_stretches_in_which_signals_stay_or_count() {
         let still: Vec<&str> = std::iter::once("0")
             .chain(std::iter::repeat_n("1", 100))
             .collect();

@@ -8,7 +8,7 @@ use super::{Numbers, Peer};
 use crate::diff::product::Values;
 
 /// A monitor with its configuration.
-pub(super) struct Adapter {
+pub(crate) struct Adapter {
     inputs: Vec<&'static str>,
     unused: &'static [&'static str],
     outputs: Vec<&'static str>,
@@ -24,7 +24,7 @@ type Step = dyn Fn(&mut [i32], &[i32], &mut Numbers) + Send + Sync;
 
 impl Adapter {
     /// A monitor with these ports, as the table calls them, and a state of these cells.
-    pub(super) fn new<S: Fields>(
+    pub(crate) fn new<S: Fields>(
         inputs: &'static [&'static str],
         outputs: &'static [&'static str],
         domains: Vec<Domain>,
@@ -39,7 +39,7 @@ impl Adapter {
     }
 
     /// A monitor whose state is in cells, with these ports.
-    pub(super) fn of(
+    pub(crate) fn of(
         inputs: Vec<&'static str>,
         outputs: Vec<&'static str>,
         domains: Vec<Domain>,
@@ -59,7 +59,7 @@ impl Adapter {
     }
 
     /// A monitor without a state.
-    pub(super) fn stateless(
+    pub(crate) fn stateless(
         inputs: &'static [&'static str],
         outputs: &'static [&'static str],
         step: impl Fn(&[i32], &mut Numbers) + Send + Sync + 'static,
@@ -70,13 +70,13 @@ impl Adapter {
     }
 
     /// Names the inputs that only the table has, for other readings than the recommended ones.
-    pub(super) fn without(mut self, unused: &'static [&'static str]) -> Self {
+    pub(crate) fn without(mut self, unused: &'static [&'static str]) -> Self {
         self.unused = unused;
         self
     }
 
     /// Restricts inputs to the values they have at this interface.
-    pub(super) fn only(mut self, inputs: &[&str], values: Values) -> Self {
+    pub(crate) fn only(mut self, inputs: &[&str], values: Values) -> Self {
         for (port, name) in self.inputs.iter().enumerate() {
             if inputs.contains(name) {
                 self.allowed.push((port, values));
@@ -86,12 +86,12 @@ impl Adapter {
     }
 
     /// A cell that starts with the value of a state variable of the table: non-volatile state.
-    pub(super) fn kept(self, cell: usize, state: &'static str) -> Self {
+    pub(crate) fn kept(self, cell: usize, state: &'static str) -> Self {
         self.kept_where(cell, state, state)
     }
 
     /// The same where another state variable of the table is not 0; else the cell keeps its initial value.
-    pub(super) fn kept_where(
+    pub(crate) fn kept_where(
         mut self,
         cell: usize,
         state: &'static str,

@@ -4,14 +4,14 @@ use stillpoint_monitors::fields::{Fields, Kind, get, set, walk};
 
 /// A number of a type: its name, that with the names of the fields it is in, and its values.
 #[derive(Clone)]
-pub(super) struct Number {
-    pub(super) short: &'static str,
-    pub(super) name: String,
-    pub(super) kind: Kind,
+pub(crate) struct Number {
+    pub(crate) short: &'static str,
+    pub(crate) name: String,
+    pub(crate) kind: Kind,
 }
 
 /// The numbers of a part of a step, which is the first part of their names.
-pub(super) fn numbers<T: Fields>(part: &'static str) -> Vec<Number> {
+pub(crate) fn numbers<T: Fields>(part: &'static str) -> Vec<Number> {
     let mut numbers = Vec::new();
     walk::<T>(part, |path, kind| {
         numbers.push(Number {
@@ -24,17 +24,17 @@ pub(super) fn numbers<T: Fields>(part: &'static str) -> Vec<Number> {
 }
 
 /// The value in cells.
-pub(super) fn load<T: Fields>(cells: &[i32]) -> T {
+pub(crate) fn load<T: Fields>(cells: &[i32]) -> T {
     set(cells.iter().map(|cell| i64::from(*cell)))
 }
 
 /// A number in a cell; one that is too large for it is the largest.
-pub(super) fn cell(number: i64) -> i32 {
+pub(crate) fn cell(number: i64) -> i32 {
     i32::try_from(number).unwrap_or(if number < 0 { i32::MIN } else { i32::MAX })
 }
 
 /// Writes a value to cells.
-pub(super) fn store<T: Fields>(value: T, cells: &mut [i32]) {
+pub(crate) fn store<T: Fields>(value: T, cells: &mut [i32]) {
     let mut cells = cells.iter_mut();
     get(value, |number| {
         if let Some(place) = cells.next() {
@@ -44,7 +44,7 @@ pub(super) fn store<T: Fields>(value: T, cells: &mut [i32]) {
 }
 
 /// A value in cells of its own.
-pub(super) fn stored<T: Fields>(value: T) -> Vec<i32> {
+pub(crate) fn stored<T: Fields>(value: T) -> Vec<i32> {
     let mut cells = Vec::new();
     get(value, |number| cells.push(cell(number)));
     cells

@@ -1,11 +1,12 @@
-//! The production monitors as peers of the tables: the same ports, in the numbers of the specification.
+//! The production monitors as peers (test oracles) of the tables: the same ports, in the numbers of the specification.
+//!
+//! What they are made of is here; which monitors a family has, and what is not the same in its tables, stands in its own module
+//! below [`crate::families`].
 
-mod adapter;
-mod cells;
-mod heidenhain;
-mod numbers;
-mod same;
-mod sinumerik;
+pub(crate) mod adapter;
+pub(crate) mod cells;
+pub(crate) mod numbers;
+pub(crate) mod same;
 
 use std::cell::RefCell;
 use std::collections::BTreeSet;
@@ -17,6 +18,8 @@ use stillpoint_monitors::kernel::{ConfigError, Cycles, Speed};
 use stillpoint_monitors::mutant::{Mutant, Wrong};
 
 use super::product::Values;
+use super::slices::Slice;
+use crate::families;
 use adapter::Adapter;
 
 /// Numbers in the order of a list of names.
@@ -40,46 +43,27 @@ pub trait Peer: Send + Sync {
     fn step(&self, cells: &mut [i32], inputs: &[i32], outputs: &mut Numbers);
 }
 
-/// The monitors of a family.
-pub struct Family {
-    /// The folder of its tables: the first part of their names.
-    pub name: &'static str,
-    /// The module of its monitors.
-    pub module: &'static str,
+/// The monitors of a family as peers of its tables.
+pub struct Peers {
     /// The machines that have a monitor, each with the name of its module; list by list.
-    machines: &'static [&'static [(&'static str, &'static str)]],
+    pub(crate) machines: &'static [&'static [(&'static str, &'static str)]],
     /// The systems that have a monitor: several machines together.
     pub systems: &'static [(&'static str, &'static str)],
     /// Parameters of the tables with the only value for which a comparison means something.
     pub fixed: &'static [(&'static str, &'static str, i64)],
-    make: fn(&str, &Params, Option<Mutant>) -> Made,
+    /// What is explored of a system, or of a machine with too many inputs for one exploration.
+    pub(crate) slices: &'static [Slice],
+    /// The values of inputs that a slice holds, where they are not the least ones.
+    pub(crate) calm: &'static [(&'static str, i32)],
+    /// Makes the peer of a machine or a system.
+    pub(crate) make: fn(&str, &Params, Option<Mutant>) -> Made,
 }
 
-impl Family {
+impl Peers {
     /// The machines that have a monitor, each with the name of its module.
     pub fn machines(&self) -> impl Iterator<Item = (&'static str, &'static str)> + use<> {
         self.machines.iter().flat_map(|list| list.iter().copied())
     }
-}
-
-/// The families with monitors.
-pub static FAMILIES: [&Family; 2] = [&sinumerik::FAMILY, &heidenhain::FAMILY];
-
-/// The family with monitors that a machine, a system or a file of its tables belongs to, by its full name.
-pub fn family(name: &str) -> Option<&'static Family> {
-    let folder = name.split('/').next()?;
-    FAMILIES.into_iter().find(|family| family.name == folder)
-}
-
-/// Every deliberately wrong monitor.
-pub fn mutants() -> impl Iterator<Item = Mutant> {
-    stillpoint_monitors::sinumerik::mutant::all()
-        .chain(stillpoint_monitors::heidenhain::mutant::all())
-}
-
-/// The family of a wrong monitor.
-pub fn family_of(mutant: Mutant) -> Option<&'static Family> {
-    FAMILIES.into_iter().find(|f| f.module == mutant.family)
 }
 
 /// A name that is no mutant's.
@@ -89,7 +73,7 @@ pub struct UnknownMutant;
 impl std::fmt::Display for UnknownMutant {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str("no mutant has this name; the names are")?;
-        for mutant in mutants() {
+        for mutant in families::mutants() {
             write!(f, " {}", mutant.name)?;
         }
         Ok(())
@@ -103,24 +87,24 @@ impl std::error::Error for UnknownMutant {}
 /// # Errors
 /// [`UnknownMutant`], which lists the names.
 pub fn mutant(name: &str) -> Result<Mutant, UnknownMutant> {
-    mutants()
+    families::mutants()
         .find(|mutant| mutant.name == name)
         .ok_or(UnknownMutant)
 }
 
 /// The step function of a monitor, or that of its wrong variant where it has this one.
-fn chosen<M: Contract>(mutant: Option<Mutant>) -> Next<M> {
+pub(crate) fn chosen<M: Contract>(mutant: Option<Mutant>) -> Next<M> {
     one_of(M::next, M::wrong(), mutant)
 }
 
 /// The step function of the wrong variant, if it is among these; else the right one.
-fn one_of<N: Copy>(right: N, wrong: &[Wrong<N>], mutant: Option<Mutant>) -> N {
+pub(crate) fn one_of<N: Copy>(right: N, wrong: &[Wrong<N>], mutant: Option<Mutant>) -> N {
     let found = wrong.iter().find(|wrong| Some(wrong.mutant) == mutant);
     found.map_or(right, |wrong| wrong.next)
 }
 
 /// Why there is no peer under some parameters.
-enum Refusal {
+pub(crate) enum Refusal {
     /// The monitor does not accept them.
     Monitor(ConfigError),
     /// The monitor does not accept this configuration.
@@ -140,19 +124,19 @@ impl From<ConfigError> for Refusal {
 }
 
 /// What comes of making a peer: none for a machine without a monitor, or why there is none under these parameters.
-type Made = Result<Option<Adapter>, Refusal>;
+pub(crate) type Made = Result<Option<Adapter>, Refusal>;
 
 /// An adapter, or why there is none under these parameters.
-type Refusable = Result<Adapter, Refusal>;
+pub(crate) type Refusable = Result<Adapter, Refusal>;
 
 /// The parameters of a machine or system, and which of them the monitor has been given.
-struct Params<'a> {
+pub(crate) struct Params<'a> {
     bound: &'a Bound,
     read: RefCell<BTreeSet<usize>>,
 }
 
 impl<'a> Params<'a> {
-    fn new(bound: &'a Bound) -> Self {
+    pub(crate) fn new(bound: &'a Bound) -> Self {
         Self {
             bound,
             read: RefCell::default(),
@@ -160,7 +144,7 @@ impl<'a> Params<'a> {
     }
 
     /// A value; 0 for a name that the table does not have.
-    fn value(&self, name: &str) -> i32 {
+    pub(crate) fn value(&self, name: &str) -> i32 {
         let mut params = self.bound.system.params.iter();
         let Some(k) = params.position(|p| p.var.name == name) else {
             return 0;
@@ -170,7 +154,7 @@ impl<'a> Params<'a> {
     }
 
     /// A value of a name that the table has.
-    fn known(&self, name: &str) -> Result<i32, Refusal> {
+    pub(crate) fn known(&self, name: &str) -> Result<i32, Refusal> {
         if self.bound.system.params.iter().any(|p| p.var.name == name) {
             Ok(self.value(name))
         } else {
@@ -178,15 +162,15 @@ impl<'a> Params<'a> {
         }
     }
 
-    fn is(&self, name: &str) -> bool {
+    pub(crate) fn is(&self, name: &str) -> bool {
         self.value(name) != 0
     }
 
-    fn time(&self, name: &str) -> Cycles {
+    pub(crate) fn time(&self, name: &str) -> Cycles {
         numbers::cycles(self.value(name))
     }
 
-    fn speed(&self, name: &str) -> Speed {
+    pub(crate) fn speed(&self, name: &str) -> Speed {
         numbers::speed(self.value(name))
     }
 }
@@ -201,10 +185,10 @@ pub fn peer(
     bound: &Bound,
     mutant: Option<Mutant>,
 ) -> Result<Option<Box<dyn Peer>>, String> {
-    let Some(family) = family(&bound.system.name) else {
+    let Some(family) = families::of_table(&bound.system.name) else {
         return Ok(None);
     };
-    let made = (family.make)(machine, &Params::new(bound), mutant).map_err(|e| match e {
+    let made = (family.peers.make)(machine, &Params::new(bound), mutant).map_err(|e| match e {
         Refusal::Monitor(e) => {
             format!("the monitor of `{machine}` refuses these parameters: {e:?}")
         }
@@ -220,10 +204,10 @@ pub fn peer(
 /// with them alone. Empty for what has no monitor; readings aside.
 pub fn unread(machine: &str, bound: &Bound) -> Vec<String> {
     let params = Params::new(bound);
-    let Some(family) = family(&bound.system.name) else {
+    let Some(family) = families::of_table(&bound.system.name) else {
         return Vec::new();
     };
-    if !matches!((family.make)(machine, &params, None), Ok(Some(_))) {
+    if !matches!((family.peers.make)(machine, &params, None), Ok(Some(_))) {
         return Vec::new();
     }
     let read = params.read.borrow();

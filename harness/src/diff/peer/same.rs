@@ -28,7 +28,7 @@ type Make = fn(&[i32]) -> i64;
 type Told<M> = fn(&<M as Contract>::State, &<M as Contract>::Outputs) -> i64;
 
 /// The peer of `M` as far as it is known.
-pub(super) struct Same<'a, M: Contract> {
+pub(crate) struct Same<'a, M: Contract> {
     params: &'a Params<'a>,
     next: Next<M>,
     /// Names of the table, each with that of the monitor.
@@ -49,7 +49,7 @@ pub(super) struct Same<'a, M: Contract> {
 
 impl<'a, M: Contract> Same<'a, M> {
     /// The monitor under the parameters of a table, or its wrong variant.
-    pub(super) fn new(params: &'a Params<'a>, mutant: Option<Mutant>) -> Self {
+    pub(crate) fn new(params: &'a Params<'a>, mutant: Option<Mutant>) -> Self {
         Self {
             params,
             next: chosen::<M>(mutant),
@@ -68,49 +68,49 @@ impl<'a, M: Contract> Same<'a, M> {
     }
 
     /// Names of the table that are others in the monitor. A part of the monitor's name is enough that stands in no other.
-    pub(super) fn named(mut self, named: &'static [(&'static str, &'static str)]) -> Self {
+    pub(crate) fn named(mut self, named: &'static [(&'static str, &'static str)]) -> Self {
         self.named = named;
         self
     }
 
     /// Parameters and inputs of the monitor that the table does not have.
-    pub(super) fn constants(mut self, constants: &'static [(&'static str, i64)]) -> Self {
+    pub(crate) fn constants(mut self, constants: &'static [(&'static str, i64)]) -> Self {
         self.constants = constants;
         self
     }
 
     /// The configuration, where its parameters are not those of the table.
-    pub(super) fn config(mut self, config: M::Config) -> Self {
+    pub(crate) fn config(mut self, config: M::Config) -> Self {
         self.config = Some(config);
         self
     }
 
     /// What the parameters of the table must be, because it is smaller than the monitor.
-    pub(super) fn needs(mut self, holds: bool, text: &'static str) -> Self {
+    pub(crate) fn needs(mut self, holds: bool, text: &'static str) -> Self {
         self.lacks = self.lacks.or((!holds).then_some(text));
         self
     }
 
     /// Outputs of the monitor that the table does not have, and states that are not to be compared.
-    pub(super) fn hidden(mut self, hidden: &'static [&'static str]) -> Self {
+    pub(crate) fn hidden(mut self, hidden: &'static [&'static str]) -> Self {
         self.hidden = hidden;
         self
     }
 
     /// Inputs that only the table has, for other readings than the recommended ones.
-    pub(super) fn without(mut self, unused: &'static [&'static str]) -> Self {
+    pub(crate) fn without(mut self, unused: &'static [&'static str]) -> Self {
         self.unused = unused;
         self
     }
 
     /// An output that the table has in other words.
-    pub(super) fn told(mut self, name: &'static str, told: Told<M>) -> Self {
+    pub(crate) fn told(mut self, name: &'static str, told: Told<M>) -> Self {
         self.told.push((name, told));
         self
     }
 
     /// An input that the table has in other words: the ports it is made of.
-    pub(super) fn made(
+    pub(crate) fn made(
         mut self,
         name: &'static str,
         ports: &'static [&'static str],
@@ -121,18 +121,18 @@ impl<'a, M: Contract> Same<'a, M> {
     }
 
     /// The values of a state that the table does not have.
-    pub(super) fn cell(mut self, name: &'static str, domain: Domain) -> Self {
+    pub(crate) fn cell(mut self, name: &'static str, domain: Domain) -> Self {
         self.cells.push((name, domain));
         self
     }
 
     /// A state that starts with the value of a state variable of the table, which is not 0: non-volatile state.
-    pub(super) fn kept(self, name: &'static str, variable: &'static str) -> Self {
+    pub(crate) fn kept(self, name: &'static str, variable: &'static str) -> Self {
         self.kept_where(name, variable, variable)
     }
 
     /// The same where another state variable of the table is not 0; else the state starts as ever.
-    pub(super) fn kept_where(
+    pub(crate) fn kept_where(
         mut self,
         name: &'static str,
         variable: &'static str,
@@ -143,7 +143,7 @@ impl<'a, M: Contract> Same<'a, M> {
     }
 
     /// Restricts inputs to the values they have at this interface.
-    pub(super) fn only(mut self, inputs: &'static [&'static str], values: Values) -> Self {
+    pub(crate) fn only(mut self, inputs: &'static [&'static str], values: Values) -> Self {
         self.only.push((inputs, values));
         self
     }
@@ -240,7 +240,7 @@ impl<'a, M: Contract> Same<'a, M> {
     }
 
     /// The peer.
-    pub(super) fn peer(self) -> Refusable {
+    pub(crate) fn peer(self) -> Refusable {
         if let Some(text) = self.lacks {
             return Err(Refusal::Table(text));
         }
@@ -331,10 +331,10 @@ impl<'a, M: Contract> Same<'a, M> {
 macro_rules! peers {
     ($family:ident |$params:ident| $($machine:literal => $monitor:ident $(.$what:ident($($how:expr),* $(,)?))*;)+) => {
         /// The machines of these tables, each with the module of its monitor.
-        pub(super) const MACHINES: &[(&str, &str)] = &[$(($machine, stringify!($monitor))),+];
+        pub(crate) const MACHINES: &[(&str, &str)] = &[$(($machine, stringify!($monitor))),+];
 
         /// The monitor of a machine.
-        pub(super) fn make(machine: &str, $params: &Params, mutant: Option<Mutant>) -> Made {
+        pub(crate) fn make(machine: &str, $params: &Params, mutant: Option<Mutant>) -> Made {
             Ok(Some(match machine {
                 $($machine => Same::<stillpoint_monitors::$family::$monitor::Monitor>::new($params, mutant)
                     $(.$what($($how),*))*
@@ -345,7 +345,7 @@ macro_rules! peers {
     };
 }
 
-pub(super) use peers;
+pub(crate) use peers;
 
 /// Whether a number, with the names of the fields it is in, is the one of this name or one of those below it.
 fn has(path: &str, name: &str) -> bool {

@@ -4,7 +4,7 @@ use stillpoint_lang::ir::{BinaryOp, Form, Node, Space, Stmt, Ty};
 
 use super::{Circuit, Claim, Id, Op, Terms};
 use crate::export::Unsupported;
-use crate::export::fold::Folded;
+use crate::export::folded::Folded;
 
 /// The circuit of a system.
 pub(super) fn circuit<'a>(folded: &Folded<'a>) -> Result<Circuit<'a>, Unsupported> {

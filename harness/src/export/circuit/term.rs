@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use stillpoint_lang::ir::BinaryOp;
 
 use crate::export::Unsupported;
-use crate::export::fold::{Range, arithmetic, hull};
+use crate::export::folded::{Range, arithmetic, hull};
 use crate::export::types::is_arithmetic;
 
 /// Number of a term.

@@ -1,19 +1,32 @@
-//! HEIDENHAIN Functional Safety: what its production monitors are to a simulation. A machine of groups and axes runs as a
+//! HEIDENHAIN Functional Safety: what its production monitors are to a simulation, a recording and a replay. A machine of groups and axes runs as a
 //! whole: each channel has the safe PLC program, a kernel for every group and the monitors of every axis.
 
 mod axis;
+mod channel;
 mod names;
+mod peer;
 mod program;
+mod read;
+mod rig;
 mod simulated;
 mod values;
 
 use stillpoint_machine::{Axis as MachineAxis, Machine};
 
-use super::{Drive, Feed, Monitors, Owner, Rig, Said, Start, Windows, Words};
+use super::{Drive, Family, Feed, Monitors, Owner, Rig, Said, Start, Windows, Words};
 use crate::plant::Axis;
 
 /// The family.
-pub struct Heidenhain;
+pub(super) static FAMILY: Family = Family {
+    name: "heidenhain-fs",
+    module: "heidenhain",
+    peers: peer::PEERS,
+    mutants: || stillpoint_monitors::heidenhain::mutant::all().collect(),
+    drive: Some(&Heidenhain),
+};
+
+/// Its whole machines.
+struct Heidenhain;
 
 /// What has the signals of the whole machine.
 const MACHINE: &str = "machine";
@@ -28,6 +41,7 @@ const WORDS: Words = Words {
     limits: (&[], None),
     asked: &[("SS2", None), ("SS1D", None), ("SS1", None), ("SS1F", None)],
     stages: &["SOM_2", "SOM_3", "SOM_4"],
+    position: names::SEEN,
     told: &[],
     example: "SD",
     events: &[],
@@ -44,10 +58,6 @@ const WORDS: Words = Words {
 };
 
 impl Drive for Heidenhain {
-    fn name(&self) -> &'static str {
-        "heidenhain-fs"
-    }
-
     fn words(&self) -> &'static Words {
         &WORDS
     }
@@ -116,20 +126,22 @@ impl Drive for Heidenhain {
         Ok(Box::new(simulated::Simulated::new(machine, axes, start)?))
     }
 
+    /// The axes run as groups of a whole machine.
+    fn together(&self, machine: &Machine) -> Vec<Vec<usize>> {
+        vec![(0..=machine.axes.len()).collect()]
+    }
+
     fn play(
         &self,
         machine: &Machine,
-        _axis: usize,
+        _owners: &[usize],
         _tables: bool,
-        _play: &mut dyn FnMut(&mut dyn Rig),
+        play: &mut dyn FnMut(&mut dyn Rig),
     ) -> Result<(), String> {
-        Err(format!(
-            "{}: the axes of {} run as groups of a whole machine; a recording of one axis cannot be replayed on their monitors",
-            machine.name, machine.family
-        ))
+        rig::play(machine, play)
     }
 
     fn feeds(&self) -> &'static [Feed] {
-        &[]
+        &rig::FEEDS
     }
 }

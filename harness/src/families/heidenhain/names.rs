@@ -6,7 +6,7 @@ use stillpoint_monitors::heidenhain::{axis_release, channel, reference};
 use super::axis::Said;
 use crate::families::Port;
 use crate::recording::vocabulary::{ALARMS, POSITION, STOP, Unit, VELOCITY};
-use crate::recording::{Kind, Value};
+use crate::recording::{Allowed, Kind, Value};
 
 /// An input of the machine in a channel. What is 1 in order is named as the manual names it: a lost signal stops.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -36,6 +36,8 @@ pub(super) enum Bit {
     Permit,
     Chain,
     GenSafe,
+    /// Off and on, for a cycle.
+    MainSwitch,
 }
 
 /// Their names, in the same order.
@@ -65,30 +67,12 @@ const BITS: [&str; Bit::COUNT] = [
     "PP_AxGrpPermitDrvOn",
     "PP_GenFB_NCC",
     "NN_GenSafe",
+    "main_switch",
 ];
 
 impl Bit {
     /// How many there are.
-    pub const COUNT: usize = 25;
-
-    /// Those that only a scenario gives: buttons, keys and what the PLC says.
-    pub const PRESSED: [Self; 15] = [
-        Self::Pb,
-        Self::PbHandwheel,
-        Self::PbMagazine,
-        Self::AxisKey,
-        Self::NcStart,
-        Self::Jog,
-        Self::SpindleStart,
-        Self::StopKey,
-        Self::MagazineKey,
-        Self::Confirm,
-        Self::Handwheel,
-        Self::Program,
-        Self::Homing,
-        Self::Restricted,
-        Self::HolderOpen,
-    ];
+    pub const COUNT: usize = 26;
 }
 
 /// The safe operating modes.
@@ -99,6 +83,7 @@ const fn flag(name: &'static str) -> Port {
         name,
         kind: Kind::Bool,
         unit: Unit::None,
+        allowed: Allowed::All,
     }
 }
 
@@ -107,6 +92,7 @@ const fn text(name: &'static str) -> Port {
         name,
         kind: Kind::Text,
         unit: Unit::None,
+        allowed: Allowed::All,
     }
 }
 
@@ -115,6 +101,7 @@ const fn number(name: &'static str, unit: Unit) -> Port {
         name,
         kind: Kind::Int,
         unit,
+        allowed: Allowed::All,
     }
 }
 
@@ -126,22 +113,63 @@ pub(super) fn machine_inputs() -> Vec<Port> {
 /// What it says of it.
 pub(super) const MACHINE_OUTPUTS: [Port; 4] = [
     text("PP_GenSOM"),
-    flag("STO.G"),
+    flag(VOLTAGE),
     flag("STOS.G"),
     flag("NN_GenOutputEnable"),
 ];
 
+/// The feed enable of an axis.
+pub(super) const FEED: &str = "PP_AxFeedEnable";
+/// Where a channel sees an axis, in the unit of the manual (8.9.4, line 3757): 0.0001 mm or degrees.
+pub(super) const SEEN: &str = "NN_AxPosition";
+/// Where the control wants it, in the same unit.
+pub(super) const NOMINAL: &str = "nominal_position";
+/// Its marks are passed.
+pub(super) const HOMED: &str = "homed";
+/// A person confirms where it is.
+pub(super) const CONFIRMED: &str = "confirmed";
+/// The stop that is asked for, for the group of the axis.
+pub(super) const ASKED: &str = "PP_AxGrpStopReq";
+
+/// The codes of [`ASKED`], 0 to 4 (8.10.4, lines 4195-4261), then every one that does not exist.
+pub(super) const STOP_CODES: [&str; 6] = ["NONE", "SS2", "SS1D", "SS1", "SS1F", "INVALID"];
+
+/// The state of a group, and its name without torque.
+pub(super) const STATE: &str = "NN_AxGrpState";
+pub(super) const OFF: &str = "STO";
+/// The control voltage is on.
+pub(super) const VOLTAGE: &str = "STO.G";
+
+/// A position in tenths. Those of a simulation and of a control lie far within.
+const fn place(name: &'static str) -> Port {
+    const MOST: i64 = i32::MAX as i64 * 10;
+    Port {
+        allowed: Allowed::Between(-MOST, MOST),
+        ..number(name, Unit::Tenth)
+    }
+}
+
 /// What a channel reads of an axis.
-pub(super) const AXIS_INPUTS: [Port; 2] =
-    [flag("PP_AxFeedEnable"), number(POSITION, Unit::Increment)];
+pub(super) const AXIS_INPUTS: [Port; 6] = [
+    flag(FEED),
+    place(SEEN),
+    place(NOMINAL),
+    flag(HOMED),
+    flag(CONFIRMED),
+    Port {
+        allowed: Allowed::OneOf(&STOP_CODES),
+        ..text(ASKED)
+    },
+];
 
 /// What it says of an axis and of its group.
-pub(super) const AXIS_OUTPUTS: [Port; 18] = [
+pub(super) const AXIS_OUTPUTS: [Port; 19] = [
+    number(POSITION, Unit::Increment),
     text(STOP),
     text("stop_phase"),
     text("cause"),
     text("PP_AxGrpStateReq"),
-    text("NN_AxGrpState"),
+    text(STATE),
     flag("STO"),
     flag("BRK_REL"),
     text("axis_release"),
@@ -242,6 +270,6 @@ const fn state(state: GroupState) -> &'static str {
         GroupState::SlsS => "SLS_S",
         GroupState::Sos => "SOS",
         GroupState::StoO => "STO_O",
-        GroupState::Sto => "STO",
+        GroupState::Sto => OFF,
     }
 }

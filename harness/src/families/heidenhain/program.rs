@@ -46,7 +46,7 @@ impl Program {
                 *time = vec![i64::try_from(us.div_ceil(cycle_us)).unwrap_or(1)];
             }
         }
-        let spec = machine.spec(&run.file).map_err(|e| e.to_string())?;
+        let spec = machine.spec(run).map_err(|e| e.to_string())?;
         let system = spec
             .system(SYSTEM, Some(cycle_us))
             .map_err(|e| e.to_string())?;

@@ -151,6 +151,15 @@ fn limits(control: &Settings, axis: &Axis) -> Fit<speed::Limits> {
     })
 }
 
+/// The position of an axis, in tenths of an increment, that is next to `tenths` between its limit positions, where it has any.
+pub(super) fn within(axis: &Axis, tenths: i64) -> i64 {
+    if axis.spindle || cell(&axis.values, "MP100") != 0 {
+        return tenths;
+    }
+    let end = |name| cell(&axis.values, name) * 10;
+    tenths.max(end("SMP670")).min(end("SMP650"))
+}
+
 /// The axes of a group, by their places.
 pub(super) fn members(machine: &Machine, group: &Group) -> Vec<usize> {
     let axes = machine.axes.iter().enumerate();

@@ -1,6 +1,7 @@
 //! The SINUMERIK 840D with Safety Integrated: what its production monitors are to a simulation, a recording and a replay.
 
 mod door;
+mod peer;
 pub mod production;
 mod reason;
 mod rig;
@@ -11,11 +12,21 @@ pub mod vocabulary;
 use stillpoint_machine::{Axis as MachineAxis, Machine};
 use stillpoint_monitors::sinumerik::alarm::Alarm;
 
-use super::{Drive, Feed, Monitors, Owner, Rig, Said, Start, Windows, Words};
+use super::{Drive, Family, Feed, Monitors, Owner, Rig, Said, Start, Windows, Words};
 use crate::plant::Axis;
+use crate::recording::vocabulary::POSITION;
 
 /// The family.
-pub struct Sinumerik;
+pub(super) static FAMILY: Family = Family {
+    name: "sinumerik-840d",
+    module: "sinumerik",
+    peers: peer::PEERS,
+    mutants: || stillpoint_monitors::sinumerik::mutant::all().collect(),
+    drive: Some(&Sinumerik),
+};
+
+/// Its whole machines.
+struct Sinumerik;
 
 const WORDS: Words = Words {
     channels: vocabulary::CHANNELS,
@@ -32,6 +43,7 @@ const WORDS: Words = Words {
         ("E", Some("STOP E")),
     ],
     stages: &["SG1", "SG2", "SG3", "SG4"],
+    position: POSITION,
     told: &["power_on", "run_up", "spl_started"],
     example: "SGE_SS_DISABLE",
     events: &["power_on", "referenced", "set_agreement", "reset"],
@@ -48,10 +60,6 @@ const WORDS: Words = Words {
 };
 
 impl Drive for Sinumerik {
-    fn name(&self) -> &'static str {
-        "sinumerik-840d"
-    }
-
     fn words(&self) -> &'static Words {
         &WORDS
     }
@@ -111,14 +119,19 @@ impl Drive for Sinumerik {
         Ok(Box::new(simulated::Simulated::new(machine, axes, start)?))
     }
 
+    fn together(&self, machine: &Machine) -> Vec<Vec<usize>> {
+        (0..machine.axes.len()).map(|axis| vec![axis]).collect()
+    }
+
     fn play(
         &self,
         machine: &Machine,
-        axis: usize,
+        owners: &[usize],
         tables: bool,
         play: &mut dyn FnMut(&mut dyn Rig),
     ) -> Result<(), String> {
-        rig::play(machine, axis, tables, play)
+        let axis = owners.first().ok_or("no axis is named")?;
+        rig::play(machine, *axis, tables, play)
     }
 
     fn feeds(&self) -> &'static [Feed] {

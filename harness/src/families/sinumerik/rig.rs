@@ -9,7 +9,7 @@ use stillpoint_monitors::sinumerik::pair::{Config, Inputs, Outputs, Pair, State}
 use super::production;
 use super::table::{Basis, Tables};
 use super::vocabulary::{self, Input, Output};
-use crate::families::{Feed, Rig};
+use crate::families::{Coding, Feed, Rig};
 use crate::recording::Value;
 
 /// The inputs of the tables that are signals of a channel.
@@ -46,6 +46,8 @@ const fn state(table: &'static str, signals: &'static [&'static str]) -> Feed {
         signals,
         user: false,
         pulse: false,
+        wired: false,
+        coding: Coding::Bits,
     }
 }
 
@@ -78,6 +80,7 @@ pub(super) fn play(
     };
     let config = Config::new(produced.configuration);
     let mut bench = Bench {
+        axis,
         config,
         pair: Pair::new(config),
         inputs: Inputs::default(),
@@ -91,6 +94,7 @@ pub(super) fn play(
 }
 
 struct Bench<'a> {
+    axis: usize,
     config: Config,
     pair: Pair,
     inputs: Inputs,
@@ -111,7 +115,7 @@ impl Rig for Bench<'_> {
         });
     }
 
-    fn set(&mut self, side: usize, input: usize, value: &Value) -> bool {
+    fn set(&mut self, _owner: usize, side: usize, input: usize, value: &Value) -> bool {
         let local = match side {
             0 => &mut self.inputs.nck,
             _ => &mut self.inputs.drive,
@@ -119,13 +123,13 @@ impl Rig for Bench<'_> {
         self.known[input].set(local, value)
     }
 
-    fn get(&self, side: usize, input: usize) -> Value {
+    fn get(&self, _owner: usize, side: usize, input: usize) -> Value {
         self.known[input].get(side_of(&self.inputs, &self.said, side).0)
     }
 
-    fn resume(&mut self, said: &dyn Fn(usize, &str) -> Option<Value>) {
+    fn resume(&mut self, said: &dyn Fn(usize, usize, &str) -> Option<Value>) {
         let channel = |side: usize| {
-            let agreed = said(side, "user_agreement") == Some(Value::Bool(true));
+            let agreed = said(self.axis, side, "user_agreement") == Some(Value::Bool(true));
             let Position(at) = side_of(&self.inputs, &self.said, side).0.position;
             axis::State::restored(agreed, agreed.then_some(Position(at)))
         };
@@ -141,12 +145,12 @@ impl Rig for Bench<'_> {
             .step(&before, self.pair.state(), &self.inputs, &self.said);
     }
 
-    fn output(&self, side: usize, output: usize) -> Value {
+    fn output(&self, _owner: usize, side: usize, output: usize) -> Value {
         let (local, own) = side_of(&self.inputs, &self.said, side);
         self.written[output].get(side, local, own)
     }
 
-    fn specified(&self, side: usize, output: usize) -> Option<Value> {
+    fn specified(&self, _owner: usize, side: usize, output: usize) -> Option<Value> {
         self.tables.output(side, self.written[output].name)
     }
 

@@ -13,7 +13,7 @@ use stillpoint_monitors::sinumerik::stop::Phase;
 
 use crate::families::Port;
 use crate::recording::vocabulary::{POSITION, Unit, VELOCITY};
-use crate::recording::{Kind, Value};
+use crate::recording::{Allowed, Kind, Value};
 
 /// The channels of an axis, in the order in which they are stored.
 pub const CHANNELS: [&str; 2] = ["nck", "drive"];
@@ -157,6 +157,13 @@ impl Input {
             name: self.name,
             kind: self.kind,
             unit: self.unit,
+            allowed: match self.kind {
+                Kind::Int => {
+                    let (least, most) = self.range();
+                    Allowed::Between(least, most)
+                }
+                Kind::Bool | Kind::Text => Allowed::All,
+            },
         }
     }
 
@@ -329,6 +336,7 @@ impl Output {
             name: self.name,
             kind: self.kind,
             unit: self.unit,
+            allowed: Allowed::All,
         }
     }
 

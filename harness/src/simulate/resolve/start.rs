@@ -122,7 +122,7 @@ impl Resolver<'_> {
     }
 
     /// A speed of an axis in thousandths of an increment per cycle, rounded towards 0; a share of the limit of a stage, too:
-    /// `120 % of SG1`.
+    /// `120 % of STAGE`.
     pub(super) fn speed(&mut self, text: &Text, axis: usize) -> Option<i64> {
         let (dimension, example) = match self.machine.axes[axis].kind {
             AxisKind::Linear => (Dimension::Speed, "5000 mm/min"),

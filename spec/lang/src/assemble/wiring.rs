@@ -17,7 +17,9 @@ impl Builder<'_> {
     ) -> HashMap<String, (Option<usize>, Text)> {
         let mut out: HashMap<String, (Option<usize>, Text)> = HashMap::new();
         let wires = def.wire.keys().enumerate().map(|(k, key)| (Some(k), key));
-        let free = def.free.ports.iter().map(|key| (None, key));
+        let (rest, free): (Vec<&Text>, Vec<&Text>) =
+            (def.free.ports.iter()).partition(|key| key.get_ref().ends_with(".*"));
+        let free = free.into_iter().map(|key| (None, key));
         for (wire, key) in wires.chain(free) {
             let mut hits = 0;
             for unit in units {
@@ -75,7 +77,36 @@ impl Builder<'_> {
                 );
             }
         }
+        self.rest(&rest, units, &mut out);
         out
+    }
+
+    /// `instance.*`: whatever no wire names is free there.
+    fn rest(
+        &mut self,
+        rest: &[&Text],
+        units: &[Unit],
+        out: &mut HashMap<String, (Option<usize>, Text)>,
+    ) {
+        for key in rest {
+            let named = key.get_ref().strip_suffix(".*").unwrap_or_default();
+            let Some(unit) = units.iter().find(|u| u.name == named) else {
+                let known: Vec<&str> = units.iter().map(|u| u.name.as_str()).collect();
+                let help = nearest(named, known.iter().copied()).map_or_else(
+                    || format!("instances: {}", known.join(", ")),
+                    |n| format!("did you mean `{n}.*`?"),
+                );
+                let message = format!("`{named}` is not an instance");
+                self.errors
+                    .push(self.spec.error(self.file, key.span(), message).help(help));
+                continue;
+            };
+            let machine = &self.spec.machines[&unit.machine].def;
+            for port in machine.input.keys() {
+                let full = format!("{}.{}", unit.name, port.get_ref());
+                out.entry(full).or_insert_with(|| (None, (*key).clone()));
+            }
+        }
     }
 
     /// Gives every input port a meaning: a free input, or a reserved named expression.

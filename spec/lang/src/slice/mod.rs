@@ -1,4 +1,4 @@
-//! Slices of a system: for each property, only what can influence its verdict.
+//! Slices of a system by cones of influence: for each property, only what can influence its verdict.
 //!
 //! A *slice* is a smaller system over some of the state variables and inputs. Its cells are closed under influence: what
 //! decides the next value of a variable of the slice is in the slice. So, as long as no assignment outside the slice
@@ -17,7 +17,7 @@
 
 mod cone;
 mod cut;
-mod fold;
+mod folded;
 
 pub use cone::Cone;
 
@@ -64,7 +64,7 @@ impl Slicer {
     /// Prepares a system: puts the parameter values into it, so that what they exclude influences nothing.
     pub fn new(bound: &Bound) -> Self {
         Self {
-            whole: fold::folded(bound),
+            whole: folded::folded(bound),
         }
     }
 

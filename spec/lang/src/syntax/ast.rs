@@ -83,6 +83,28 @@ pub enum BinaryOp {
     Mod,
 }
 
+impl BinaryOp {
+    /// As Structured Text writes it.
+    pub fn symbol(self) -> &'static str {
+        match self {
+            Self::Or => "OR",
+            Self::Xor => "XOR",
+            Self::And => "AND",
+            Self::Eq => "=",
+            Self::Ne => "<>",
+            Self::Lt => "<",
+            Self::Gt => ">",
+            Self::Le => "<=",
+            Self::Ge => ">=",
+            Self::Add => "+",
+            Self::Sub => "-",
+            Self::Mul => "*",
+            Self::Div => "/",
+            Self::Mod => "MOD",
+        }
+    }
+}
+
 /// Expansion over an instance array.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Quantifier {

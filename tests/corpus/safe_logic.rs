@@ -1,0 +1,157 @@
+//! The guarantees of a machine with SAFE.SPF depend on the program and on how the machine data connect it: each mistake, alone, breaks
+//! one, and the report names the line.
+
+use std::path::PathBuf;
+
+use serde::Deserialize;
+use stillpoint_engine::check::{Settings, check};
+use stillpoint_engine::lines;
+use stillpoint_engine::subject::{self, Readings};
+use stillpoint_harness::guarantees::answers;
+use stillpoint_machine as machine;
+use stillpoint_model::Verdict;
+use stillpoint_tests::peer::each;
+use stillpoint_tests::root;
+
+const MACHINE: &str = "spec/machines/lathe-840d.toml";
+const PROGRAM: &str = "spec/machines/lathe-840d.spf";
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Cases {
+    mistake: Vec<Case>,
+    right: Vec<Case>,
+}
+
+/// Another program, or other values of the machine file.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Case {
+    text: String,
+    #[serde(default)]
+    replace: Vec<(String, String)>,
+    #[serde(default)]
+    machine: Vec<(String, String)>,
+    /// The guarantee that finds it.
+    breaks: Option<String>,
+    /// The guarantee that still holds.
+    keeps: Option<String>,
+    /// A piece of the line that the report names.
+    line: Option<String>,
+}
+
+fn cases() -> Cases {
+    let path = root().join("tests/machines/spf-mistakes.toml");
+    let text = std::fs::read_to_string(path).expect("readable");
+    toml::from_str(&text).unwrap_or_else(|e| panic!("{e}"))
+}
+
+fn text(path: &str) -> String {
+    std::fs::read_to_string(root().join(path)).unwrap_or_else(|e| panic!("{path}: {e}"))
+}
+
+/// The machine and its program with other texts in them, in a folder of their own.
+fn written(k: usize, case: &Case) -> PathBuf {
+    let changed = |text: String, replace: &[(String, String)]| {
+        replace.iter().fold(text, |text, (from, to)| {
+            assert!(text.contains(from), "{}: '{from}'", case.text);
+            text.replace(from, to)
+        })
+    };
+    let kind = if case.breaks.is_some() {
+        "wrong"
+    } else {
+        "right"
+    };
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("spf-{kind}-{k}"));
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let program = changed(text(PROGRAM), &case.replace);
+    std::fs::write(folder.join("lathe-840d.spf"), program).expect("written");
+    let path = folder.join("lathe-840d.toml");
+    std::fs::write(&path, changed(text(MACHINE), &case.machine)).expect("written");
+    path
+}
+
+/// The verdict on a guarantee, and the lines that the report of a broken one names.
+fn judged(path: &std::path::Path, guarantee: &str) -> (Verdict, Vec<String>) {
+    let machine =
+        machine::load(path, &root().join("spec/families")).unwrap_or_else(|e| panic!("{e}"));
+    let runs: Vec<_> = (machine.runs.iter())
+        .filter(|run| run.guarantee.as_deref() == Some(guarantee))
+        .cloned()
+        .collect();
+    let subject =
+        subject::of_runs(path, machine, &runs, &Readings::new()).unwrap_or_else(|e| panic!("{e}"));
+    let settings = Settings {
+        threads: 1,
+        ..Settings::default()
+    };
+    let checked = check(&subject, &settings, &mut |_| Box::new(()))
+        .unwrap_or_else(|(t, e)| panic!("{t}: {e}"));
+    let answers = answers(&subject, &checked);
+    let found = answers.iter().find(|a| a.guarantee.name == guarantee);
+    let named = subject.tasks.iter().zip(&checked).flat_map(|(task, one)| {
+        let properties = &task.bound.system.properties;
+        let broken = properties.iter().zip(&one.outcome.report.properties);
+        let lines = broken.filter_map(|(property, judged)| {
+            let trace = judged.trace.as_ref()?;
+            Some(lines::deciding(&task.bound, property, trace))
+        });
+        lines.flatten().map(|line| line.text).collect::<Vec<_>>()
+    });
+    (found.expect("asked").verdict, named.collect())
+}
+
+#[test]
+fn the_lathe_keeps_what_it_guarantees() {
+    let lathe = root().join(MACHINE);
+    for name in ["slides", "work", "emergency_stop", "emergency_stop_work"] {
+        assert_eq!(judged(&lathe, name).0, Verdict::Holds, "{name}");
+    }
+}
+
+#[test]
+fn every_mistake_of_the_safe_logic_breaks_a_guarantee() {
+    let cases = cases().mistake.into_iter().enumerate().collect::<Vec<_>>();
+    assert!(cases.len() >= 10);
+    let wrong = each(&cases, |(k, case)| {
+        let name = case.breaks.as_ref().expect("a guarantee");
+        let (verdict, lines) = judged(&written(*k, case), name);
+        let line = case.line.as_deref().unwrap_or("");
+        let named = line.is_empty() || lines.iter().any(|l| l.contains(line));
+        (verdict != Verdict::Violated || !named)
+            .then(|| format!("{}: {name} {verdict:?}, lines {lines:#?}", case.text))
+    });
+    let wrong: Vec<String> = wrong.into_iter().flatten().collect();
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn logic_that_is_right_in_another_way_is_not_accused() {
+    let cases = cases().right.into_iter().enumerate().collect::<Vec<_>>();
+    each(&cases, |(k, case)| {
+        let name = case.keeps.as_ref().expect("a guarantee");
+        let (verdict, _) = judged(&written(*k, case), name);
+        assert_eq!(verdict, Verdict::Holds, "{}", case.text);
+    });
+}
+
+/// A guarantee about a contact that the program is not told of is refused, with the place and what to write.
+#[test]
+fn a_contact_that_the_program_does_not_know_is_an_error() {
+    let case = Case {
+        text: "no contact".to_owned(),
+        replace: Vec::new(),
+        machine: vec![("contact       = \"INSE[1]\"\n".to_owned(), String::new())],
+        breaks: None,
+        keeps: None,
+        line: None,
+    };
+    let errors = machine::load(&written(99, &case), &root().join("spec/families"))
+        .expect_err("nothing tells the program of the door");
+    let told = errors.to_string();
+    assert!(
+        told.contains("guarantee slides") && told.contains("contact names no signal"),
+        "{told}"
+    );
+}

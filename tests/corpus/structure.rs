@@ -1,0 +1,110 @@
+//! How the sources are laid out: a family is registered in one list of the harness, and no general file of the harness names one;
+//! modules have one style.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+use stillpoint_harness::families::FAMILIES;
+use stillpoint_tests::root;
+
+/// The sources below a folder, without those of `leave`.
+fn sources(folder: &Path, leave: &[PathBuf], found: &mut Vec<PathBuf>) {
+    let entries = std::fs::read_dir(folder).unwrap_or_else(|e| panic!("{}: {e}", folder.display()));
+    for entry in entries {
+        let path = entry.expect("an entry").path();
+        if leave.contains(&path) {
+            continue;
+        }
+        if path.is_dir() {
+            sources(&path, leave, found);
+        } else if path.extension().is_some_and(|e| e == "rs") {
+            found.push(path);
+        }
+    }
+}
+
+/// The rooms of the families and their list are the only places; the commands name families in the examples of their help alone.
+#[test]
+fn no_general_file_names_a_family() {
+    let home = root().join("harness/src/families");
+    let mut leave: Vec<PathBuf> = FAMILIES.map(|f| home.join(f.module)).into();
+    assert!(leave.iter().all(|room| room.is_dir()), "each has its room");
+    leave.push(home.join("mod.rs"));
+    let mut all = Vec::new();
+    sources(&root().join("harness/src"), &leave, &mut all);
+    sources(&root().join("harness/engine/src"), &leave, &mut all);
+    let general = all.len();
+    sources(&root().join("harness/cli/src"), &leave, &mut all);
+    assert!(general > 100, "{general} files");
+    let mut wrong = Vec::new();
+    for (k, path) in all.iter().enumerate() {
+        let text = std::fs::read_to_string(path)
+            .expect("readable")
+            .to_lowercase();
+        for family in FAMILIES {
+            // In the commands the name of a family may be an example, its module may not.
+            let module = text.contains(&format!("{}::", family.module));
+            let named = text.contains(family.module) || text.contains(family.name);
+            if module || (k < general && named) {
+                wrong.push(format!("{}: {}", path.display(), family.name));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+/// The list has every family of the data that has monitors, each once, and each entry is told from the others by both its names.
+#[test]
+fn each_family_is_registered_once() {
+    let names: BTreeSet<&str> = FAMILIES.iter().map(|f| f.name).collect();
+    let modules: BTreeSet<&str> = FAMILIES.iter().map(|f| f.module).collect();
+    assert_eq!(
+        (names.len(), modules.len()),
+        (FAMILIES.len(), FAMILIES.len())
+    );
+    let folder = std::fs::read_dir(root().join("impl/src")).expect("the monitors");
+    let rooms: BTreeSet<String> = folder
+        .map(|entry| entry.expect("an entry").path())
+        .filter(|path| path.is_dir())
+        .map(|path| {
+            path.file_name()
+                .expect("a name")
+                .to_string_lossy()
+                .into_owned()
+        })
+        .collect();
+    assert_eq!(
+        modules
+            .iter()
+            .map(|m| (*m).to_owned())
+            .collect::<BTreeSet<_>>(),
+        rooms
+    );
+    for family in FAMILIES {
+        assert!(
+            root()
+                .join("spec/families")
+                .join(family.name)
+                .join("family.toml")
+                .is_file()
+        );
+        assert!((family.mutants)().iter().all(|m| m.family == family.module));
+        assert!(!(family.mutants)().is_empty() && family.peers.machines().count() > 0);
+    }
+}
+
+/// A module with files of its own is a folder with `mod.rs`: no file stands beside a folder of its name.
+#[test]
+fn modules_have_one_style() {
+    let mut all = Vec::new();
+    for folder in ["harness", "impl", "model", "proofs", "spec", "tests"] {
+        sources(&root().join(folder), &[], &mut all);
+    }
+    assert!(all.len() > 400, "{} files", all.len());
+    let folders = all.iter().filter(|path| path.ends_with("mod.rs")).count();
+    assert!(folders > 50, "{folders} folders");
+    let has_files = |folder: PathBuf| all.iter().any(|path| path.starts_with(&folder));
+    let beside = all.iter().filter(|path| has_files(path.with_extension("")));
+    let beside: Vec<_> = beside.collect();
+    assert!(beside.is_empty(), "{beside:#?}");
+}
