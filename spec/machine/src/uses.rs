@@ -210,6 +210,11 @@ mod tests {
             reads(&window.warnings, "standstill-window-wide"),
             "{window:?}"
         );
+        assert!(
+            reads(&window.systems, "guarded (guaranteed.toml)"),
+            "{window:?}"
+        );
+        let window = of("sinumerik-840d", "REFP_POS_TOL");
         assert!(window.systems.is_empty(), "{window:?}");
         assert_eq!(of("sinumerik-840d", "NO_SUCH"), Uses::default());
     }
