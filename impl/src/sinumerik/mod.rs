@@ -33,6 +33,7 @@
 //! | [`slip`] | synchronisation of the actual values | before `compare`, for which it decides on the positions |
 //! | [`history`] | standstill position kept through power-off and its comparison | - |
 //! | [`forced_check`] | how long ago the shutdown paths were tested | `test_stop` of both channels |
+//! | [`relay`] | EMERGENCY STOP of the safe logic: acknowledgement, delayed outputs | inputs of the safe logic |
 //! | [`level`] | stops in their priority: no step | - |
 //! | [`code`], [`alarm`] | codes of STOP F and alarms: no step | - |
 //!
@@ -52,7 +53,7 @@
 macro_rules! sinumerik_monitors {
     ($callback:ident $($more:tt)*) => { $callback! { sinumerik [$($more)*]
         stop external fault group selection reference agreement gear test_stop shutdown_test pulses compare slip history
-        forced_check motion standstill speed limit_switch ramp threshold cam results channel
+        forced_check relay motion standstill speed limit_switch ramp threshold cam results channel
     } };
 }
 
@@ -82,6 +83,7 @@ pub mod path_test;
 pub mod pulses;
 pub mod ramp;
 pub mod reference;
+pub mod relay;
 pub mod results;
 pub mod selection;
 pub mod shutdown_group;

@@ -3,7 +3,9 @@
 use crate::kernel::Cycles;
 use crate::sinumerik::compare::list::Kind;
 use crate::sinumerik::level::InternalStop;
-use crate::sinumerik::{compare, forced_check, history, pulses, shutdown_test, slip, test_stop};
+use crate::sinumerik::{
+    compare, forced_check, history, pulses, relay, shutdown_test, slip, test_stop,
+};
 
 variants! { sinumerik::test_stop:
     /// Feedback in the cycle in which t_chk ends still counts.
@@ -127,6 +129,39 @@ variants! { sinumerik::forced_check:
     "forced-check-one-path" |state, config, inputs| {
         let (after, mut outputs) = forced_check::transition(state, config, inputs);
         outputs.due = after.drive.is_zero() && after.nck.is_zero();
+        (after, outputs)
+    }
+}
+
+variants! { sinumerik::relay:
+    /// Of several shutdowns only the last one counts for the window.
+    "relay-counts-last-shutdown" |state, config, inputs| {
+        let (mut after, outputs) = relay::transition(state, config, inputs);
+        if after.armed {
+            after.least = after.left;
+        }
+        (after, outputs)
+    }
+
+    /// The button acknowledges as long as it is pressed.
+    "relay-held-button" |mut state, config, inputs| {
+        state.held_1 &= inputs.power_on;
+        relay::transition(state, config, inputs)
+    }
+
+    /// A button that is pressed during the run-up acknowledges in the next cycle.
+    "relay-button-at-run-up" |state, config, inputs| {
+        let (mut after, outputs) = relay::transition(state, config, inputs);
+        after.held_1 &= !inputs.power_on;
+        (after, outputs)
+    }
+
+    /// An acknowledged shutdown leaves the delays as they were.
+    "relay-delay-goes-on" |state, config, inputs| {
+        let (mut after, outputs) = relay::transition(state, config, inputs);
+        if after.on {
+            after.off_3 = state.off_3.tick();
+        }
         (after, outputs)
     }
 }

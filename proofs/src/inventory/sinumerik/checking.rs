@@ -40,6 +40,11 @@ inventory! {
         tries: "interval: 1 2 4; drive nck: 0..4",
         caveat: "what follows from a due test is decided outside (S840D-TEST-002)",
     }]
+    [contract relay_contract on sinumerik::relay {
+        property: "every clause of the safety relay's contract: shutdown at once, acknowledgement, window of the test, delays",
+        tries: "window: 0..2; delay_1: 0; delay_2: 0 1; delay_3: 0 2; left least off_1 off_2 off_3: 0..2",
+        caveat: "a shutdown counts in whole cycles; that the button acknowledges by its edge is reading B-07",
+    }]
     [run(4) checking_initial_states on sinumerik::"the checking monitors" by checking::checking_initial_states {
         property: "the initial states of the checking monitors satisfy their invariants: the base of the induction",
         requirements: ["S840D-ARCH-504"],

@@ -244,6 +244,8 @@ fn a0(past: Calls<'_>, window: usize, level: bool) -> bool {
         || (acknowledges(2) && soon))
 }
 
+/// S840D-RELAY-001, S840D-RELAY-002, S840D-RELAY-003, S840D-RELAY-005, S840D-RELAY-006, S840D-RELAY-009, S840D-RELAY-010,
+/// S840D-RELAY-011.
 #[test]
 fn a_relay_holds_until_its_inputs_fall_and_wants_an_acknowledgement() {
     let blocks = "DEF INT S\n\
@@ -285,6 +287,7 @@ fn a_relay_holds_until_its_inputs_fall_and_wants_an_acknowledgement() {
     }
 }
 
+/// The status of S840D-RELAY-012 for each part that is missing; nothing is on then.
 #[test]
 fn a_relay_that_is_not_set_up_says_so_and_gives_0() {
     let input = "SIRELIN(1, S, \"$A_INSE[2]\", \"$A_MARKERSI[3]\", \"$A_INSE[1]\")\n";

@@ -40,6 +40,7 @@ fn whole(text: &str) -> String {
     }
 }
 
+/// What is refused of relays: S840D-RELAY-009, S840D-RELAY-010, S840D-RELAY-011, S840D-RELAY-012, S840D-RELAY-016.
 #[test]
 fn errors_name_place_and_fix() {
     let cases = [

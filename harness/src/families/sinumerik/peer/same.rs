@@ -106,4 +106,10 @@ peers! { sinumerik |p|
         .kept("state.stored", "stored")
         .kept_where("standstill", "standstill", "stored");
     "test_interval" => forced_check;
+
+    // Blocks of the safe logic. The table counts how long a shutdown lasts, the monitor what it leaves of the window.
+    "relay" => relay
+        .named(&[("tm1", "window"), ("ti_1", "delay_1"), ("ti_2", "delay_2"), ("ti_3", "delay_3")])
+        .cell("left", upto(p.value("tm1")))
+        .cell("least", upto(p.value("tm1")));
 }
