@@ -13,6 +13,7 @@ mod parameters;
 mod programs;
 mod reaction_times;
 mod safe_logic;
+mod safe_relay;
 mod structure;
 mod structured_text;
 mod tables;

@@ -187,7 +187,7 @@ monitor! { sinumerik::relay;
             => s.outputs.a0;
 
     /// Once a shutdown has used the window up, only the button acknowledges.
-    long_shutdown_wants_the_button ["S840D-RELAY-005", "S840D-RELAY-006"]:
+    long_shutdown_wants_the_button ["S840D-RELAY-005", "S840D-RELAY-006", "S840D-RELAY-008"]:
         when |s| !s.before.on && s.before.least.is_zero() && (!s.inputs.q1 || s.before.held_1)
             => !s.outputs.a0;
 
@@ -284,4 +284,22 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
         a3: on || !after.off_3.is_zero(),
     };
     (after, outputs)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// S840D-RELAY-007.
+    #[test]
+    fn a_window_is_a_second_at_most() {
+        let none = Cycles::ZERO;
+        let longer = Cycles::new(ONE_SECOND.count() + 1);
+        assert_eq!(
+            Config::new(longer, none, none, none),
+            Err(ConfigError::DelayTooLong)
+        );
+        let longest = Config::new(ONE_SECOND, none, none, none).expect("allowed");
+        assert_eq!(longest.window(), ONE_SECOND);
+    }
 }
