@@ -6,11 +6,11 @@ use std::sync::Arc;
 use stillpoint_lang::Spec;
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::diag::Diagnostics;
-use stillpoint_lang::eval::Frame;
-use stillpoint_lang::ir::LazyKind;
 use stillpoint_logic::Compiled;
 use stillpoint_logic::spf::{Interface, Mode, Output, Readings, Variable, parse};
 use stillpoint_logic::st::Signature;
+
+use crate::common::Running;
 
 /// Its inputs are `a`, `b`, `ipo` (BOOL), `byte` (INT 0..255), `colour`; its outputs `p`, `q` (BOOL), `n` (INT -9..255).
 const SPL: &str = r#"
@@ -84,12 +84,7 @@ pub fn compiled(text: &str, interface: &Interface) -> Result<Compiled, Diagnosti
 }
 
 /// A program that runs, with its state.
-pub struct Spl {
-    bound: Bound,
-    frame: Frame,
-    state: Vec<i32>,
-    first: Vec<i32>,
-}
+pub struct Spl(Running);
 
 impl Spl {
     /// A program of these blocks, to which the end code is added; a cycle has so many microseconds.
@@ -109,57 +104,22 @@ impl Spl {
             .map(|(name, us)| (name.clone(), vec![length(*us)]))
             .collect();
         let bound = Bound::new(system, &params, &BTreeMap::new()).unwrap_or_else(|e| panic!("{e}"));
-        let states = bound.system.states.iter();
-        let state: Vec<i32> = states
-            .map(|s| {
-                s.init
-                    .as_ref()
-                    .map_or(0, |init| bound.constant(init) as i32)
-            })
-            .collect();
-        Self {
-            frame: Frame::new(&bound),
-            first: state.clone(),
-            state,
-            bound,
-        }
+        Self(Running::new(bound))
     }
 
     /// Back to the start.
     pub fn restart(&mut self) {
-        self.state.clone_from(&self.first);
+        self.0.restart();
     }
 
     /// How many cells of state it has.
     pub fn cells(&self) -> usize {
-        self.state.len()
+        self.0.cells()
     }
 
     /// One cycle with these inputs, the others 0: `p`, `q`, `n`.
     pub fn step(&mut self, inputs: &[(&str, i32)]) -> [i64; 3] {
-        self.frame.start(&self.state);
-        let system = &self.bound.system;
-        let mut read = |k: usize| {
-            let name = system.inputs[k]
-                .name
-                .strip_prefix("spl.")
-                .unwrap_or_default();
-            let found = inputs.iter().find(|(input, _)| *input == name);
-            found.map_or(0, |(_, value)| *value)
-        };
-        self.bound
-            .step(&mut self.frame, &mut read)
-            .expect("no fault");
-        let mut out = [0; 3];
-        for (k, lazy) in system.lazies.iter().enumerate() {
-            let name = lazy.name.strip_prefix("spl.").unwrap_or_default();
-            let place = ["p", "q", "n"].iter().position(|o| *o == name);
-            if let (LazyKind::Output, Some(place)) = (lazy.kind, place) {
-                out[place] = self.bound.lazy(k, &mut self.frame, &mut read);
-            }
-        }
-        self.state.copy_from_slice(&self.frame.now);
-        out
+        self.0.step(inputs, ["p", "q", "n"]).expect("no fault")
     }
 }
 

@@ -2,6 +2,8 @@
 //! and what is refused.
 
 mod blocks;
+#[path = "../common/mod.rs"]
+mod common;
 mod refused;
 mod rig;
 mod statements;

@@ -6,9 +6,9 @@ use std::sync::Arc;
 use stillpoint_lang::Spec;
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::diag::Diagnostics;
-use stillpoint_lang::eval::Frame;
-use stillpoint_lang::ir::LazyKind;
 use stillpoint_logic::st::{Signature, compile};
+
+use crate::common::Running;
 
 /// Its inputs are `a`, `b`, `c` (BOOL), `n` (INT 0..7), `mode`; its outputs `p`, `q` (BOOL), `m` (INT -9..99), `stop`.
 const PLC: &str = r#"
@@ -48,12 +48,7 @@ stop = "SEL(a, NONE, SS1)"
 "#;
 
 /// A program that runs, with its state.
-pub struct Plc {
-    bound: Bound,
-    frame: Frame,
-    state: Vec<i32>,
-    first: Vec<i32>,
-}
+pub struct Plc(Running);
 
 /// The program as it is read, or what is wrong with it.
 pub fn load(program: &str) -> Result<Bound, Diagnostics> {
@@ -88,56 +83,21 @@ impl Plc {
     /// A program at its start; a cycle is a millisecond.
     pub fn new(program: &str) -> Self {
         let bound = load(program).unwrap_or_else(|e| panic!("{e}\n{program}"));
-        let states = bound.system.states.iter();
-        let state: Vec<i32> = states
-            .map(|s| {
-                s.init
-                    .as_ref()
-                    .map_or(0, |init| bound.constant(init) as i32)
-            })
-            .collect();
-        Self {
-            frame: Frame::new(&bound),
-            first: state.clone(),
-            state,
-            bound,
-        }
+        Self(Running::new(bound))
     }
 
     /// Back to the start.
     pub fn restart(&mut self) {
-        self.state.clone_from(&self.first);
+        self.0.restart();
     }
 
     /// How many cells of state it has.
     pub fn cells(&self) -> usize {
-        self.state.len()
+        self.0.cells()
     }
 
     /// One cycle with these inputs: `p`, `q`, `m`, `stop`. `None` where a value left its range.
     pub fn step(&mut self, inputs: &[(&str, i32)]) -> Option<[i64; 4]> {
-        self.frame.start(&self.state);
-        let system = &self.bound.system;
-        let mut read = |k: usize| {
-            let name = system.inputs[k]
-                .name
-                .strip_prefix("plc.")
-                .unwrap_or_default();
-            inputs
-                .iter()
-                .find(|(input, _)| *input == name)
-                .map_or(0, |(_, value)| *value)
-        };
-        self.bound.step(&mut self.frame, &mut read).ok()?;
-        let mut out = [0; 4];
-        for (k, lazy) in system.lazies.iter().enumerate() {
-            let name = lazy.name.strip_prefix("plc.").unwrap_or_default();
-            let place = ["p", "q", "m", "stop"].iter().position(|o| *o == name);
-            if let (LazyKind::Output, Some(place)) = (lazy.kind, place) {
-                out[place] = self.bound.lazy(k, &mut self.frame, &mut read);
-            }
-        }
-        self.state.copy_from_slice(&self.frame.now);
-        Some(out)
+        self.0.step(inputs, ["p", "q", "m", "stop"])
     }
 }
