@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use super::api::FILE;
-use super::served::Served;
+use super::served::{Answer, Served};
 use crate::common::{Folder, status, stderr, stdout, stillpoint};
 
 const CENTRE: &str = "spec/machines/machining-centre-heidenhain.toml";
@@ -30,6 +30,37 @@ fn walk(served: &Served, system: &Value, cycles: usize) -> String {
     path
 }
 
+/// The recording of a walk through a system; the same each time.
+fn saved(served: &Served, system: &Value, cycles: usize) -> Answer {
+    let name = &system["name"];
+    assert_eq!(system["recordable"], true, "{name}");
+    let path = walk(served, system, cycles);
+    let body = json!({ "system": name, "hash": system["hash"], "path": path }).to_string();
+    let answer = served.post("/api/recording", &body);
+    assert_eq!(answer.status, 200, "{name}");
+    let again = served.post("/api/recording", &body);
+    assert_eq!(answer.body, again.body, "{name}");
+    answer
+}
+
+/// The replay on this machine agrees with the whole recording, and refutes what it says with `from` as `to`.
+fn replayed(folder: &Folder, machine: &str, recording: &str, cycles: usize, [from, to]: [&str; 2]) {
+    let file = folder.write("walk.ndjson", recording);
+    let diff = stillpoint(&["diff", machine, "--trace", &file, "--json"]);
+    let said = || format!("{}{}", stdout(&diff), stderr(&diff));
+    assert_eq!(status(&diff), 0, "{}", said());
+    let told: Value = serde_json::from_str(&stdout(&diff)).expect("JSON");
+    assert_eq!(
+        (&told["cycles"], &told["divergences"]),
+        (&json!(cycles), &json!(0))
+    );
+    let wrong = recording.replace(from, to);
+    assert_ne!(wrong, recording);
+    let file = folder.write("wrong.ndjson", &wrong);
+    let diff = stillpoint(&["diff", machine, "--trace", &file]);
+    assert_eq!(status(&diff), 1, "{}", stdout(&diff));
+}
+
 #[test]
 fn a_walk_is_a_recording_that_the_replay_accepts() {
     let folder = Folder::new("explore-recording");
@@ -38,38 +69,12 @@ fn a_walk_is_a_recording_that_the_replay_accepts() {
     let all = systems["systems"].as_array().expect("systems");
     for wanted in ["selection", "stop", "stop_pair", "axis_core"] {
         let system = named(all, &format!("{wanted}:X"));
-        assert_eq!(system["recordable"], true, "{wanted}");
-        let path = walk(&served, system, 6);
-        let body = json!({ "system": system["name"], "hash": system["hash"], "path": path });
-        let answer = served.post("/api/recording", &body.to_string());
-        assert_eq!(answer.status, 200, "{wanted}");
+        let answer = saved(&served, system, 6);
         assert!(answer.head.contains("application/x-ndjson"));
-        // The header, then one line a cycle; the same each time.
+        // The header, then one line a cycle.
         assert_eq!(answer.body.lines().count(), 7, "{wanted}");
-        let again = served.post("/api/recording", &body.to_string());
-        assert_eq!(answer.body, again.body);
-        let file = folder.write(&format!("{wanted}.ndjson"), &answer.body);
-        let diff = stillpoint(&["diff", MILLING, "--trace", &file, "--json"]);
-        assert_eq!(
-            status(&diff),
-            0,
-            "{wanted}: {}{}",
-            stdout(&diff),
-            stderr(&diff)
-        );
-        let told: Value = serde_json::from_str(&stdout(&diff)).expect("JSON");
-        assert_eq!(
-            (&told["cycles"], &told["divergences"]),
-            (&json!(6), &json!(0))
-        );
-        // A recording that says something else is refuted.
-        let wrong = answer
-            .body
-            .replace("\"X.nck.stop\":\"", "\"X.nck.stop\":\"_");
-        assert_ne!(wrong, answer.body, "{wanted}");
-        let file = folder.write(&format!("{wanted}-wrong.ndjson"), &wrong);
-        let diff = stillpoint(&["diff", MILLING, "--trace", &file]);
-        assert_eq!(status(&diff), 1, "{wanted}: {}", stdout(&diff));
+        let other = ["\"X.nck.stop\":\"", "\"X.nck.stop\":\"_"];
+        replayed(&folder, MILLING, &answer.body, 6, other);
     }
 }
 
@@ -86,28 +91,10 @@ fn a_walk_through_a_program_is_a_recording_of_the_whole_machine() {
         let mut found = all.iter();
         let system = found.find(|s| s["name"].as_str().is_some_and(|name| starts(name, wanted)));
         let system = system.unwrap_or_else(|| panic!("no system {wanted}"));
-        assert_eq!(system["recordable"], true, "{wanted}");
-        let path = walk(&served, system, 6);
-        let body = json!({ "system": system["name"], "hash": system["hash"], "path": path });
-        let answer = served.post("/api/recording", &body.to_string());
-        assert_eq!(answer.status, 200, "{wanted}");
+        let answer = saved(&served, system, 6);
         // The cycle of the program is seven of the kernel.
         let cycles = if wanted == "machine_axes" { 6 } else { 42 };
         assert_eq!(answer.body.lines().count(), 1 + cycles, "{wanted}");
-        let file = folder.write(&format!("{wanted}.ndjson"), &answer.body);
-        let diff = stillpoint(&["diff", CENTRE, "--trace", &file, "--json"]);
-        assert_eq!(
-            status(&diff),
-            0,
-            "{wanted}: {}{}",
-            stdout(&diff),
-            stderr(&diff)
-        );
-        let told: Value = serde_json::from_str(&stdout(&diff)).expect("JSON");
-        assert_eq!(
-            (&told["cycles"], &told["divergences"]),
-            (&json!(cycles), &json!(0))
-        );
         // The walk presses something, and the doors are those of the walk: closed where the signal is on.
         let pressed = ["SD", "PB", "AXIS_KEY", "NC_START", "KEY_SOM_2", "KEY_SOM_3"];
         let pressed = pressed.map(|name| format!("\"machine.mc.{name}\":"));
@@ -128,13 +115,8 @@ fn a_walk_through_a_program_is_a_recording_of_the_whole_machine() {
             let open = told["walk.before.door"] == "TRUE";
             assert_eq!(told["machine.cc.SD"], !open, "{wanted}: {}", line["cycle"]);
         }
-        let wrong = answer
-            .body
-            .replace("_AxGrpState\":\"S", "_AxGrpState\":\"_S");
-        assert_ne!(wrong, answer.body, "{wanted}");
-        let file = folder.write(&format!("{wanted}-wrong.ndjson"), &wrong);
-        let diff = stillpoint(&["diff", CENTRE, "--trace", &file]);
-        assert_eq!(status(&diff), 1, "{wanted}: {}", stdout(&diff));
+        let other = ["_AxGrpState\":\"S", "_AxGrpState\":\"_S"];
+        replayed(&folder, CENTRE, &answer.body, cycles, other);
     }
     // What a walk gives to no signal is not recorded.
     let status = all.iter().find(|s| s["name"] == "status");
