@@ -18,6 +18,7 @@ use stillpoint_lang::diag::Diagnostics;
 use stillpoint_lang::syntax::{parse_decl, parse_effect, parse_expr, parse_type};
 use stillpoint_logic::spf::{self, Interface, Mode, Output};
 use stillpoint_logic::st::{Signature, compile};
+use stillpoint_logic::stl;
 use stillpoint_machine::{self as machine, Machine, families};
 
 use crate::random::Random;
@@ -38,7 +39,7 @@ pub struct Target {
 }
 
 /// Every target.
-pub static TARGETS: [Target; 10] = [
+pub static TARGETS: [Target; 11] = [
     Target {
         name: "certificate",
         component: "`stillpoint certify`",
@@ -136,6 +137,13 @@ pub static TARGETS: [Target; 10] = [
             read(&all)
         },
         run: specification,
+    },
+    Target {
+        name: "statement_list",
+        component: "the safe logic of a SINUMERIK 840D in the PLC, statement lists",
+        property: "a program with a table; or errors whose places lie in the text",
+        seeds: || read(&files("tests/corpus/sinumerik-840d/stl", "stl")),
+        run: statement_list,
     },
 ];
 
@@ -317,6 +325,40 @@ fn safe_logic(data: &[u8]) -> bool {
         accepted |= judged(read);
     }
     accepted
+}
+
+fn statement_list(data: &[u8]) -> bool {
+    static SPL: LazyLock<Spec> = LazyLock::new(|| {
+        let text = "spec = \"fuzzed\"\n[machine.spl]\ntext = \"t\"\notherwise = \"stay\"\n[machine.spl.output]\np = \"FALSE\"\n";
+        Spec::from_text("spl.toml".as_ref(), Arc::from(text)).unwrap_or_else(|e| panic!("{e}"))
+    });
+    let Some(source) = text(data) else {
+        return false;
+    };
+    let read = stl::parse("fuzzed.stl", &source);
+    let Ok(program) = &read else {
+        return judged(read);
+    };
+    let written = program.bits().into_iter().find(|used| used.writes);
+    let output = written.map_or(stl::Output::Constant(true), |used| stl::Output::Bit {
+        bit: used.bit,
+        inverted: false,
+    });
+    let interface = stl::Interface {
+        signature: Signature::of(&SPL, "spl").unwrap_or_else(|e| panic!("{e}")),
+        inputs: Vec::new(),
+        outputs: vec![("p".to_owned(), output)],
+        scan: None,
+    };
+    let compiled = program.compile(&interface);
+    if let Ok(compiled) = &compiled {
+        let mut spec = SPL.clone();
+        let name = toml::Spanned::new(0..0, "spl".to_owned());
+        spec.replace("fuzzed.stl", &source, &name, &compiled.machine)
+            .and_then(|()| spec.open_machine("spl").map(drop))
+            .unwrap_or_else(|e| panic!("accepted, and no table: {e}"));
+    }
+    judged(compiled)
 }
 
 /// Short runs of both machines, in both formats.

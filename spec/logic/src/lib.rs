@@ -1,13 +1,15 @@
 //! The languages of safe programs, translated to the tables of the specification language.
 //!
 //! A program takes the place of one machine of the tables and is then explored, proved and certified as any table is.
-//! [`st`] is IEC 61131-3 Structured Text, [`spf`] the synchronous actions of SAFE.SPF.
+//! [`st`] is IEC 61131-3 Structured Text, [`spf`] the synchronous actions of SAFE.SPF, [`stl`] the statement lists of the PLC.
 //!
 //! **Invariant.** The table that comes out does in each cycle what the program does, or the program is refused with a place.
 
 mod fault;
 pub mod spf;
 pub mod st;
+pub mod stl;
+mod tree;
 
 use stillpoint_lang::Written;
 

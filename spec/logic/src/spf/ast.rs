@@ -133,7 +133,7 @@ pub(crate) struct Assign {
     pub span: Span,
 }
 
-/// When an action fires.
+/// When an action fires: S840D-LANG-705.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Trigger {
     Always,
@@ -143,7 +143,7 @@ pub(crate) enum Trigger {
     From,
 }
 
-/// A synchronous action.
+/// A synchronous action: S840D-LANG-703.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Action {
     pub id: u8,

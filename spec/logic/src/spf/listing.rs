@@ -54,7 +54,7 @@ enum Class {
     Other,
 }
 
-/// The blocks of a printed program, each in one line.
+/// The blocks of a printed program, each in one line: S840D-LANG-701.
 pub(crate) fn blocks(
     source: &str,
     repairs: &mut Vec<Repair>,

@@ -88,7 +88,7 @@ pub struct Program {
     source: Arc<str>,
     name: String,
     names: Vec<Name>,
-    /// In ascending order of their ids, as they run.
+    /// In ascending order of their ids, as they run: S840D-LANG-704.
     actions: Vec<Action>,
     relays: BTreeMap<u8, Relay>,
     notes: Vec<Note>,
@@ -132,7 +132,7 @@ impl Program {
         self.fragment
     }
 
-    /// The smallest and the largest id of its actions that survive a change of the mode: what MD11500 has to enclose.
+    /// The smallest and the largest id of its actions that survive a change of the mode: what MD11500 has to enclose: S840D-LANG-710.
     #[must_use]
     pub fn protected(&self) -> Option<(u8, u8)> {
         let mut kept = self.actions.iter().filter(|action| !action.modal);

@@ -27,6 +27,8 @@ pub(crate) enum Language {
     StructuredText,
     /// The safe logic of SAFE.SPF, whose timers compare strictly.
     SafeLogic,
+    /// Statement lists of STEP 7: their timers are clocks of the program.
+    StatementList,
 }
 
 /// A program organisation unit: PROGRAM, FUNCTION_BLOCK or FUNCTION.

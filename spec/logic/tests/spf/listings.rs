@@ -60,6 +60,7 @@ listings! {
     retraction "esr"
 }
 
+/// Each is read with its repairs: S840D-LANG-701.
 #[test]
 fn every_listing_of_the_folder_is_tried() {
     let files = std::fs::read_dir(folder()).unwrap_or_else(|e| panic!("{e}"));

@@ -51,6 +51,7 @@ fn whenever_fires_while_the_condition_holds() {
     });
 }
 
+/// S840D-LANG-705.
 #[test]
 fn every_fires_at_an_edge_and_when_the_condition_holds_from_the_start() {
     fires("EVERY $A_INSE[1] == 1", Readings::default(), |past| {
@@ -110,6 +111,7 @@ fn an_edge_is_looked_at_once_in_a_cycle() {
 }
 
 /// Actions run by their ids, not by their places; a value counts at once.
+/// S840D-LANG-704.
 #[test]
 fn actions_run_in_the_order_of_their_ids() {
     let blocks = "IDS=30 DO $A_OUTSE[1] = $A_MARKERSI[2]\n\
@@ -135,6 +137,7 @@ fn time(past: Past<'_>, cycle: i64) -> i64 {
     (end - started) as i64 * cycle
 }
 
+/// S840D-LANG-706.
 #[test]
 fn a_timer_counts_the_cycles_since_its_start_and_keeps_its_time() {
     // 30 ms are three cycles of 10 ms, and no whole number of those of 7 ms, 20 ms or 29999 µs.
@@ -192,6 +195,7 @@ fn a_strict_limit_is_exceeded_in_the_first_cycle_above_it() {
     }
 }
 
+/// S840D-LANG-712.
 #[test]
 fn a_timer_that_was_never_started_is_at_0_or_beyond_all_limits() {
     let blocks = "IDS=1 WHENEVER $A_INSE[1] DO $A_TIMERSI[1] = 0\n\

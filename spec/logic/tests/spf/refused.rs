@@ -40,7 +40,7 @@ fn whole(text: &str) -> String {
     }
 }
 
-/// What is refused of relays: S840D-RELAY-009, S840D-RELAY-010, S840D-RELAY-011, S840D-RELAY-012, S840D-RELAY-016.
+/// The language, S840D-LANG-702, S840D-LANG-703, S840D-LANG-707, S840D-LANG-708, S840D-LANG-711. What is refused of relays: S840D-RELAY-009, S840D-RELAY-010, S840D-RELAY-011, S840D-RELAY-012, S840D-RELAY-016.
 #[test]
 fn errors_name_place_and_fix() {
     let cases = [

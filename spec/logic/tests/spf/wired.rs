@@ -7,6 +7,7 @@ use stillpoint_logic::spf::{Interface, Mode, Output, Variable, parse};
 
 use super::rig::{Spl, compiled, interface, output, sequences, spec, variable};
 
+/// With the range that has to be protected: S840D-LANG-710.
 #[test]
 fn variables_are_told_with_their_names() {
     let text = "DEFINE DOOR AS $A_INSE[3]\nDEFINE DOOR_2 AS $A_INSE[03]\nDEFINE RUN AS $A_OUTSI[7]\n\
@@ -84,12 +85,12 @@ fn what_nothing_gives_is_free() {
         told,
         [
             input("ac_marker_3", "INT(-3..5)", "AC_MARKER[3]"),
-            input("dbb_2", "INT(0..255)", "DBB[2]"),
+            input("dbb_2", "INT(6..8)", "DBB[2]"),
             input("inse_3", "BOOL", "INSE[3]"),
             input("insi_12", "BOOL", "INSI[12]"),
             input("plcsiin_1", "BOOL", "PLCSIIN[1]"),
             input("va_dpe_x1", "BOOL", "VA_DPE[X1]"),
-            input("xfaultsi", "INT(0..3)", "XFAULTSI"),
+            input("xfaultsi", "INT(0..1)", "XFAULTSI"),
         ]
     );
 }
@@ -268,5 +269,42 @@ fn the_whole_programs_of_the_manual_have_tables() {
         own.replace(name, &source, &machine, &compiled.machine)
             .unwrap_or_else(|e| panic!("{e}"));
         own.open_machine("spl").unwrap_or_else(|e| panic!("{e}"));
+    }
+}
+
+/// The example machine, what its half in the NCK only copies: S840D-EXAMPLE-712, S840D-TESTSTOP-704.
+#[test]
+fn the_copies_of_the_example_machine() {
+    let path = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../../tests/machines/emergency-stop-840d.spf"
+    );
+    let text = std::fs::read_to_string(path).expect("readable");
+    let blocks = text.trim_end().strip_suffix("N1070 M17").expect("its end");
+    for (from, to) in [
+        ("INSI[1]", "OUTSE[3]"),
+        ("INSI[2]", "OUTSE[4]"),
+        ("INSE[7]", "OUTSI[9]"),
+        ("INSE[8]", "OUTSI[10]"),
+        ("INSE[9]", "OUTSI[7]"),
+        ("INSE[10]", "OUTSI[8]"),
+    ] {
+        let wired = Interface {
+            inputs: vec![(variable(from), "a".to_owned())],
+            outputs: vec![
+                ("p".to_owned(), output(to)),
+                ("q".to_owned(), Output::Constant(false)),
+                ("n".to_owned(), output("AC_MARKER[1]")),
+            ],
+            ..interface()
+        };
+        let mut spl = Spl::new(blocks, &wired, 12_000);
+        for value in [1, 0, 1] {
+            assert_eq!(
+                spl.step(&[("a", value)])[0],
+                i64::from(value),
+                "{from} to {to}"
+            );
+        }
     }
 }

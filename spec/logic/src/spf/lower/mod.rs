@@ -5,7 +5,6 @@
 
 mod relays;
 mod timers;
-mod tree;
 mod wiring;
 
 use std::collections::BTreeMap;
@@ -25,8 +24,11 @@ use crate::st::ast::{
     BinaryOp, Expr, File, Language, Pou, Section, SectionKind, Stmt, TypeKind, VarDecl,
 };
 use crate::st::lower::lower;
+use crate::tree;
+use crate::tree::{
+    assign, binary, bounds, call, name, not, number, only_if, truth, variable, word,
+};
 use timers::{Timer, compared, comparison};
-use tree::{assign, binary, bounds, call, name, not, number, only_if, truth, variable, word};
 use wiring::{Role, Wiring};
 
 impl Program {
@@ -129,6 +131,36 @@ impl Program {
         found.extend(set);
         found
     }
+
+    /// The least and the greatest number that a variable is compared with, if nothing else reads it.
+    fn compared(&self, variable: &Variable) -> Option<(i64, i64)> {
+        let is = |e: &Source| matches!(&e.kind, SourceKind::Variable(of) if of == variable);
+        let (mut reads, mut numbers) = (0, Vec::new());
+        let mut look = |e: &Source| {
+            e.each(&mut |part| {
+                reads += usize::from(is(part));
+                if let SourceKind::Compare(_, a, b) = &part.kind {
+                    let sides = [(a, b), (b, a)];
+                    let with = sides.iter().filter(|(of, _)| is(of));
+                    numbers.extend(with.filter_map(|(_, with)| match &with.kind {
+                        SourceKind::Number(n) => Some(n.millionths / MILLION),
+                        _ => None,
+                    }));
+                }
+            });
+        };
+        for action in &self.actions {
+            action.condition.iter().for_each(&mut look);
+            for one in &action.assigns {
+                if let Value::Expr(value) = &one.value {
+                    look(value);
+                }
+            }
+        }
+        let ends = numbers.iter().min().zip(numbers.iter().max());
+        ends.filter(|_| reads == numbers.len())
+            .map(|(least, most)| (*least, *most))
+    }
 }
 
 /// A tree that is being made.
@@ -197,7 +229,7 @@ impl Making<'_> {
         .collect()
     }
 
-    /// What the program writes keeps its value, and begins with 0.
+    /// What the program writes keeps its value, and begins with 0: S840D-LANG-712.
     fn states(&mut self) {
         let program = self.program;
         for (variable, places) in program.places() {

@@ -2,13 +2,13 @@
 
 use super::super::ast::{Expr as Source, ExprKind as SourceKind, Relay};
 use super::super::{Program, Variable};
-use super::tree::{
-    assign, binary, call_block, expr, name, not, number, time, truth, variable, word,
-};
 use super::wiring::Role;
 use super::{Making, Trigger, Value};
 use crate::fault::{Fault, Span};
 use crate::st::ast::{BinaryOp, Expr, ExprKind, Stmt, TypeKind};
+use crate::tree::{
+    assign, binary, call_block, expr, name, not, number, time, truth, variable, word,
+};
 
 /// The variables of a relay.
 #[derive(Clone)]

@@ -7,13 +7,13 @@ use std::collections::BTreeMap;
 
 use super::super::ast::{Action, Expr as Source, ExprKind as SourceKind, Relation, Value};
 use super::super::{Program, Variable};
-use super::tree::{
-    assign, binary, bounds, call, name, not, number, only_if, time, truth, variable,
-};
 use crate::fault::Span;
 use crate::st::ast::{BinaryOp, Expr, Stmt, TypeKind, VarDecl};
+use crate::tree::{
+    assign, binary, bounds, call, name, not, number, only_if, time, truth, variable,
+};
 
-/// A timer of the program.
+/// A timer of the program: S840D-LANG-706.
 pub(super) struct Timer {
     /// The variable that counts its cycles.
     count: String,

@@ -94,7 +94,7 @@ impl Wiring {
                 (Some(_), _) => Role::State(wiring.fresh(&variable.identifier())),
                 (None, Some(port)) => Role::Input(port),
                 (None, None) if variable.kind().own || taken_out(variable) => Role::Zero,
-                (None, None) => Role::Input(wiring.added(variable)),
+                (None, None) => Role::Input(wiring.added(program, variable)),
             };
             wiring.roles.insert(variable.clone(), role);
         }
@@ -122,10 +122,19 @@ impl Wiring {
     }
 
     /// A further input of the table.
-    fn added(&mut self, variable: &Variable) -> String {
+    fn added(&mut self, program: &Program, variable: &Variable) -> String {
         let name = self.fresh(&variable.identifier());
         let (ty, (low, high)) = match variable.kind().ty {
-            Ty::Int => (term::Ty::Int, self.range(variable)),
+            Ty::Int => {
+                // One value beyond all that it is compared with stands for all of them.
+                let (low, high) = self.range(variable);
+                let own = matches!(variable.kind().values, Values::Range(..));
+                let range = match program.compared(variable).filter(|_| own) {
+                    Some((least, most)) => (low.max(least - 1), high.min(most + 1)),
+                    None => (low, high),
+                };
+                (term::Ty::Int, range)
+            }
             _ => (term::Ty::Bool, (0, 1)),
         };
         self.signature.inputs.push(Port {

@@ -190,7 +190,7 @@ impl Parser<'_, '_> {
         }
     }
 
-    /// Checks C3 and C4: what is assigned may be written, and the value is of its type.
+    /// Checks C3 and C4: what is assigned may be written, and the value is of its type. S840D-LANG-708.
     pub(super) fn assignable(&mut self, assign: &Assign) -> Checked<()> {
         let target = &assign.target;
         let (ty, written) = match &target.kind {
@@ -276,7 +276,7 @@ fn readable(expr: &Expr) -> Checked<()> {
     }
 }
 
-/// Check C1: a truth value.
+/// Check C1: a truth value. S840D-LANG-707.
 fn truth(expr: &Expr, why: &str) -> Checked<()> {
     let help = match (expr.ty(), &expr.kind) {
         (Ty::Bool | Ty::Unknown, _) => return Ok(()),

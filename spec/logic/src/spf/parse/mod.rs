@@ -270,7 +270,7 @@ impl Reader<'_> {
         })
     }
 
-    /// DUP_REJECT for programs, DUP_REPLACE for printed ones.
+    /// DUP_REJECT for programs, DUP_REPLACE for printed ones: S840D-LANG-711.
     fn repeated(&mut self, mode: Mode) {
         let mut at = 0;
         while at < self.actions.len() {

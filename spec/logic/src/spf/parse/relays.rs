@@ -7,7 +7,8 @@ use super::super::variable::Variable;
 use super::Parser;
 use crate::fault::{Checked, Fault, Span};
 
-/// A set-up: its name, how it is written, how many values it takes, and which variables these are.
+/// A set-up: its name, how it is written, how many values it takes, and which variables these are: S840D-RELAY-009, S840D-RELAY-010,
+/// S840D-RELAY-011, S840D-RELAY-012, S840D-RELAY-016.
 struct Setup {
     usage: &'static str,
     least: usize,

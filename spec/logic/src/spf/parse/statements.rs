@@ -9,7 +9,7 @@ use super::{END_CODES, Parser};
 use crate::fault::{Checked, Fault, Span};
 use stillpoint_lang::diag::nearest;
 
-/// The statements of the language.
+/// The statements of the language; anything else is refused: S840D-LANG-702.
 const STATEMENTS: [&str; 13] = [
     "IDS",
     "ID",

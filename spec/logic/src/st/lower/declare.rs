@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::{Entry, Lowering, Names, Role, Scope, Slot, Variable};
 use crate::fault::{Checked, Fault};
-use crate::st::ast::{Bounds, Init, Pou, SectionKind, TypeKind, TypeRef, VarDecl, Word};
+use crate::st::ast::{Bounds, Init, Language, Pou, SectionKind, TypeKind, TypeRef, VarDecl, Word};
 use crate::st::term::{Term, Ty, Use};
 use stillpoint_lang::diag::nearest;
 
@@ -384,7 +384,9 @@ impl<'a> Lowering<'a> {
                 }
                 return Err(self.no_type(name, ty));
             }
-            TypeKind::Clock(bounds) if scope.standard => {
+            TypeKind::Clock(bounds)
+                if scope.standard || self.tree.language == Language::StatementList =>
+            {
                 match self.bounds(bounds, scope, Ty::Time)? {
                     Some((low, high)) => Shape::Clock(low, high),
                     None => return Err(no_range(ty)),

@@ -144,6 +144,7 @@ impl<'a> Lowering<'a> {
                     // Times are whole microseconds: one more than a limit is the first time above it.
                     Language::SafeLogic if us % 1_000 == 1 => format!("spf_over_{}", long(us - 1)),
                     Language::SafeLogic => format!("spf_{}", long(us)),
+                    Language::StatementList => format!("stl_{}", long(us)),
                 };
                 let name = self.fresh(&base);
                 self.durations.insert(us, name.clone());

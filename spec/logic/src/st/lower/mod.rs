@@ -90,6 +90,9 @@ static STANDARD_BLOCKS: LazyLock<File> = LazyLock::new(|| blocks(STANDARD));
 /// The blocks of the safe logic.
 static SAFE_LOGIC_BLOCKS: LazyLock<File> = LazyLock::new(|| blocks(crate::spf::RELAY));
 
+/// The blocks of the control that statement lists call.
+static STATEMENT_LIST_BLOCKS: LazyLock<File> = LazyLock::new(|| blocks(crate::stl::BLOCKS));
+
 /// A file of nothing but blocks.
 fn blocks(text: &str) -> File {
     let text = format!("{text}PROGRAM none END_PROGRAM");
@@ -217,6 +220,7 @@ impl<'a> Lowering<'a> {
         match self.tree.language {
             Language::StructuredText => &STANDARD_BLOCKS.blocks,
             Language::SafeLogic => &SAFE_LOGIC_BLOCKS.blocks,
+            Language::StatementList => &STATEMENT_LIST_BLOCKS.blocks,
         }
     }
 
@@ -247,10 +251,13 @@ impl<'a> Lowering<'a> {
     /// The first line of a piece of the program, shortened.
     fn quoted(&self, span: &Span) -> String {
         let text = self.source.get(self.at(span)).unwrap_or_default();
-        let line = text.lines().next().unwrap_or_default().trim();
+        let line = match self.tree.language {
+            Language::StatementList => crate::stl::on_one_line(text),
+            _ => text.lines().next().unwrap_or_default().trim().to_owned(),
+        };
         match line.char_indices().nth(100) {
             Some((cut, _)) => format!("{} ...", &line[..cut]),
-            None => line.to_owned(),
+            None => line,
         }
     }
 

@@ -6,47 +6,47 @@ use crate::st::ast::{
     VarDecl, Word,
 };
 
-pub(super) fn word(text: impl Into<String>, span: &Span) -> Word {
+pub(crate) fn word(text: impl Into<String>, span: &Span) -> Word {
     Word {
         text: text.into(),
         span: span.clone(),
     }
 }
 
-pub(super) fn expr(kind: ExprKind, span: &Span) -> Expr {
+pub(crate) fn expr(kind: ExprKind, span: &Span) -> Expr {
     Expr {
         kind,
         span: span.clone(),
     }
 }
 
-pub(super) fn name(text: impl Into<String>, span: &Span) -> Expr {
+pub(crate) fn name(text: impl Into<String>, span: &Span) -> Expr {
     expr(ExprKind::Name(text.into()), span)
 }
 
-pub(super) fn truth(value: bool, span: &Span) -> Expr {
+pub(crate) fn truth(value: bool, span: &Span) -> Expr {
     expr(ExprKind::Bool(value), span)
 }
 
-pub(super) fn number(value: i64, span: &Span) -> Expr {
+pub(crate) fn number(value: i64, span: &Span) -> Expr {
     expr(ExprKind::Int(value), span)
 }
 
 /// A time in microseconds, not negative.
-pub(super) fn time(us: i64, span: &Span) -> Expr {
+pub(crate) fn time(us: i64, span: &Span) -> Expr {
     expr(ExprKind::Time(us.unsigned_abs()), span)
 }
 
-pub(super) fn not(inner: Expr) -> Expr {
+pub(crate) fn not(inner: Expr) -> Expr {
     let span = inner.span.clone();
     expr(ExprKind::Unary(UnaryOp::Not, Box::new(inner)), &span)
 }
 
-pub(super) fn binary(op: BinaryOp, a: Expr, b: Expr, span: &Span) -> Expr {
+pub(crate) fn binary(op: BinaryOp, a: Expr, b: Expr, span: &Span) -> Expr {
     expr(ExprKind::Binary(op, Box::new(a), Box::new(b)), span)
 }
 
-pub(super) fn call(function: &str, values: Vec<Expr>, span: &Span) -> Expr {
+pub(crate) fn call(function: &str, values: Vec<Expr>, span: &Span) -> Expr {
     let args = values.into_iter().map(|value| Arg {
         name: None,
         out: false,
@@ -55,14 +55,14 @@ pub(super) fn call(function: &str, values: Vec<Expr>, span: &Span) -> Expr {
     expr(ExprKind::Call(word(function, span), args.collect()), span)
 }
 
-pub(super) fn assign(target: &str, value: Expr, span: &Span) -> Stmt {
+pub(crate) fn assign(target: &str, value: Expr, span: &Span) -> Stmt {
     Stmt {
         kind: StmtKind::Assign(name(target, span), value),
         span: span.clone(),
     }
 }
 
-pub(super) fn only_if(condition: Expr, body: Vec<Stmt>) -> Stmt {
+pub(crate) fn only_if(condition: Expr, body: Vec<Stmt>) -> Stmt {
     let span = condition.span.clone();
     Stmt {
         kind: StmtKind::If(vec![(condition, body)], Vec::new()),
@@ -71,7 +71,7 @@ pub(super) fn only_if(condition: Expr, body: Vec<Stmt>) -> Stmt {
 }
 
 /// `block(NAME := value)`
-pub(super) fn call_block(block: &str, inputs: Vec<(&str, Expr)>, span: &Span) -> Stmt {
+pub(crate) fn call_block(block: &str, inputs: Vec<(&str, Expr)>, span: &Span) -> Stmt {
     let args = inputs.into_iter().map(|(parameter, value)| Arg {
         name: Some(word(parameter, span)),
         out: false,
@@ -83,11 +83,11 @@ pub(super) fn call_block(block: &str, inputs: Vec<(&str, Expr)>, span: &Span) ->
     }
 }
 
-pub(super) fn bounds(low: Expr, high: Expr) -> Bounds {
+pub(crate) fn bounds(low: Expr, high: Expr) -> Bounds {
     Some(Box::new((low, high)))
 }
 
-pub(super) fn variable(
+pub(crate) fn variable(
     identifier: &str,
     title: Option<String>,
     kind: TypeKind,
