@@ -35,7 +35,7 @@ fn ours(places: &[Place]) -> BTreeSet<(String, i64, i64)> {
     places.iter().map(of).collect()
 }
 
-/// S840D-IO-007, S840D-IO-001, S840D-TEST-021: the signals of an axis in the drive channel have their places in its block, each a bit of its own.
+/// S840D-IO-007, S840D-IO-001, S840D-TEST-021, S840D-SPL-004: the signals of an axis in the drive channel have their places in its block, each a bit of its own.
 #[test]
 fn every_signal_lies_where_the_table_says() {
     assert_eq!(ours(SGE), placed("SGE"));
@@ -152,7 +152,7 @@ fn truth(id: &str) -> Vec<(Vec<bool>, bool)> {
     out
 }
 
-/// S840D-IO-005, S840D-IO-001: a signal of the NCK channel comes from its own terminal, inverted by bit 31 of its assignment.
+/// S840D-IO-005, S840D-IO-001, S840D-SPL-003: a signal of the NCK channel comes from its own terminal, inverted by bit 31 of its assignment.
 #[test]
 fn inputs_follow_their_truth_table() {
     let rows = truth("INPUT_ASSIGNMENT");
@@ -166,7 +166,7 @@ fn inputs_follow_their_truth_table() {
     }
 }
 
-/// S840D-IO-004: the signals of several axes on one output are ANDed, each inverted before if so assigned.
+/// S840D-IO-004, S840D-SPL-003: the signals of several axes on one output are ANDed, each inverted before if so assigned.
 #[test]
 fn outputs_follow_their_truth_table() {
     let rows = truth("OUTPUT_AND");

@@ -14,6 +14,7 @@ mod programs;
 mod reaction_times;
 mod safe_logic;
 mod safe_relay;
+mod spl;
 mod structure;
 mod structured_text;
 mod tables;

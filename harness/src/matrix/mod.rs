@@ -1,15 +1,16 @@
 //! The requirement traceability matrix, what the command `trace` prints: for every requirement of the catalogues the evidence for
 //! it, typed and at the level of a rule, an item, a clause or a test function.
 //!
-//! Evidence is one of four things. **Specification**: a rule, property, named expression or declaration of a table, or an
-//! item of the family's data. **Monitor**: a documented function, type, field, variant or constant of `impl`, or a clause of the
+//! Evidence is one of four things. **Specification**: a rule, property, named expression or declaration of a table, an
+//! item of the family's data, or a documented item of the languages of safe programs (`spec/logic/src`). **Monitor**: a documented function, type, field, variant or constant of `impl`, or a clause of the
 //! contract of its `next`. **Proof**: a clause whose harness stands in the inventory, or a run of the inventory. **Test**: a
 //! `#[test]` function whose own documentation names the requirement, a must-fail file by the property that it violates, a refused
 //! machine file by the rule that refuses it, a case of the corpus, or an acceptance test that is run on the simulated axis.
 //!
 //! A requirement is **covered** when it has specification, monitor, and a proof or a test. For one that is not about the
 //! behaviour of a monitor the monitor is not asked for: those of scope `support`, and of kind architecture, commissioning,
-//! constraint, diagnostic or parameter; and acceptance tests that are run and reaction chains count as its specification. A
+//! constraint, diagnostic or parameter; for one whose only specification is an item of the languages, which refuse or understand
+//! a program before any monitor runs, neither; and acceptance tests that are run and reaction chains count as its specification. A
 //! requirement whose text states several behaviours has sentences (`sentences.toml`); evidence then names a sentence,
 //! `ID/a`, evidence that names the id alone counts for nothing, and each sentence is judged on its own.
 //!
@@ -44,6 +45,8 @@ pub enum EvidenceKind {
     Definition,
     /// An item of a family's data.
     Data,
+    /// A documented item of the languages of safe programs.
+    Language,
     /// A summand of a reaction time.
     Chain,
     /// A documented item of the monitors.
@@ -72,6 +75,7 @@ impl EvidenceKind {
             EvidenceKind::Property => "property",
             EvidenceKind::Definition => "definition",
             EvidenceKind::Data => "data",
+            EvidenceKind::Language => "language",
             EvidenceKind::Chain => "chain",
             EvidenceKind::Item => "item",
             EvidenceKind::Clause => "clause",
@@ -125,6 +129,8 @@ pub struct Sources {
     pub sentences: BTreeMap<String, BTreeMap<String, String>>,
     /// Rules, named expressions, properties and family data.
     pub rules: Named,
+    /// Documented items of the languages of safe programs.
+    pub languages: Named,
     /// Data that no monitor follows: acceptance tests that are run, and reaction chains.
     pub data: Named,
     /// Documented items of the monitors, and clauses.
@@ -289,6 +295,7 @@ fn unknown(sources: &Sources, rows: &[Row]) -> Vec<(String, String)> {
         .map(|id| (id.clone(), "a sentences.toml".to_owned()));
     [
         &sources.rules,
+        &sources.languages,
         &sources.data,
         &sources.monitors,
         &sources.proofs,
@@ -398,10 +405,15 @@ fn shown(
     let (mut rules, data) = (places(&sources.rules), places(&sources.data));
     let (monitors, proofs) = (places(&sources.monitors), places(&sources.proofs));
     let tests = places(&sources.tests);
-    let specified = !rules.is_empty() || (!data.is_empty() && !about_monitors(requirement));
+    let languages = places(&sources.languages);
+    // What only the languages are about is settled when a program is read, before any monitor runs.
+    let about_programs = rules.is_empty() && !languages.is_empty();
+    let behaviour = about_monitors(requirement) && !about_programs;
+    rules.extend(languages);
+    let specified = !rules.is_empty() || (!data.is_empty() && !behaviour);
     rules.extend(data);
     let covered = specified
-        && (!monitors.is_empty() || !about_monitors(requirement))
+        && (!monitors.is_empty() || !behaviour)
         && (!proofs.is_empty() || !tests.is_empty());
     let exception = exceptions.get(id);
     let (status, reason) = match (&requirement.merged_into, requirement.scope, exception) {

@@ -90,8 +90,9 @@ fn code(root: &Path, prefixes: &BTreeSet<String>, sources: &mut Sources) -> Resu
     for (place, text) in texts(root, root, "rs")? {
         let monitor = place.starts_with("impl/src/") && !is_mutant(&place);
         let inventory = place.starts_with("proofs/src/inventory/");
+        let language = place.starts_with("spec/logic/src/");
         // Most files name no requirement at a place that counts.
-        if !monitor && !inventory && !text.contains("#[test]") {
+        if !monitor && !inventory && !language && !text.contains("#[test]") {
             continue;
         }
         let source = rust::parse(&text, prefixes)
@@ -104,6 +105,12 @@ fn code(root: &Path, prefixes: &BTreeSet<String>, sources: &mut Sources) -> Resu
                 add_found(&mut sources.monitors, EvidenceKind::Item, &place, item);
             }
             clauses.extend(source.clauses.into_iter().map(|c| (place.clone(), c)));
+        }
+        if language {
+            for item in &source.items {
+                let kind = EvidenceKind::Language;
+                add_found(&mut sources.languages, kind, &place, item);
+            }
         }
         if inventory {
             harnesses.extend(source.harnesses);

@@ -50,6 +50,34 @@ fn status(sources: &Sources) -> Status {
     Matrix::new(sources).rows[0].status()
 }
 
+/// What a program may say is settled where it is read: no monitor is asked for, but a test is. A rule of a table makes it a
+/// matter of the monitors again.
+#[test]
+fn languages_need_no_monitor() {
+    let language = named("F-STOP-001", EvidenceKind::Language, "spec/logic/src/spf.rs:1 parse");
+    let read = || Sources {
+        rules: Named::new(),
+        monitors: Named::new(),
+        languages: language.clone(),
+        ..full()
+    };
+    assert_eq!(status(&read()), Status::Covered);
+    assert_eq!(
+        status(&Sources {
+            proofs: Named::new(),
+            ..read()
+        }),
+        Status::Open
+    );
+    assert_eq!(
+        status(&Sources {
+            rules: full().rules,
+            ..read()
+        }),
+        Status::Open
+    );
+}
+
 #[test]
 fn every_kind_of_evidence_is_needed() {
     assert_eq!(status(&full()), Status::Covered);

@@ -33,7 +33,8 @@ macro_rules! signals {
         pub const $places: &[Place] = &[$(Place { id: $id, byte: $byte, bit: $bit }),+];
 
         impl $name {
-            /// The signals as they stand in a data block (S840D-IO-007).
+            /// The signals as they stand in a data block (S840D-IO-007), written there by the program of the PLC or read by it
+            /// (S840D-SPL-004).
             pub const fn read(block: &[u8; BLOCK]) -> Self {
                 Self { $($field: block[$byte] >> $bit & 1 == 1),+ }
             }
@@ -161,7 +162,8 @@ impl Sga {
 }
 
 /// The assignment of an input signal of the NCK channel by its machine datum (MD36970 to MD36979). One input may feed the
-/// same signal of several axes (S840D-IO-004): each axis has its own assignment of it.
+/// same signal of several axes (S840D-IO-004, S840D-SPL-003): each axis has its own assignment of it. What is named may be a terminal or
+/// a signal of the safe logic, also one that the logic makes of an output of the axis itself.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Input(u32);
 
@@ -202,7 +204,7 @@ fields! {
 }
 
 /// The level of an NCK output to which the signals of several axes are assigned: each inverted if so assigned, then
-/// ANDed (S840D-IO-004). So a test of the external shutdown asked for at one axis cancels the pulses of every axis on the
+/// ANDed (S840D-IO-004, S840D-SPL-003). So a test of the external shutdown asked for at one axis cancels the pulses of every axis on the
 /// output (S840D-TEST-018). An output without signals is 0, the fail-safe level.
 pub fn and(contributions: &[Contribution]) -> bool {
     !contributions.is_empty() && contributions.iter().all(|c| c.signal != c.inverted)

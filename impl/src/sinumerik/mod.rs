@@ -34,6 +34,16 @@
 //! | [`history`] | standstill position kept through power-off and its comparison | - |
 //! | [`forced_check`] | how long ago the shutdown paths were tested | `test_stop` of both channels |
 //! | [`relay`] | EMERGENCY STOP of the safe logic: acknowledgement, delayed outputs | inputs of the safe logic |
+//! | [`spl_protection`] | safe logic of a channel: protected or being commissioned | - |
+//! | [`spl_signal`] | one signal of the safe logic in the comparison of NCK and PLC | - |
+//! | [`spl_comparison`] | alarm and stop of this comparison | `spl_protection`, `spl_signal` of every signal; before `external` |
+//! | [`spl_link`] | watchdog over the exchange of the channels of the safe logic | before `spl_comparison` |
+//! | [`spl`] | the first three of one channel, wired for all 320 signals | - |
+//! | [`spl_start`] | start of the safe logic, release of the PLC-SPL | `spl_protection`, `spl_file`; before `external` |
+//! | [`spl_file`] | integrity of the program of the safe logic | `spl_protection` |
+//! | [`spl_access`] | who may do what with its variables and actions | - |
+//! | [`spl_output_test`] | forced check of a two-channel output by one test input | - |
+//! | [`spl_stop_test`] | test of the shutdown paths and external stops, one channel after the other | - |
 //! | [`level`] | stops in their priority: no step | - |
 //! | [`code`], [`alarm`] | codes of STOP F and alarms: no step | - |
 //!
@@ -53,7 +63,8 @@
 macro_rules! sinumerik_monitors {
     ($callback:ident $($more:tt)*) => { $callback! { sinumerik [$($more)*]
         stop external fault group selection reference agreement gear test_stop shutdown_test pulses compare slip history
-        forced_check relay motion standstill speed limit_switch ramp threshold cam results channel
+        forced_check relay spl_protection spl_signal spl_comparison spl_link
+        spl_start spl_file spl_access spl_output_test spl_stop_test motion standstill speed limit_switch ramp threshold cam results channel
     } };
 }
 
@@ -90,6 +101,16 @@ pub mod shutdown_group;
 pub mod shutdown_test;
 pub mod slip;
 pub mod speed;
+pub mod spl;
+pub mod spl_access;
+pub mod spl_comparison;
+pub mod spl_file;
+pub mod spl_link;
+pub mod spl_output_test;
+pub mod spl_protection;
+pub mod spl_signal;
+pub mod spl_start;
+pub mod spl_stop_test;
 pub mod standstill;
 pub mod stop;
 pub mod test_stop;

@@ -139,6 +139,7 @@ pub(crate) enum Trigger {
     Always,
     Whenever,
     Every,
+    /// Once, in the first cycle in which its condition holds; `WHEN TRUE` presets a variable (S840D-SPLSTART-014).
     When,
     From,
 }

@@ -66,6 +66,7 @@ fn every_fires_at_an_edge_and_when_the_condition_holds_from_the_start() {
     });
 }
 
+/// S840D-SPLSTART-014: `WHEN TRUE` presets a variable in the first cycle and never again.
 #[test]
 fn when_fires_once() {
     fires("WHEN $A_INSE[1] == 1", Readings::default(), |past| {

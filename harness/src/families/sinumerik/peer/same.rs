@@ -2,7 +2,7 @@
 
 use stillpoint_monitors::kernel::{ConfigError, Position};
 use stillpoint_monitors::mutant::Mutant;
-use stillpoint_monitors::sinumerik::{limit_switch, selection, speed};
+use stillpoint_monitors::sinumerik::{limit_switch, selection, speed, spl_file};
 
 use super::numbers::{EXTERNAL, INTERNAL, small};
 use crate::diff::peer::numbers::upto;
@@ -112,4 +112,54 @@ peers! { sinumerik |p|
         .named(&[("tm1", "window"), ("ti_1", "delay_1"), ("ti_2", "delay_2"), ("ti_3", "delay_3")])
         .cell("left", upto(p.value("tm1")))
         .cell("least", upto(p.value("tm1")));
+
+    // Comparison of NCK-SPL and PLC-SPL. The table counts how long a signal differs, the monitor what is left of the extended time.
+    "spl_protection" => spl_protection;
+    "spl_signal" => spl_signal
+        .named(&[("limit", "plain"), ("limit_10", "extended"), ("pair", "phase")])
+        .without(&["cmd_other"])
+        .cell("left", upto(p.value("limit_10")));
+    // Three signals of the table stand for 320 numbers.
+    "spl_comparison" => spl_comparison
+        .made("found", &["found_1", "found_2", "found_3"], |p| (1..).zip(p).find(|(_, found)| **found != 0).map_or(0, |(k, _)| k))
+        .without(&["unequal_1", "unequal_2", "unequal_3"]);
+    // The watchdog of the monitor counts the grace down, and has two words of outputs for the one of the table.
+    "spl_link" => spl_link
+        .named(&[("t_lost", "patience"), ("t_end", "grace"), ("wanted", "inputs.outsed.0"), ("driven", "outputs.outsed.0")])
+        .constants(&[("inputs.outsed.1", 0)])
+        .hidden(&["outputs.outsed.1"])
+        .cell("time", upto(p.value("t_lost").max(p.value("t_end"))));
+
+    // Start of the safe logic: the status word of the monitor stands bit by bit in the table.
+    "spl_start" => spl_start
+        .named(&[("phase", "stage")])
+        .hidden(&["outputs.status"])
+        .told("bit_0", |_, out| (out.status >> 0 & 1).into())
+        .told("bit_1", |_, out| (out.status >> 1 & 1).into())
+        .told("bit_2", |_, out| (out.status >> 2 & 1).into())
+        .told("bit_3", |_, out| (out.status >> 3 & 1).into())
+        .told("bit_4", |_, out| (out.status >> 4 & 1).into())
+        .told("bit_5", |_, out| (out.status >> 5 & 1).into())
+        .told("bit_6", |_, out| (out.status >> 6 & 1).into())
+        .told("bit_7", |_, out| (out.status >> 7 & 1).into())
+        .told("bit_8", |_, out| (out.status >> 8 & 1).into())
+        .told("bit_9", |_, out| (out.status >> 9 & 1).into())
+        .told("bit_10", |_, out| (out.status >> 10 & 1).into())
+        .told("bit_11", |_, out| (out.status >> 11 & 1).into())
+        .told("bit_12", |_, out| (out.status >> 12 & 1).into())
+        .told("bit_13", |_, out| (out.status >> 13 & 1).into());
+    "spl_file" => spl_file
+        .named(&[("ref_length", "state.length"), ("ref_sum", "state.sum"), ("marked", "mark.some"), ("mark", "mark.value")])
+        .hidden(&["deviation"])
+        .told("longer", |state, _| (state.deviation == spl_file::Deviation::Length).into())
+        .told("other", |state, _| (state.deviation == spl_file::Deviation::Content).into());
+    "spl_access" => spl_access;
+
+    // Forced checking around the safe logic.
+    "spl_output_test" => spl_output_test.named(&[("t_answer", "delay"), ("count", "wrong")]);
+    "spl_stop_test" => spl_stop_test
+        .named(&[("t_step", "delay"), ("was_0", "low")])
+        .hidden(&["item"])
+        .cell("left", upto(p.value("t_step")))
+        .told("step", |state, _| (state.item as i64 * 2 - 1).max(0) + i64::from(state.drive));
 }

@@ -45,7 +45,7 @@ pub(super) fn faults(program: &Program, faults: &mut Vec<Fault>) {
     }
 }
 
-/// What the call answers: 1, 2 and 4 for inputs, outputs and times that were not set up.
+/// What the call answers: 1, 2 and 4 for inputs, outputs and times that were not set up (S840D-RELAY-012).
 fn status(relay: Option<&Relay>) -> i64 {
     let missing = |is: bool, bit: i64| if is { 0 } else { bit };
     relay.map_or(7, |relay| {

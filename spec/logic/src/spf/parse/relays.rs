@@ -16,6 +16,7 @@ struct Setup {
     allowed: &'static [&'static str],
 }
 
+/// What the inputs of a relay are connected to (S840D-RELAY-009).
 const INPUTS: Setup = Setup {
     usage: "write `SIRELIN(1, STATUS, \"Q1\", \"Q2\", \"E1\")`; \"E2\", \"E3\" may follow",
     least: 3,
@@ -23,6 +24,7 @@ const INPUTS: Setup = Setup {
     allowed: &["MARKERSI", "INSE", "INSI", "OUTSE", "OUTSI"],
 };
 
+/// What its outputs are connected to; each delayed one has a time (S840D-RELAY-010, S840D-RELAY-016).
 const OUTPUTS: Setup = Setup {
     usage: "write `SIRELOUT(1, STATUS, \"A0\")`; \"A1\", \"A2\", \"A3\" may follow",
     least: 1,
@@ -30,6 +32,7 @@ const OUTPUTS: Setup = Setup {
     allowed: &["MARKERSI", "OUTSE", "OUTSI", "PLCSIOUT"],
 };
 
+/// Its times; each but the first has a delayed output (S840D-RELAY-011, S840D-RELAY-016).
 const TIMES: Setup = Setup {
     usage: "write `SIRELTIME(1, STATUS, 0.5)`: TM1 in seconds; TI1, TI2, TI3 may follow",
     least: 1,
@@ -41,6 +44,8 @@ const TIMES: Setup = Setup {
 const LONGEST: i64 = 24 * 86_400 * MILLION;
 
 impl Parser<'_, '_> {
+    /// One set-up of a relay, outside the actions. A value that the control would only tell in its status is refused, and so is a
+    /// delayed output without its time: at the later of both (S840D-RELAY-009, S840D-RELAY-010, S840D-RELAY-011, S840D-RELAY-016).
     pub(super) fn relay(&mut self) -> Checked<()> {
         let word = self.upper();
         let start = self.span().start;
@@ -118,6 +123,7 @@ impl Parser<'_, '_> {
         Ok(())
     }
 
+    /// There are four relays; another number is alarm 20149 of the control (S840D-RELAY-012).
     fn relay_number(&mut self) -> Checked<u8> {
         let span = self.span();
         match *self.peek() {
