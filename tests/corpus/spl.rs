@@ -14,13 +14,20 @@ fn addresses() -> BTreeMap<String, String> {
     let text = std::fs::read_to_string(&path).expect("the table is part of the repository");
     let table: Table = text.parse().expect("the table is TOML");
     let signals = table["signal"].as_array().expect("a list").clone();
-    let of = |s: &Value| Some((s["id"].as_str()?.to_owned(), s.get("address")?.as_str()?.to_owned()));
+    let of = |s: &Value| {
+        Some((
+            s["id"].as_str()?.to_owned(),
+            s.get("address")?.as_str()?.to_owned(),
+        ))
+    };
     signals.iter().filter_map(of).collect()
 }
 
 /// Byte and bit of an address in DB18.
 fn bit(address: &str) -> (u16, u8) {
-    let address = address.trim_start_matches("DB18.").trim_start_matches("DBX");
+    let address = address
+        .trim_start_matches("DB18.")
+        .trim_start_matches("DBX");
     let (byte, bit) = address.split_once('.').expect("byte and bit");
     (byte.parse().expect("a byte"), bit.parse().expect("a bit"))
 }
@@ -42,7 +49,11 @@ fn compared_signals_lie_where_the_table_says() {
         let data = places.map(|(byte, _, bit)| (byte, bit));
         let delta = places.map(|(_, byte, bit)| (byte, bit));
         assert_eq!(data, ends(&addresses[&format!("DB18_{name}")]), "{name}");
-        assert_eq!(delta, ends(&addresses[&format!("DB18_DELTA_{name}")]), "{name}");
+        assert_eq!(
+            delta,
+            ends(&addresses[&format!("DB18_DELTA_{name}")]),
+            "{name}"
+        );
     }
     assert_eq!(place(Number::NONE), None);
 }
@@ -97,7 +108,15 @@ fn status_bits_lie_where_the_table_says() {
     ]);
     assert_eq!(
         by_plc,
-        [0b111, 0b1111, 0b1_1111, 0b11_1111, 0b1_1110_0111_1111, 0b11_1110_0111_1111, 0b11_1110_1111_1111]
+        [
+            0b111,
+            0b1111,
+            0b1_1111,
+            0b11_1111,
+            0b1_1110_0111_1111,
+            0b11_1110_0111_1111,
+            0b11_1110_1111_1111
+        ]
     );
     let event = Inputs { event: true, ..on };
     let by_event = calls([begin, on, event, on, end, on, on]);

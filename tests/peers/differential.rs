@@ -20,9 +20,14 @@ use stillpoint_tests::{exceptions, root};
 
 /// The tables compared: those of a machine, or with the parameters of their systems. What several files use is compared with
 /// the parameters of the first one, so the file of a machine's own table stands before those that put it together with others.
-const FILES: [&str; 19] = [
+const FILES: [&str; 24] = [
     "spec/families/sinumerik-840d/axis.toml",
     "spec/machines/milling-840d.toml",
+    "spec/families/sinumerik-840d/relay.toml",
+    "spec/families/sinumerik-840d/spl.toml",
+    "spec/families/sinumerik-840d/spl-communication.toml",
+    "spec/families/sinumerik-840d/spl-start.toml",
+    "spec/families/sinumerik-840d/spl-test.toml",
     "spec/families/heidenhain-fs/stop.toml",
     "spec/families/heidenhain-fs/group.toml",
     "spec/families/heidenhain-fs/interface.toml",

@@ -54,7 +54,11 @@ fn status(sources: &Sources) -> Status {
 /// matter of the monitors again.
 #[test]
 fn languages_need_no_monitor() {
-    let language = named("F-STOP-001", EvidenceKind::Language, "spec/logic/src/spf.rs:1 parse");
+    let language = named(
+        "F-STOP-001",
+        EvidenceKind::Language,
+        "spec/logic/src/spf.rs:1 parse",
+    );
     let read = || Sources {
         rules: Named::new(),
         monitors: Named::new(),

@@ -336,7 +336,10 @@ mod tests {
                 };
                 let outputs = channels[here].step(&inputs);
                 assert_eq!(outputs.alarm, cycle == PLAIN + 1);
-                assert_eq!(outputs.comparison.request != ExternalStop::None, outputs.alarm);
+                assert_eq!(
+                    outputs.comparison.request != ExternalStop::None,
+                    outputs.alarm
+                );
             }
         }
     }
@@ -393,16 +396,17 @@ mod tests {
     #[test]
     fn inputs_are_preset_in_groups() {
         for [first, second] in [[false, false], [true, false], [false, true], [true, true]] {
-            assert_eq!(
-                Data::after_run_up(false, [first, second]),
-                Data::default()
-            );
+            assert_eq!(Data::after_run_up(false, [first, second]), Data::default());
             let data = Data::after_run_up(true, [first, second]);
             for block in Block::ALL {
                 for signal in 1..=Block::LEN {
                     let group = if signal <= 32 { first } else { second };
                     let expected = block == Block::Insi && group;
-                    assert_eq!(data.get(block.number(signal)), expected, "{block:?} {signal}");
+                    assert_eq!(
+                        data.get(block.number(signal)),
+                        expected,
+                        "{block:?} {signal}"
+                    );
                 }
             }
         }

@@ -99,8 +99,7 @@ fields! {
 impl Inputs {
     /// The settings of the channels do not match.
     const fn mismatch(&self) -> bool {
-        self.running
-            && (self.protected != self.protected_other || self.stop_e != self.stop_e_other)
+        self.running && (self.protected != self.protected_other || self.stop_e != self.stop_e_other)
     }
 }
 

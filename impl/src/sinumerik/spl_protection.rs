@@ -86,10 +86,10 @@ monitor! { sinumerik::spl_protection;
         when |s| s.inputs.running && !s.outputs.protected && (s.inputs.power_on || !s.before.shown)
             => s.outputs.alarm_27095 && s.after.shown;
 
-    /// It is shown once, and never of a protected channel or without a comparison.
+    /// It is shown once until power-on, and never of a protected channel or without a comparison.
     shown_once ["S840D-SPLKDV-008"]:
         when |s| !s.inputs.running || s.outputs.protected || (s.before.shown && !s.inputs.power_on)
-            => !s.outputs.alarm_27095;
+            => !s.outputs.alarm_27095 && (s.inputs.power_on || s.after.shown == s.before.shown);
 
     /// The step keeps the invariant and shows its state.
     state_stays_consistent ["S840D-SPLPROT-007"]:

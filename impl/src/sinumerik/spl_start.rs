@@ -130,8 +130,12 @@ impl State {
             && (stage < Stage::Executing || self.compared)
             && (!self.compared || stage >= Stage::Assigning)
             && (!self.by_event || stage >= Stage::Executing)
-            && (!self.denied || (self.bare && !self.compared && (stage == Stage::Cyclic || stage == Stage::Ready)))
-            && (!self.failed || (stage >= Stage::Cyclic && stage != Stage::Assigning && stage < Stage::Released && !self.denied))
+            && (!self.denied || (self.bare && (stage == Stage::Cyclic || stage == Stage::Ready)))
+            && (!self.failed
+                || (stage >= Stage::Cyclic
+                    && stage != Stage::Assigning
+                    && stage < Stage::Released
+                    && !self.denied))
     }
 
     /// The status word DB18.DBW136 by the bits of its table (S840D-SPLSTART-015).

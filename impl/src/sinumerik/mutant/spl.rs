@@ -3,7 +3,8 @@
 use crate::sinumerik::spl_comparison::{self, Number};
 use crate::sinumerik::spl_signal::{self, Phase};
 use crate::sinumerik::{
-    spl_access, spl_file, spl_link, spl_output_test, spl_protection, spl_signal as signal, spl_start, spl_stop_test,
+    spl_access, spl_file, spl_link, spl_output_test, spl_protection, spl_signal as signal,
+    spl_start, spl_stop_test,
 };
 
 variants! { sinumerik::spl_protection:

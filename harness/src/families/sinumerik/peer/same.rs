@@ -123,11 +123,9 @@ peers! { sinumerik |p|
     "spl_comparison" => spl_comparison
         .made("found", &["found_1", "found_2", "found_3"], |p| (1..).zip(p).find(|(_, found)| **found != 0).map_or(0, |(k, _)| k))
         .without(&["unequal_1", "unequal_2", "unequal_3"]);
-    // The watchdog of the monitor counts the grace down, and has two words of outputs for the one of the table.
+    // The watchdog of the monitor counts the grace down, and has a word of outputs twice for the one of the table.
     "spl_link" => spl_link
-        .named(&[("t_lost", "patience"), ("t_end", "grace"), ("wanted", "inputs.outsed.0"), ("driven", "outputs.outsed.0")])
-        .constants(&[("inputs.outsed.1", 0)])
-        .hidden(&["outputs.outsed.1"])
+        .named(&[("t_lost", "patience"), ("t_end", "grace"), ("wanted", "inputs.outsed"), ("driven", "outputs.outsed")])
         .cell("time", upto(p.value("t_lost").max(p.value("t_end"))));
 
     // Start of the safe logic: the status word of the monitor stands bit by bit in the table.
