@@ -8,7 +8,7 @@
 /// Bytes of the data block up to the last one used here.
 pub const BLOCK: usize = 112;
 
-/// The place of a signal in the data block of an axis.
+/// The place of a signal in the data block of an axis, where the program of the PLC supplies it or reads it (S840D-SPL-004).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Place {
     /// The signal as the specification names it.
@@ -33,8 +33,7 @@ macro_rules! signals {
         pub const $places: &[Place] = &[$(Place { id: $id, byte: $byte, bit: $bit }),+];
 
         impl $name {
-            /// The signals as they stand in a data block (S840D-IO-007), written there by the program of the PLC or read by it
-            /// (S840D-SPL-004).
+            /// The signals as they stand in a data block (S840D-IO-007).
             pub const fn read(block: &[u8; BLOCK]) -> Self {
                 Self { $($field: block[$byte] >> $bit & 1 == 1),+ }
             }

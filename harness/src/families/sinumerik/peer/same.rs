@@ -51,6 +51,12 @@ fn clear_of_the_bound(p: &Params) -> i32 {
     p.value("off_max").saturating_sub(p.value("pos_max"))
 }
 
+/// The number of the first of three signals that is found, 0 for none.
+fn first_found(ports: &[i32]) -> i64 {
+    let found = (1..=3).zip(ports).find(|(_, found)| **found != 0);
+    found.map_or(0, |(number, _)| number)
+}
+
 peers! { sinumerik |p|
     // Stops.
     "external" => external;
@@ -121,7 +127,7 @@ peers! { sinumerik |p|
         .cell("left", upto(p.value("limit_10")));
     // Three signals of the table stand for 320 numbers.
     "spl_comparison" => spl_comparison
-        .made("found", &["found_1", "found_2", "found_3"], |p| (1..).zip(p).find(|(_, found)| **found != 0).map_or(0, |(k, _)| k))
+        .made("found", &["found_1", "found_2", "found_3"], first_found)
         .without(&["unequal_1", "unequal_2", "unequal_3"]);
     // The watchdog of the monitor counts the grace down, and has a word of outputs twice for the one of the table.
     "spl_link" => spl_link
