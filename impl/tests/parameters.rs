@@ -6,12 +6,14 @@ use stillpoint_monitors::sinumerik::code::Code;
 use stillpoint_monitors::sinumerik::compare::{self, list};
 use stillpoint_monitors::sinumerik::level::{InternalStop, Level};
 use stillpoint_monitors::sinumerik::parameters::{
-    ControlModule, Encoders, Function, Installation, ParameterError, Parameters, Rule,
+    Configuration, ControlModule, Encoders, Function, Installation, ParameterError, Parameters,
+    Rule,
 };
 use stillpoint_monitors::sinumerik::selection::{self, Stage};
 use stillpoint_monitors::sinumerik::{
-    agreement, cam, channel, external, fault, forced_check, gear, group, history, limit_switch,
-    pulses, ramp, reference, results, shutdown_test, speed, standstill, stop, test_stop, threshold,
+    agreement, bus_failure, cam, channel, external, fault, forced_check, gear, group, history,
+    limit_switch, pulses, ramp, reference, results, setpoint, shutdown_test, speed, standstill,
+    stop, test_stop, threshold,
 };
 use stillpoint_monitors::units::ModuloRange;
 
@@ -63,7 +65,7 @@ fn monitoring_cycle_is_checked() {
     assert!(clock(125, 1, 4).validate().is_ok());
 }
 
-/// S840D-PARAM-501, S840D-PARAM-502, S840D-PARAM-505, S840D-PARAM-721, S840D-PARAM-736, S840D-EXT-003, S840D-SLIP-501.
+/// S840D-MDCHK-029/a, S840D-PARAM-501, S840D-PARAM-502, S840D-PARAM-505, S840D-PARAM-721, S840D-PARAM-736, S840D-EXT-003, S840D-SLIP-501.
 #[test]
 fn enable_word_is_checked() {
     assert!(enabled(0xFFF3).validate().is_ok());
@@ -112,7 +114,7 @@ fn limits_must_not_be_interchanged() {
     );
 }
 
-/// S840D-SN-010, S840D-PARAM-718, S840D-PARAM-719, S840D-PARAM-746: cams keep their distance from the ends of the modulo
+/// S840D-CAM-704, S840D-SN-010, S840D-PARAM-718, S840D-PARAM-719, S840D-PARAM-746: cams keep their distance from the ends of the modulo
 /// range.
 #[test]
 fn cams_lie_inside_the_modulo_range() {
@@ -316,7 +318,8 @@ fn distinct() -> Parameters {
         pulse_dis_check_time: 720_000,
         velo_switch_delay: 840_000,
         mode_switch_time: 960_000,
-        velo_stop_reaction: [0, 1, 2, 3],
+        velo_stop_reaction: [0, 11, 2, 13],
+        pulse_dis_time_busfail: 251_000,
         pos_stop_mode: 4,
         ipo_stop_group: 1,
         installation: Installation {
@@ -344,7 +347,7 @@ fn every_value_reaches_its_monitor() -> Result<(), ConfigError> {
             .with_override(parameters.velo_ovr_factor)?,
         standstill: standstill::Config::new(Distance(7))?,
         // 300 kHz in 12 ms.
-        speed: speed::Config::new(5, [0, 1, 2, 3], Some(Speed(3_600)), 50)?,
+        speed: speed::Config::new(5, [0, 11, 2, 13], Some(Speed(3_600)))?,
         limit_switch: limit_switch::Config::new(
             true,
             [11, 12].map(Position),
@@ -404,6 +407,19 @@ fn every_value_reaches_its_monitor() -> Result<(), ConfigError> {
         *configuration.group(),
         group::Config::new(group::Reach::Interpolating)
     );
+    assert_eq!(*configuration.setpoint(), setpoint::Config::new(50)?);
+    for (nck, bus) in [
+        (true, configuration.bus_nck()),
+        (false, configuration.bus_drive()),
+    ] {
+        let delay = cycles(20);
+        let p = &parameters;
+        let mode = (p.velo_stop_mode, p.velo_stop_reaction);
+        assert_eq!(
+            *bus,
+            bus_failure::Config::new(nck, true, delay, mode.0, mode.1)?
+        );
+    }
 
     // And the other side of each switch.
     let off = Parameters {
@@ -439,6 +455,23 @@ fn every_value_reaches_its_monitor() -> Result<(), ConfigError> {
         external::Config::new(true, false, false)?
     );
     Ok(())
+}
+
+/// S840D-PARAM-004, lines 6888 to 6895, 7721 to 7727: one item in each cycle of 12 ms, and of several axes the longest.
+#[test]
+fn a_pass_of_the_comparison_takes_a_cycle_for_each_item() {
+    let of = |ratio| {
+        let p = Parameters {
+            safety_sysclock_time_ratio: ratio,
+            ..Parameters::default()
+        };
+        p.validate().expect("plausible")
+    };
+    let items = list::ITEMS.len() as u64;
+    assert_eq!(of(3).comparison_us(), items * 12_000);
+    let axes = [of(2), of(3), of(1)];
+    assert_eq!(Configuration::longest_comparison_us(&axes), items * 12_000);
+    assert_eq!(Configuration::longest_comparison_us(&[]), 0);
 }
 
 /// S840D-KDV-508: what is compared with the other channel are these values, each under its code.
@@ -478,7 +511,7 @@ fn every_value_is_compared_under_its_code() {
     assert_eq!(word(31), Some([42, 842]));
     assert_eq!(word(74), Some([16, 0]));
     assert_eq!(word(75), Some([4, 0]));
-    assert_eq!(word(79), Some([3, 0]));
+    assert_eq!(word(79), Some([13, 0]));
     assert_eq!((word(40), word(41)), (Some([5, 0]), Some([4, 0])));
     assert_eq!(word(89), Some([300_000, 0]));
 }

@@ -7,7 +7,7 @@ use stillpoint_monitors::kernel::{ConfigError, Cycles, Distance, Position, Speed
 use stillpoint_monitors::sinumerik::level::InternalStop;
 use stillpoint_monitors::sinumerik::selection::{FactorIndex, Monitored, Stage};
 use stillpoint_monitors::sinumerik::{
-    cam, limit_switch, motion, ramp, results, selection, speed, standstill,
+    cam, limit_switch, motion, ramp, results, selection, setpoint, speed, standstill,
 };
 use stillpoint_monitors::units::{Axis, ModuloRange, Scale};
 
@@ -151,7 +151,7 @@ fn the_way_out_of_a_limit_switch() {
 /// S840D-TIMING-512 with the example of the manual: 0.4 mm per cycle are permitted, no more, in either direction.
 #[test]
 fn speed_as_movement_in_a_cycle() {
-    let config = speed::Config::new(5, [0, 1, 2, 14], None, 50).expect("plausible");
+    let config = speed::Config::new(5, [0, 1, 2, 14], None).expect("plausible");
     let mut actual = motion::Monitor::new(motion::Config);
     let mut limit = speed::Monitor::new(config);
     let mut step = |position, stage| {
@@ -166,7 +166,6 @@ fn speed_as_movement_in_a_cycle() {
             stage,
             encoder_speed: Speed(0),
         });
-        assert_eq!(outputs.setpoint_limit, Speed(200));
         outputs.demand
     };
     // The first position has no predecessor.
@@ -248,7 +247,7 @@ fn implausible_configurations_are_refused() {
         assert_eq!(ends(Position(1), mode), Some(ConfigError::StopNotAllowed));
     }
     // S840D-PARAM-735, also a reaction that is not used.
-    let reaction = |mode, first| speed::Config::new(mode, [first, 0, 0, 0], None, 0).err();
+    let reaction = |mode, first| speed::Config::new(mode, [first, 0, 0, 0], None).err();
     for mode in [0, 4, 5, 10, 14] {
         assert_eq!(reaction(mode, 14), None);
     }
@@ -256,7 +255,7 @@ fn implausible_configurations_are_refused() {
         assert_eq!(reaction(mode, first), Some(ConfigError::StopNotAllowed));
     }
     assert_eq!(
-        speed::Config::new(0, [0; 4], None, 101).err(),
+        setpoint::Config::new(101).err(),
         Some(ConfigError::FactorOutOfRange)
     );
     let plain = selection::Config::new(true, Cycles::ZERO, [Speed(0); 4]).expect("plausible");

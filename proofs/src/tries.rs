@@ -311,7 +311,7 @@ mod tests {
 
     #[test]
     fn the_numbers_of_a_missing_value_are_not_chosen() {
-        let one = "stops: 1; monitored stage: 0; setpoint: 100; speed limit encoder_speed: 0";
+        let one = "stops: 1; monitored stage: 0; speed limit encoder_speed: 0";
         let steps = steps::<speed::Monitor>(&format!("{one}; encoder_max.value: 0 5"));
         assert_eq!(steps.len(), 3, "none, 0 and 5");
     }

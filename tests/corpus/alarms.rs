@@ -354,7 +354,7 @@ const ALTERATIONS: &[Alteration] = &[
     ("SAFE_ENC_FREQ_LIMIT", |p| p.enc_freq_limit = 1),
 ];
 
-/// S840D-KDV-511 among them: the encoder limit frequency is compared.
+/// S840D-PARAM-001, S840D-MDBUS-005, S840D-MDCHK-032/b, S840D-KDV-511 among them: the encoder limit frequency is compared.
 #[test]
 fn an_altered_machine_datum_is_seen_under_the_codes_that_name_it() {
     let listed = table("stop-f-codes.toml", "code", "code");

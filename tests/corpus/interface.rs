@@ -35,13 +35,15 @@ fn ours(places: &[Place]) -> BTreeSet<(String, i64, i64)> {
     places.iter().map(of).collect()
 }
 
-/// S840D-IO-007, S840D-IO-001, S840D-TEST-021, S840D-SPL-004: the signals of an axis in the drive channel have their places in its block, each a bit of its own.
+/// S840D-RETRACT-701, S840D-SIGNAL-001, S840D-SIGNAL-002, S840D-CAM-703, S840D-IO-007, S840D-IO-001, S840D-TEST-021, S840D-SPL-004: the signals of an axis in the drive channel have their places in its block, each a bit of its own.
 #[test]
 fn every_signal_lies_where_the_table_says() {
     assert_eq!(ours(SGE), placed("SGE"));
     assert_eq!(ours(SGA), placed("SGA"));
     let cells: BTreeSet<_> = SGE.iter().chain(SGA).map(|p| (p.byte, p.bit)).collect();
     assert_eq!(cells.len(), SGE.len() + SGA.len(), "two signals in one bit");
+    // None of them tells which limit position was passed.
+    assert!(SGA.iter().all(|p| !p.id.contains("POS")));
 }
 
 fn block_with(place: &Place) -> [u8; BLOCK] {
@@ -110,7 +112,7 @@ fn cams_can_be_exchanged() {
     }
 }
 
-/// S840D-IO-002, S840D-EXT-004: an unused signal is 0, of an external stop 1.
+/// S840D-SIGNAL-023, S840D-SIGNAL-027/a, S840D-IO-002, S840D-EXT-004: an unused signal is 0, of an external stop 1.
 #[test]
 fn unused_signals_are_zero_but_external_stops_are_not_requested() {
     for place in SGE {
@@ -152,7 +154,7 @@ fn truth(id: &str) -> Vec<(Vec<bool>, bool)> {
     out
 }
 
-/// S840D-IO-005, S840D-IO-001, S840D-SPL-003: a signal of the NCK channel comes from its own terminal, inverted by bit 31 of its assignment.
+/// S840D-SIGNAL-027/a, S840D-IO-005, S840D-IO-001, S840D-SPL-003: a signal of the NCK channel comes from its own terminal, inverted by bit 31 of its assignment.
 #[test]
 fn inputs_follow_their_truth_table() {
     let rows = truth("INPUT_ASSIGNMENT");
@@ -185,4 +187,93 @@ fn outputs_follow_their_truth_table() {
         assert_eq!(and(&[of(0), third, of(2)]), expected, "{inputs:?}");
     }
     assert!(!and(&[]), "an output without signals is 0");
+}
+
+/// S840D-CAM-701, S840D-CAM-702, lines 20176 to 20275: the cams of the manual's spindle. The signal at 90 degrees is 1 between 89.5
+/// and 90.5, as an output makes it of the inverted plus cam and the minus cam; the one at 0 between 359.5 and 0.5, where the AND
+/// would be 0 everywhere. Every position of two turns, in steps of 0.1 degrees.
+#[test]
+fn a_pair_of_cams_tells_a_position() {
+    use stillpoint_monitors::kernel::{Distance, Position};
+    use stillpoint_monitors::sinumerik::cam;
+    use stillpoint_monitors::units::ModuloRange;
+
+    let range = ModuloRange::from_degrees(360).expect("a turn");
+    let beyond = |at: i32, position: i32| {
+        let config = cam::Config::new(
+            true,
+            Position(at),
+            Distance(100),
+            false,
+            range,
+            Distance(100),
+        );
+        let inputs = cam::Inputs {
+            power_on: false,
+            position: Position(position),
+            other: true,
+        };
+        let mut cam = cam::Monitor::new(config.expect("plausible"));
+        cam.step(&inputs).sga
+    };
+    for step in 0..7_200 {
+        let position = step * 100;
+        let angle = position % 360_000;
+        let pair = |plus, minus| (beyond(plus, position), beyond(minus, position));
+        let ninety = pair(90_500, 89_500);
+        let inside = angle > 89_500 && angle <= 90_500;
+        assert_eq!(cam::pulse(ninety.0, ninety.1, false), inside, "{angle}");
+        let zero = pair(500, 359_500);
+        let inside = angle > 359_500 || angle <= 500;
+        assert_eq!(cam::pulse(zero.0, zero.1, true), inside, "{angle}");
+        for (signals, across) in [(ninety, false), (zero, true)] {
+            let output = and(&[
+                Contribution {
+                    signal: signals.0,
+                    inverted: true,
+                },
+                Contribution {
+                    signal: signals.1,
+                    inverted: false,
+                },
+            ]);
+            let expected = !across && cam::pulse(signals.0, signals.1, false);
+            assert_eq!(output, expected, "{angle}");
+        }
+    }
+}
+
+/// S840D-RETRACT-704, lines 20466 to 20473, with the cams at the limits (AX-07 CAM_AT): no position is beyond a limit whose cam has
+/// not been passed.
+#[test]
+fn each_passed_limit_position_has_its_cam_passed() {
+    use stillpoint_monitors::kernel::{Distance, Position};
+    use stillpoint_monitors::sinumerik::{cam, limit_switch};
+    use stillpoint_monitors::units::ModuloRange;
+
+    let (plus, minus) = (5_000, -5_000);
+    let ends = limit_switch::Config::new(true, [Position(plus); 2], [Position(minus); 2], 2);
+    let ends = ends.expect("plausible");
+    // A cam is 1 to its right only, so that of the lower end lies on the last position beyond it.
+    let beyond = |at: i32, position: i32| {
+        let (tol, none) = (Distance(100), ModuloRange::LINEAR);
+        let config = cam::Config::new(true, Position(at), tol, false, none, tol);
+        let inputs = cam::Inputs {
+            power_on: false,
+            position: Position(position),
+            other: true,
+        };
+        let mut cam = cam::Monitor::new(config.expect("plausible"));
+        cam.step(&inputs).sga
+    };
+    for position in -10_000..10_000 {
+        let inputs = limit_switch::Inputs {
+            active: true,
+            select: false,
+            position: Position(position),
+        };
+        let passed = limit_switch::Monitor::new(ends).step(&inputs);
+        assert_eq!(passed.upper, beyond(plus, position));
+        assert_eq!(passed.lower, !beyond(minus - 1, position));
+    }
 }

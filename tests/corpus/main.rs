@@ -19,3 +19,4 @@ mod structure;
 mod structured_text;
 mod tables;
 mod trace;
+mod truth_tables;

@@ -60,6 +60,7 @@ fn same_quantity(unit: Unit, printed: &str) -> bool {
     }
 }
 
+/// S840D-PARAM-002, S840D-MDCHK-032/a.
 #[test]
 fn ranges_and_defaults_are_those_of_the_table() {
     let table = table();

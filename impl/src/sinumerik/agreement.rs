@@ -142,26 +142,31 @@ monitor! { sinumerik::agreement;
             => s.inputs.set && s.inputs.key && s.inputs.axis_ref;
 
     /// A change of the gear stage withdraws the agreement, also against a simultaneous agreement.
-    gear_change_withdraws ["S840D-P-37", "S840D-GEAR-505", "S840D-UA-006"]:
+    gear_change_withdraws ["S840D-P-37", "S840D-GEAR-505", "S840D-UA-006", "S840D-PARAM-030/b"]:
         when |s| s.inputs.gear_changed
             => !s.after.agreed && !s.outputs.agreed;
 
     /// Altered machine data withdraw the agreement.
-    alteration_withdraws ["S840D-UA-006", "S840D-UA-007"]:
+    alteration_withdraws ["S840D-UA-006", "S840D-UA-007", "S840D-PARAM-031"]:
         when |s| s.inputs.altered
             => !s.after.agreed;
 
     /// A due comparison without stored position or beyond the tolerance withdraws the agreement.
-    failed_history_withdraws ["S840D-REF-012/b", "S840D-P-13", "S840D-REF-004", "S840D-REF-008", "S840D-REF-010", "S840D-UA-003/c",
-        "S840D-REF-014"]:
+    failed_history_withdraws ["S840D-REF-012/b", "S840D-P-13", "S840D-REF-004", "S840D-REF-008", "S840D-REF-010",
+        "S840D-UA-003/c", "S840D-REF-014", "S840D-REPLACE-701", "S840D-PARAM-030/b"]:
         when |s| s.before.agreed && s.inputs.compare_due && !(s.inputs.stored && s.inputs.history_ok)
             => !s.after.agreed && s.outputs.withdrawn;
 
     /// A position beyond the tolerance is reported with code 1003, where nothing else has withdrawn the agreement before.
-    failed_history_is_reported ["S840D-REF-008"]:
+    failed_history_is_reported ["S840D-REF-008", "S840D-REPLACE-701"]:
         when |s| s.before.agreed && s.inputs.compare_due && s.inputs.stored && !s.inputs.history_ok
             && !s.inputs.gear_changed && !s.inputs.altered
             => s.outputs.code == Code::Position;
+
+    /// Without an agreement nothing is compared with the stored position: no code 1003.
+    nothing_compared_without_agreement ["S840D-REPLACE-705"]:
+        when |s| !s.before.agreed
+            => s.outputs.code != Code::Position;
 
     /// The user withdraws with the key.
     user_withdraws_with_key ["S840D-UA-003/b", "S840D-UA-006", "S840D-UA-011"]:
@@ -175,19 +180,19 @@ monitor! { sinumerik::agreement;
             => s.after.agreed == s.before.agreed && s.outputs.code == Code::None;
 
     /// Nothing but the listed causes withdraws a given agreement; power-on keeps it.
-    withdrawn_only_for_a_reason ["S840D-UA-003/d", "S840D-UA-006", "S840D-UA-007"]:
+    withdrawn_only_for_a_reason ["S840D-UA-003/d", "S840D-UA-006", "S840D-UA-007", "S840D-RETRACT-705"]:
         when |s| s.before.agreed && !s.after.agreed
             => s.inputs.gear_changed || s.inputs.altered
                 || (s.inputs.compare_due && !(s.inputs.stored && s.inputs.history_ok)) || (s.inputs.cancel && s.inputs.key)
                 || (!s.inputs.other_agreed && s.outputs.code == Code::Differs);
 
     /// Agreements that differ are withdrawn in time: each cycle the timer is lower, and at its end there is none.
-    difference_ends_in_time ["S840D-UA-009"]:
+    difference_ends_in_time ["S840D-UA-009", "S840D-TIMING-702/b"]:
         when |s| !s.before.timer.is_zero() && s.before.agreed != s.inputs.other_agreed && !s.inputs.power_on
             => s.after.timer < s.before.timer && (!s.after.timer.is_zero() || !s.after.agreed);
 
     /// Agreements that begin to differ start the whole time.
-    difference_starts_its_timer ["S840D-UA-009"]:
+    difference_starts_its_timer ["S840D-UA-009", "S840D-TIMING-702/b"]:
         when |s| s.before.agreed != s.inputs.other_agreed && (s.before.timer.is_zero() || s.inputs.power_on)
             => s.after.timer == s.config.t_differ;
 
@@ -204,7 +209,8 @@ monitor! { sinumerik::agreement;
             => s.outputs.code == Code::Plausibility && s.after.agreed == s.before.agreed;
 
     /// Without agreement the limit switches raise nothing; with it they act where they are enabled.
-    limit_switches_need_the_agreement ["S840D-P-12", "S840D-UA-002/a", "S840D-UA-008", "S840D-SE-010"]:
+    limit_switches_need_the_agreement ["S840D-P-12", "S840D-UA-002/a", "S840D-UA-008", "S840D-SE-010", "S840D-MDCOM-001",
+        "S840D-RETRACT-702"]:
         when |s| !s.outputs.se_active || s.after.agreed
             => s.outputs.se_active == (s.after.agreed && s.config.se_sn_enabled);
 

@@ -121,7 +121,7 @@ fields! {
 
 monitor! { sinumerik::cam;
     /// Beyond the cam, and beyond the hysteresis if there is one, the result is 1.
-    beyond_is_one ["S840D-SN-001", "S840D-SN-002", "S840D-SN-008", "S840D-SN-013", "S840D-TIMING-508/a", "S840D-CAM-705",
+    beyond_is_one ["S840D-SN-001", "S840D-SN-002", "S840D-SN-008", "S840D-SN-013", "S840D-TIMING-508/a", "S840D-CAM-705/a",
         "S840D-SN-003"]:
         when |s| s.config.enabled && i64::from(s.config.range.folded(s.inputs.position).0) > s.config.on_above()
             => s.after.own;
@@ -132,7 +132,7 @@ monitor! { sinumerik::cam;
             => !s.after.own;
 
     /// Inside the hysteresis the result stays as it is.
-    hysteresis_keeps ["S840D-SN-006", "S840D-SN-008"]:
+    hysteresis_keeps ["S840D-SN-006", "S840D-SN-008", "S840D-CAM-705/a"]:
         when |s| !s.inputs.power_on && s.config.range.folded(s.inputs.position) > s.config.cam
             && i64::from(s.config.range.folded(s.inputs.position).0) <= s.config.on_above()
             => s.after.own == s.before.own;
@@ -156,6 +156,19 @@ monitor! { sinumerik::cam;
     state_stays_consistent ["S840D-SN-001"]:
         when |s| s.before.invariant(&s.config)
             => s.after.invariant(&s.config) && s.outputs.own == s.after.own;
+}
+
+/// The position that a pair of cams tells: between the minus cam and the plus cam to its right. `plus`, `minus`: their
+/// signals. `across`: the end of the modulo range lies between them, so that the plus cam has the smaller position.
+///
+/// The inverted plus cam and the minus cam are ANDed, as an output does with the signals assigned to it (S840D-CAM-701); across
+/// the end of the range that would never be 1, and the logic of the user ORs them (S840D-CAM-702).
+pub const fn pulse(plus: bool, minus: bool, across: bool) -> bool {
+    if across {
+        !plus || minus
+    } else {
+        !plus && minus
+    }
 }
 
 pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (State, Outputs) {

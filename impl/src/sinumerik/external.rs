@@ -121,7 +121,7 @@ monitor! { sinumerik::external;
             => s.outputs.selected == if s.config.enable_e { ExternalStop::E } else { ExternalStop::None };
 
     /// All signals at 1 and no error of the safe logic: no request; external stops are not latched.
-    withdrawal_ends_the_request ["S840D-EXT-008", "S840D-EXT-013/a", "S840D-EXT-019"]:
+    withdrawal_ends_the_request ["S840D-EXT-008", "S840D-EXT-013/a", "S840D-EXT-019", "S840D-SIGNAL-026"]:
         when |s| s.after.started && s.inputs.sge_a && s.inputs.sge_c && s.inputs.sge_d && s.inputs.sge_e
             && !s.after.spl_latched
             => s.outputs.request == ExternalStop::None;

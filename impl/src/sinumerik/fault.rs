@@ -108,19 +108,20 @@ fields! {
 
 monitor! { sinumerik::fault;
     /// A discrepancy with an active function and no STOP C, D or E before starts the full delay, or STOP B if it is 0.
-    active_function_leads_to_stop_b ["S840D-P-21", "S840D-STOP-061", "S840D-STOP-063"]:
+    active_function_leads_to_stop_b ["S840D-P-21", "S840D-STOP-061", "S840D-STOP-063", "S840D-SIGNAL-019",
+        "S840D-MDTIM-013"]:
         when |s| s.before.fault == FaultState::None && s.inputs.discrepancy && s.inputs.monitoring
             && !s.inputs.cde_before && !s.inputs.ab_before
             => s.outputs.alarm && s.after.timer == s.config.t_f
                 && s.after.fault == if s.config.t_f.is_zero() { FaultState::Expired } else { FaultState::Delay };
 
     /// The delay cannot be stopped but by power-on: each cycle it is shorter or STOP B is requested.
-    delay_cannot_be_aborted ["S840D-P-21", "S840D-P-24", "S840D-STOP-063", "S840D-STOP-099"]:
+    delay_cannot_be_aborted ["S840D-P-21", "S840D-P-24", "S840D-STOP-063", "S840D-STOP-099", "S840D-MDTIM-013"]:
         when |s| s.before.fault == FaultState::Delay && !s.inputs.power_on
             => s.outputs.stop_b || (s.after.fault == FaultState::Delay && s.after.timer < s.before.timer);
 
     /// The delay is not cut short: STOP B is requested only when the last cycle of the delay is over.
-    delay_is_kept ["S840D-STOP-063"]:
+    delay_is_kept ["S840D-STOP-063", "S840D-MDTIM-013"]:
         when |s| s.before.fault == FaultState::Delay && !s.inputs.power_on && s.before.timer > Cycles::new(1)
             => s.after.fault == FaultState::Delay && s.after.timer == s.before.timer.tick();
 
@@ -130,7 +131,8 @@ monitor! { sinumerik::fault;
             => s.after.fault == FaultState::Expired && s.outputs.stop_b;
 
     /// A latched fault brakes nothing.
-    latched_fault_does_not_brake ["S840D-P-22", "S840D-STOP-060", "S840D-STOP-062", "S840D-STOP-067"]:
+    latched_fault_does_not_brake ["S840D-P-22", "S840D-STOP-060", "S840D-STOP-062", "S840D-STOP-067", "S840D-SIGNAL-019",
+        "S840D-SIGNAL-021", "S840D-SERVICE-701/a"]:
         when |s| s.after.fault == FaultState::Latched || s.after.fault == FaultState::None
             => !s.outputs.stop_b && !s.outputs.bit1;
 
@@ -170,7 +172,7 @@ monitor! { sinumerik::fault;
             => s.after.fault == FaultState::None && !s.outputs.alarm;
 
     /// A discrepancy of either channel is never overlooked otherwise, in a cycle without power-on.
-    discrepancy_is_raised ["S840D-STOP-060", "S840D-STOP-068", "S840D-STOP-093"]:
+    discrepancy_is_raised ["S840D-STOP-060", "S840D-STOP-068", "S840D-STOP-093", "S840D-SIGNAL-021"]:
         when |s| s.before.fault == FaultState::None && !s.inputs.power_on && !s.inputs.ab_before
             && (s.inputs.discrepancy || s.inputs.rx_fault)
             => s.after.fault != FaultState::None && s.outputs.alarm;
@@ -186,7 +188,7 @@ monitor! { sinumerik::fault;
             => s.inputs.discrepancy || (s.inputs.rx_fault && !s.inputs.power_on);
 
     /// The step keeps the invariant and shows its state.
-    state_stays_consistent ["S840D-STOP-065"]:
+    state_stays_consistent ["S840D-STOP-065", "S840D-SIGNAL-021", "S840D-SIGNAL-020/b"]:
         when |s| s.before.invariant(&s.config)
             => s.after.invariant(&s.config) && s.outputs.fault == s.after.fault
                 && s.outputs.stop_b == (s.after.fault == FaultState::Expired)

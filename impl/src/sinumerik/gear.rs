@@ -20,7 +20,7 @@ impl GearIndex {
         if index <= 7 { Some(Self(index)) } else { None }
     }
 
-    /// The index of the signals "ratio selection bit 2, 1, 0" (S840D-GEAR-501).
+    /// The index of the signals "ratio selection bit 2, 1, 0" (S840D-GEAR-501, S840D-SIGNAL-005, S840D-GEAR-701).
     pub const fn from_bits(bit2: bool, bit1: bool, bit0: bool) -> Self {
         Self(((bit2 as u8) << 2) | ((bit1 as u8) << 1) | bit0 as u8)
     }
@@ -119,7 +119,7 @@ monitor! { sinumerik::gear;
             => !s.outputs.changed;
 
     /// The stage is the selected one, whatever was before; no index has a special meaning.
-    stage_follows_the_signals ["S840D-GEAR-501"]:
+    stage_follows_the_signals ["S840D-GEAR-501", "S840D-SIGNAL-005", "S840D-GEAR-701"]:
         when |s| s.inputs.index.get() <= 7
             => s.after.stage == s.inputs.index && s.after.known && s.outputs.stage == s.inputs.index;
 

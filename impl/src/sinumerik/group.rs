@@ -129,7 +129,7 @@ monitor! { sinumerik::group;
             => s.outputs.reaction == Reaction::Esr;
 
     /// STOP E without ESR does what STOP D does.
-    stop_e_without_esr_is_stop_d ["S840D-STOP-051", "S840D-STOP-082", "S840D-EXT-012"]:
+    stop_e_without_esr_is_stop_d ["S840D-STOP-051", "S840D-STOP-082", "S840D-EXT-012", "S840D-SIGNAL-014/b"]:
         when |s| s.inputs.level == Level::E && !s.inputs.esr
             => s.outputs.reaction == reaction(s.config, Inputs {
                 level: Level::D,
@@ -203,7 +203,7 @@ pub fn worst(reactions: &[Reaction]) -> Reaction {
     reactions.iter().copied().max().unwrap_or_default()
 }
 
-/// `$A_STOPESI`: whether a STOP E is active on at least one of the axes (S840D-STOP-054).
+/// `$A_STOPESI`: whether a STOP E is active on at least one of the axes (S840D-STOP-054, S840D-SIGNAL-020/c).
 pub fn stop_e_active(levels: &[Level]) -> bool {
     levels.contains(&Level::E)
 }
@@ -223,6 +223,7 @@ mod tests {
         }
     }
 
+    /// S840D-SIGNAL-020/c, S840D-STOP-054.
     #[test]
     fn the_channel_shows_a_stop_e_of_any_axis() {
         assert!(!stop_e_active(&[]));

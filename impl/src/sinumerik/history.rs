@@ -130,7 +130,7 @@ monitor! { sinumerik::history;
                 && (!s.outputs.history_ok || distance(s.before, &s.inputs) <= u64::from(s.config.tol().0));
 
     /// Storing takes the position of the cycle.
-    stores_the_position ["S840D-REF-009"]:
+    stores_the_position ["S840D-REF-009", "S840D-PARAM-031"]:
         when |s| s.inputs.save && !s.inputs.power_on && !s.inputs.reached
             => s.after.stored && s.after.standstill == s.inputs.position;
 

@@ -47,7 +47,7 @@ macro_rules! signals {
 }
 
 signals! {
-    /// Input signals of an axis in the drive channel (S840D-IO-001). 0 is the fail-safe level of the de-selecting ones.
+    /// Input signals of an axis in the drive channel (S840D-IO-001, S840D-SIGNAL-001). 0 is the fail-safe level of the de-selecting ones.
     Sge, SGE, "Places of [`Sge`], in the order of its fields (S840D-IO-007)." {
         /// SBH/SG de-selection.
         sbh_sg_off = "SGE_SVSS_DISABLE" at 22 0;
@@ -87,7 +87,7 @@ signals! {
 }
 
 signals! {
-    /// Output signals of an axis in the drive channel (S840D-IO-001, S840D-SN-012). Of the cams the manual gives two orders; this is the one of its table
+    /// Output signals of an axis in the drive channel (S840D-IO-001, S840D-SN-012, S840D-SIGNAL-002, S840D-SIGNAL-016, S840D-SIGNAL-024, S840D-CAM-703). Of the cams the manual gives two orders; this is the one of its table
     /// 6-5, [`Sga::with_cams_exchanged`] makes the other one.
     Sga, SGA, "Places of [`Sga`], in the order of its fields (S840D-IO-007)." {
         /// SBH/SG active.
@@ -132,7 +132,7 @@ signals! {
 }
 
 impl Sge {
-    /// An axis that uses none of its signals: 0, except that external stops are not requested (S840D-IO-002, S840D-EXT-004).
+    /// An axis that uses none of its signals: 0, except that external stops are not requested (S840D-IO-002, S840D-EXT-004, S840D-SIGNAL-023, S840D-SIGNAL-027/a).
     pub const UNUSED: Self = Self {
         stop_a_off: true,
         stop_c_off: true,

@@ -14,6 +14,7 @@
 //! | [`selection`] | selection of operating stop and speed stage with its delays | `motion`; `stop` of the cycle before |
 //! | [`standstill`] | position window of the operating stop (SBH) | `selection` |
 //! | [`speed`] | limit of the speed stage (SG), encoder limit frequency | `selection` |
+//! | [`setpoint`] | limit of the speed setpoint: no safety function | `selection` of both channels |
 //! | [`limit_switch`] | software limit switches (SE) | `agreement` |
 //! | [`ramp`] | braking ramp (SBR) | `motion`; `stop` of the cycle before |
 //! | [`threshold`] | speed threshold n < n_x | `motion` |
@@ -26,6 +27,7 @@
 //! | [`pair`] | both channels of an axis against each other | - |
 //! | [`parameters`] | machine data, checked and converted into the configurations: no step | - |
 //! | [`group`] | effect of a stop on the other axes of the channel | `stop` of every axis |
+//! | [`bus_failure`] | failure of the drive bus | signals and `selection`, whose place it takes in the NCK |
 //! | [`test_stop`] | test of the shutdown path | before `stop`, whose test level it is |
 //! | [`shutdown_test`] | test of the external shutdown (NCK) | before `stop` and `pulses` |
 //! | [`pulses`] | pulse cancellation with its external fallback (NCK) | `stop`, `shutdown_test` |
@@ -62,15 +64,16 @@
 #[macro_export]
 macro_rules! sinumerik_monitors {
     ($callback:ident $($more:tt)*) => { $callback! { sinumerik [$($more)*]
-        stop external fault group selection reference agreement gear test_stop shutdown_test pulses compare slip history
+        stop external fault group bus_failure selection reference agreement gear test_stop shutdown_test pulses compare slip history
         forced_check relay spl_protection spl_signal spl_comparison spl_link
-        spl_start spl_file spl_access spl_output_test spl_stop_test motion standstill speed limit_switch ramp threshold cam results channel
+        spl_start spl_file spl_access spl_output_test spl_stop_test motion standstill speed setpoint limit_switch ramp threshold cam results channel
     } };
 }
 
 pub mod agreement;
 pub mod alarm;
 pub mod axis;
+pub mod bus_failure;
 pub mod cam;
 pub mod channel;
 pub mod code;
@@ -97,6 +100,7 @@ pub mod reference;
 pub mod relay;
 pub mod results;
 pub mod selection;
+pub mod setpoint;
 pub mod shutdown_group;
 pub mod shutdown_test;
 pub mod slip;

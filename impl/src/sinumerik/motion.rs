@@ -92,7 +92,7 @@ monitor! { sinumerik::motion;
                 && s.after == State { last: s.inputs.position, known: true, speed: s.outputs.speed };
 
     /// While the axis is parked position and speed are frozen, and the time in between is no motion.
-    parked_axis_is_frozen ["S840D-REF-016", "S840D-INTERACT-718"]:
+    parked_axis_is_frozen ["S840D-REF-016", "S840D-INTERACT-718", "S840D-INTERACT-719"]:
         when |s| s.inputs.parking && !s.inputs.power_on
             => s.outputs.position == s.before.last && s.outputs.speed == Speed(0)
                 && s.after == State { known: false, speed: Speed(0), ..s.before };

@@ -1,10 +1,12 @@
 //! Both channels of one axis, stepped against each other: what one tells, the other one reads in its next cycle.
 //!
 //! A convenience for simulation, tests and exploration; in a machine each channel runs on its own computer and the
-//! [`Exchange`] goes over the drive bus. The pair adds nothing to the two axes but the delay of one cycle.
+//! [`Exchange`] goes over the drive bus. The pair adds nothing to the two axes but the delay of one
+//! cycle, and the limit of the speed setpoint, which the control makes of the selections of both.
 
 use crate::sinumerik::axis::{self, Exchange, Local, Side};
 use crate::sinumerik::parameters::Configuration;
+use crate::sinumerik::setpoint;
 
 /// The parameters of both channels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -98,6 +100,8 @@ pub struct Outputs {
     pub nck: axis::Outputs,
     /// The channel of the drive.
     pub drive: axis::Outputs,
+    /// What the interpolator makes of both selections.
+    pub setpoint: setpoint::Outputs,
 }
 
 /// The type of [`next`], for code that takes a step function as a parameter.
@@ -127,9 +131,21 @@ pub fn next(state: State, config: &Config, inputs: &Inputs) -> (State, Outputs) 
         from_nck: nck_out.exchange,
         from_drive: drive_out.exchange,
     };
+    let (nck_asks, drive_asks) = (&nck_out.channel.selection, &drive_out.channel.selection);
+    let (_, setpoint) = setpoint::next(
+        setpoint::State::INITIAL,
+        config.nck.monitors().setpoint(),
+        &setpoint::Inputs {
+            nck_goal: nck_asks.goal,
+            nck_limit: nck_asks.goal_limit,
+            drive_goal: drive_asks.goal,
+            drive_limit: drive_asks.goal_limit,
+        },
+    );
     let outputs = Outputs {
         nck: nck_out,
         drive: drive_out,
+        setpoint,
     };
     (after, outputs)
 }

@@ -128,7 +128,7 @@ monitor! { sinumerik::pulses;
             => s.outputs.enable && s.after.phase == Phase::Enabled;
 
     /// Internal cancellation that begins awaits its feedback for the whole t_chk; without that time it falls back at once.
-    cancellation_starts_its_time ["S840D-PULSE-005", "S840D-PULSE-007"]:
+    cancellation_starts_its_time ["S840D-PULSE-005", "S840D-PULSE-007", "S840D-SIGNAL-015"]:
         when |s| s.config.internal && (s.inputs.cancel || !s.inputs.run_up)
             && (s.before.phase == Phase::Enabled || s.inputs.power_on)
             => if s.config.t_chk.is_zero() { s.after.phase == Phase::CancelExt }
@@ -159,7 +159,7 @@ monitor! { sinumerik::pulses;
             => s.after.phase == Phase::CancelExt && !s.outputs.enable_external;
 
     /// The test of the external shutdown takes the external enable away and leaves the internal one.
-    external_test_acts_externally ["S840D-TEST-016", "S840D-TEST-011"]:
+    external_test_acts_externally ["S840D-TEST-016", "S840D-TEST-011", "S840D-SIGNAL-010"]:
         when |s| s.inputs.external_test
             => !s.outputs.enable_external && s.outputs.enable == (!s.inputs.cancel && s.inputs.run_up);
 

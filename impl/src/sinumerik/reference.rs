@@ -130,12 +130,12 @@ monitor! { sinumerik::reference;
             => s.outputs.confirmed;
 
     /// From "not referenced" the axis never becomes safely referenced in one cycle: the history comes between.
-    no_safe_reference_at_once ["S840D-P-15", "S840D-REF-004"]:
+    no_safe_reference_at_once ["S840D-P-15", "S840D-REF-004", "S840D-MDCOM-001"]:
         when |s| s.before.axis == AxisState::NotRef || s.before.axis == AxisState::Off || s.inputs.power_on
             => s.after.axis != AxisState::SafeRef && !s.outputs.safely_referenced;
 
     /// Parking and the loss of the reference always lead to "not referenced" or keep the axis off.
-    loss_is_followed ["S840D-REF-006/b", "S840D-REF-016"]:
+    loss_is_followed ["S840D-REF-006/b", "S840D-REF-016", "S840D-INTERACT-719"]:
         when |s| s.inputs.parking || s.inputs.reference_lost
             => s.after.axis == AxisState::NotRef || s.after.axis == AxisState::Off;
 
@@ -150,7 +150,7 @@ monitor! { sinumerik::reference;
             => s.before.axis == AxisState::NotRef && s.after.axis == AxisState::Ref && !s.inputs.power_on;
 
     /// Power-on without completed run-up leaves the axis off; run-up makes it "not referenced".
-    run_up_starts_it ["S840D-REF-006/c", "S840D-REF-001", "S840D-ARCH-505"]:
+    run_up_starts_it ["S840D-REF-006/c", "S840D-REF-001", "S840D-ARCH-505", "S840D-MDCOM-001"]:
         when |s| s.inputs.power_on || s.before.axis == AxisState::Off
             => s.after.axis == if s.inputs.run_up { AxisState::NotRef } else { AxisState::Off };
 
@@ -161,7 +161,7 @@ monitor! { sinumerik::reference;
                 && (s.after.axis == AxisState::Ref || s.after.axis == AxisState::SafeRef);
 
     /// The missing safe reference is reported where position monitors need it, and only there.
-    missing_reference_is_reported ["S840D-REF-011", "S840D-REF-013", "S840D-UA-002/b"]:
+    missing_reference_is_reported ["S840D-REF-011", "S840D-REF-013", "S840D-UA-002/b", "S840D-INTERACT-719"]:
         when |s| s.config.se_sn_enabled || s.outputs.message
             => s.config.se_sn_enabled && s.outputs.message != s.outputs.safely_referenced;
 

@@ -32,12 +32,12 @@ fields! {
 
 monitor! { sinumerik::shutdown_test;
     /// While the test runs the external enable is absent, and only then.
-    test_takes_the_external_enable ["S840D-TEST-016", "S840D-TEST-011"]:
+    test_takes_the_external_enable ["S840D-TEST-016", "S840D-TEST-011", "S840D-SIGNAL-010"]:
         when |s| s.outputs.active || !s.outputs.enable_external
             => s.outputs.active && !s.outputs.enable_external;
 
     /// The rise of the selection with enabled pulses starts the test with the whole t_chk.
-    rise_starts_the_test ["S840D-TEST-016"]:
+    rise_starts_the_test ["S840D-TEST-016", "S840D-SIGNAL-010"]:
         when |s| !s.inputs.power_on && s.inputs.select && !s.before.selected && s.before.phase == Phase::Idle
             && !s.inputs.pulses_cancelled && !s.inputs.internal_ab && !s.config.t_chk().is_zero()
             => s.after.phase == Phase::Run && s.after.timer == s.config.t_chk();
@@ -49,7 +49,8 @@ monitor! { sinumerik::shutdown_test;
                 && !s.inputs.power_on;
 
     /// Awaiting the feedback ends: each cycle the timer is lower, and at its end STOP A is demanded with code 1010.
-    missing_feedback_ends_in_stop_a ["S840D-P-29", "S840D-P-35", "S840D-TEST-017", "S840D-PULSE-007", "S840D-KDV-723"]:
+    missing_feedback_ends_in_stop_a ["S840D-P-29", "S840D-P-35", "S840D-TEST-017", "S840D-PULSE-007", "S840D-KDV-723",
+        "S840D-SIGNAL-010"]:
         when |s| s.before.phase == Phase::Run && !s.inputs.power_on && !s.inputs.internal_ab && !s.inputs.pulses_cancelled
             => if s.after.phase == Phase::Run { s.after.timer < s.before.timer }
                 else { s.outputs.demand == InternalStop::A && s.outputs.code == Code::EXTERNAL_TEST_FAILED };

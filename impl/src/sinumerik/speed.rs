@@ -3,11 +3,9 @@
 //! The limit in force comes from [`crate::sinumerik::selection`], override included. A higher speed raises the stop configured for the
 //! stage. With one encoder for both channels the speed at the encoder is watched as well, whenever the operating stop or a
 //! stage is active: above its limit frequency the encoder no longer checks its own signals.
-//!
-//! The limit of the speed setpoint is a help for the user, in one channel only, and no safety function.
 
 pub use crate::contract::Stateless as State;
-use crate::kernel::{ConfigError, Percent, Speed};
+use crate::kernel::{ConfigError, Speed};
 use crate::sinumerik::level::InternalStop;
 use crate::sinumerik::selection::{Monitored, Stage};
 
@@ -17,7 +15,6 @@ config! {
     pub struct Config {
         stops: [InternalStop; 4],
         encoder_max: Option<Speed>,
-        setpoint: Percent,
     }
     accepted |config| config.stops.iter().all(|stop| *stop != InternalStop::None)
 }
@@ -25,20 +22,16 @@ config! {
 impl Config {
     /// `stop_mode`: the stop of every stage (`SAFE_VELO_STOP_MODE`, 36961 / 1361): 0 to 4 for A to E, or 5 for one per stage,
     /// which `reactions` then gives for SG1 to SG4 (`SAFE_VELO_STOP_REACTION`, 36963 / 1363, 0 to 4). 10 to 14 mean the same
-    /// as 0 to 4 with another reaction to a failure of the drive bus, which is not the business of this monitor.
+    /// as 0 to 4 with another reaction to a failure of the drive bus ([`crate::sinumerik::bus_failure`]).
     /// `encoder_max`: on an axis with one encoder the highest permitted speed at the encoder (see
     /// [`crate::sinumerik::encoder::Encoder::highest_speed`]), in the unit of [`Inputs::encoder_speed`]; `None` with two encoders.
-    /// `setpoint_percent`: the limit of the speed setpoint in percent of the limit in force (`SAFE_DES_VELO_LIMIT`, 36933),
-    /// 0 to 100; 0 is none.
     ///
     /// # Errors
-    /// [`ConfigError::StopNotAllowed`] when a stop is none of these values, also one of `reactions` that is not used;
-    /// [`ConfigError::FactorOutOfRange`] when `setpoint_percent` is above 100.
+    /// [`ConfigError::StopNotAllowed`] when a stop is none of these values, also one of `reactions` that is not used.
     pub fn new(
         stop_mode: u8,
         reactions: [u8; 4],
         encoder_max: Option<Speed>,
-        setpoint_percent: u8,
     ) -> Result<Self, ConfigError> {
         let [sg1, sg2, sg3, sg4] = reactions;
         let reactions = [stop(sg1)?, stop(sg2)?, stop(sg3)?, stop(sg4)?];
@@ -49,7 +42,6 @@ impl Config {
                 [stop(stop_mode)?; 4]
             },
             encoder_max,
-            setpoint: Percent::new(setpoint_percent)?,
         })
     }
 
@@ -109,10 +101,6 @@ fields! {
         pub encoder_violated: bool,
         /// The stop to be raised.
         pub demand: InternalStop,
-        /// The speed setpoint is limited.
-        pub setpoint_limited: bool,
-        /// The highest setpoint where it is limited, else 0.
-        pub setpoint_limit: Speed,
     }
 }
 
@@ -155,22 +143,6 @@ monitor! { sinumerik::speed;
         when |s| s.inputs.monitored == Monitored::Nothing
             || s.config.encoder_max.is_none_or(|highest| s.inputs.encoder_speed <= highest)
             => !s.outputs.encoder_violated;
-
-    /// The setpoint limit is never above the limit in force, and 0 in the operating stop.
-    setpoint_stays_within_the_limit ["S840D-INTERACT-701", "S840D-PARAM-012"]:
-        when |s| s.outputs.setpoint_limited
-            => if s.inputs.monitored == Monitored::Speed {
-                s.outputs.setpoint_limit == s.inputs.limit.reduced(s.config.setpoint)
-                    && s.outputs.setpoint_limit <= s.inputs.limit
-            } else {
-                s.outputs.setpoint_limit == Speed(0)
-            };
-
-    /// The setpoint is limited while something is monitored, unless the function is off.
-    setpoint_limited_when_monitored ["S840D-INTERACT-701", "S840D-SBH-013"]:
-        when |s| s.inputs.monitored != Monitored::Nothing || s.outputs.setpoint_limited
-            => s.outputs.setpoint_limited
-                == (s.config.setpoint.get() > 0 && s.inputs.monitored != Monitored::Nothing);
 }
 
 pub(crate) fn transition(_: State, config: &Config, inputs: &Inputs) -> (State, Outputs) {
@@ -178,7 +150,6 @@ pub(crate) fn transition(_: State, config: &Config, inputs: &Inputs) -> (State, 
     let stage = inputs.monitored == Monitored::Speed;
     let violated = stage && inputs.speed > inputs.limit;
     let encoder_violated = active && config.too_fast_for_the_encoder(inputs.encoder_speed);
-    let limited = active && config.setpoint.get() > 0;
     let outputs = Outputs {
         violated,
         encoder_violated,
@@ -188,12 +159,6 @@ pub(crate) fn transition(_: State, config: &Config, inputs: &Inputs) -> (State, 
             config.stop(inputs.stage)
         } else {
             InternalStop::B
-        },
-        setpoint_limited: limited,
-        setpoint_limit: if limited && stage {
-            inputs.limit.reduced(config.setpoint)
-        } else {
-            Speed(0)
         },
     };
     (State, outputs)

@@ -210,12 +210,13 @@ fields! {
 
 monitor! { sinumerik::stop;
     /// A latched STOP B or A never falls without power-on, whatever RESET and the signals do.
-    b_and_a_stay_latched ["S840D-P-03", "S840D-STOP-012", "S840D-STOP-024", "S840D-ACK-003"]:
+    b_and_a_stay_latched ["S840D-P-03", "S840D-STOP-012", "S840D-STOP-024", "S840D-ACK-003", "S840D-SIGNAL-010"]:
         when |s| s.before.internal >= InternalStop::B && !s.inputs.power_on
             => s.after.internal >= s.before.internal;
 
     /// A latched STOP A cancels the pulses, in the cycle it is latched and until power-on.
-    latched_a_cancels_pulses ["S840D-SH-002/a", "S840D-P-01", "S840D-STOP-010", "S840D-STOP-012", "S840D-PARAM-504"]:
+    latched_a_cancels_pulses ["S840D-SH-002/a", "S840D-P-01", "S840D-STOP-010", "S840D-STOP-012", "S840D-PARAM-504",
+        "S840D-SIGNAL-011"]:
         when |s| s.after.internal == InternalStop::A
             || (s.before.internal == InternalStop::A && !s.inputs.power_on)
             => s.after.internal == InternalStop::A && s.after.level == Level::A && s.outputs.cancel_pulses;
@@ -231,7 +232,8 @@ monitor! { sinumerik::stop;
             => s.after.internal >= s.before.internal;
 
     /// RESET in the operating stop acknowledges STOP C, D and E, unless it is demanded again.
-    reset_acknowledges_an_ended_stop ["S840D-P-34", "S840D-ACK-001", "S840D-ACK-002", "S840D-STOP-032", "S840D-STOP-041", "S840D-STOP-052"]:
+    reset_acknowledges_an_ended_stop ["S840D-P-34", "S840D-ACK-001", "S840D-ACK-002", "S840D-STOP-032", "S840D-STOP-041",
+        "S840D-STOP-052", "S840D-RETRACT-702"]:
         when |s| s.inputs.reset && !s.inputs.power_on && s.before.phase == Phase::SbhInt && !s.inputs.f_stop_b
             && s.before.internal != InternalStop::None && s.inputs.rx_internal <= InternalStop::C
             => s.after.internal == s.inputs.demand
@@ -243,7 +245,8 @@ monitor! { sinumerik::stop;
             => s.inputs.power_on || s.inputs.reset || s.before.level > s.before.internal.level();
 
     /// Every request of the cycle is met: the latch rises at least to each internal request.
-    every_internal_request_is_latched ["S840D-P-20", "S840D-STOP-007", "S840D-STOP-097", "S840D-STOP-025", "S840D-EXT-009"]:
+    every_internal_request_is_latched ["S840D-P-20", "S840D-STOP-007", "S840D-STOP-097", "S840D-STOP-025",
+        "S840D-EXT-009", "S840D-SIGNAL-011"]:
         when |s| s.inputs.demand != InternalStop::None || s.inputs.f_stop_b
             || s.inputs.rx_internal >= InternalStop::B
             => s.after.internal >= s.inputs.demand
@@ -267,14 +270,16 @@ monitor! { sinumerik::stop;
                             || s.inputs.demand == InternalStop::B || s.inputs.rx_internal == InternalStop::B))));
 
     /// STOP B is not cut short: while its time runs and the axis moves, only a request for A makes it STOP A.
-    stop_b_is_not_cut_short ["S840D-STOP-020", "S840D-STOP-022"]:
+    stop_b_is_not_cut_short ["S840D-STOP-020", "S840D-STOP-022", "S840D-MDTIM-014/a"]:
         when |s| s.before.phase == Phase::BBraking && !s.inputs.power_on && !s.inputs.standstill
             && s.before.timer > Cycles::new(1)
             => s.after.internal == InternalStop::B || s.inputs.demand == InternalStop::A
                 || s.inputs.rx_internal == InternalStop::A;
 
     /// The effective level is the highest of the latch, both channels' requests by signal and the test.
-    level_is_the_highest_request ["S840D-P-38", "S840D-STOP-003", "S840D-EXT-005", "S840D-EXT-013/a", "S840D-EXT-013/b", "S840D-EXT-013/c"]:
+    level_is_the_highest_request ["S840D-P-38", "S840D-STOP-003", "S840D-EXT-005", "S840D-EXT-013/a", "S840D-EXT-013/b",
+        "S840D-EXT-013/c", "S840D-SIGNAL-011", "S840D-SIGNAL-012", "S840D-SIGNAL-013", "S840D-SIGNAL-014/a",
+        "S840D-SIGNAL-026"]:
         when |s| !s.inputs.power_on
             => s.after.level == s.after.internal.level().max(s.inputs.external.level())
                 .max(s.inputs.rx_external.level()).max(if s.inputs.test { Level::Test } else { Level::None });
@@ -292,24 +297,26 @@ monitor! { sinumerik::stop;
                 .max(if s.inputs.test { Level::Test } else { Level::None });
 
     /// STOP B ends: each cycle it is still braking its timer is lower; it began with at most t_B. So A follows within t_B.
-    stop_b_ends_in_time ["S840D-STOP-013/c", "S840D-P-05", "S840D-STOP-021", "S840D-STOP-022", "S840D-STOP-023"]:
+    stop_b_ends_in_time ["S840D-STOP-013/c", "S840D-P-05", "S840D-STOP-021", "S840D-STOP-022", "S840D-STOP-023",
+        "S840D-MDTIM-014/a"]:
         when |s| s.before.phase == Phase::BBraking && !s.inputs.power_on
             => s.after.level == Level::A
                 || (s.after.phase == Phase::BBraking && s.after.timer < s.before.timer && !s.inputs.standstill);
 
     /// On an axis that stands STOP B is STOP A at once, also in the cycle in which it becomes effective.
-    standing_axis_loses_its_pulses_at_once ["S840D-STOP-021", "S840D-STOP-023", "S840D-P-05"]:
+    standing_axis_loses_its_pulses_at_once ["S840D-STOP-021", "S840D-STOP-023", "S840D-P-05", "S840D-MDTIM-014/a"]:
         when |s| s.inputs.standstill && s.after.internal >= InternalStop::B
             => s.after.internal == InternalStop::A
                 || (s.after.level == Level::A && s.outputs.cancel_pulses);
 
     /// STOP B that becomes effective runs its full time, unless that is zero: then it is STOP A at once.
-    stop_b_starts_its_timer ["S840D-STOP-020", "S840D-STOP-023", "S840D-STOP-097"]:
+    stop_b_starts_its_timer ["S840D-STOP-020", "S840D-STOP-023", "S840D-STOP-097", "S840D-MDTIM-014/a"]:
         when |s| s.after.phase == Phase::BBraking && (s.before.phase != Phase::BBraking || s.inputs.power_on)
             => s.after.timer == s.config.t_b;
 
     /// Braking of a STOP E, D or C ends: each cycle its timer is lower, also when a higher one of them supersedes it.
-    braking_ends_in_time ["S840D-P-06", "S840D-STOP-031", "S840D-STOP-091"]:
+    braking_ends_in_time ["S840D-P-06", "S840D-STOP-031", "S840D-STOP-091", "S840D-SIGNAL-012", "S840D-SIGNAL-013",
+        "S840D-SIGNAL-014/a", "S840D-MDTIM-010", "S840D-MDTIM-011", "S840D-MDTIM-012"]:
         when |s| s.before.phase == Phase::Braking && s.after.phase == Phase::Braking && !s.inputs.power_on
             => s.after.timer < s.before.timer;
 
@@ -323,7 +330,9 @@ monitor! { sinumerik::stop;
             };
 
     /// A STOP E, D or C that becomes effective from another level starts its own time.
-    braking_starts_its_timer ["S840D-P-06", "S840D-STOP-030", "S840D-STOP-040", "S840D-STOP-050", "S840D-EXT-010", "S840D-EXT-011", "S840D-EXT-012"]:
+    braking_starts_its_timer ["S840D-P-06", "S840D-STOP-030", "S840D-STOP-040", "S840D-STOP-050", "S840D-EXT-010",
+        "S840D-EXT-011", "S840D-EXT-012", "S840D-SIGNAL-012", "S840D-SIGNAL-013", "S840D-SIGNAL-014/a", "S840D-MDTIM-010",
+        "S840D-MDTIM-011", "S840D-MDTIM-012"]:
         when |s| s.after.level.ends_in_standstill()
             && (s.inputs.power_on || !s.before.level.ends_in_standstill())
             => s.after.timer == s.config.time(s.after.level);
@@ -335,7 +344,8 @@ monitor! { sinumerik::stop;
 
     /// The actions are those of the effective level alone.
     actions_belong_to_the_level ["S840D-P-38", "S840D-STOP-098", "S840D-STOP-014", "S840D-STOP-032", "S840D-STOP-041",
-        "S840D-STOP-052", "S840D-EXT-007", "S840D-TEST-023"]:
+        "S840D-STOP-052", "S840D-EXT-007", "S840D-TEST-023", "S840D-SIGNAL-011", "S840D-SIGNAL-012", "S840D-SIGNAL-013",
+        "S840D-SIGNAL-014/a", "S840D-SIGNAL-016", "S840D-SIGNAL-024"]:
         when |s| s.after.level != Level::None
             => s.outputs.cancel_pulses == (s.after.level == Level::A || s.after.level == Level::Test)
                 && s.outputs.path_brake == (s.after.level == Level::D && s.after.phase == Phase::Braking)
@@ -347,13 +357,13 @@ monitor! { sinumerik::stop;
 
     /// Setpoint 0 while STOP B or C brakes; the braking ramp is watched in STOP B and as long as STOP C lasts.
     current_limit_braking_and_its_ramp ["S840D-STOP-020", "S840D-STOP-030", "S840D-EXT-010", "S840D-EXT-011",
-        "S840D-SBR-005"]:
+        "S840D-SBR-005", "S840D-SIGNAL-012"]:
         when |s| s.outputs.n_set_zero || s.outputs.sbr_on || s.after.level == Level::B || s.after.level == Level::C
             => s.outputs.sbr_on == matches!(s.after.level, Level::B | Level::C)
                 && s.outputs.n_set_zero == (s.outputs.sbr_on && s.after.phase != Phase::SbhInt);
 
     /// The system variable shows the number of the effective stop.
-    stopsi_shows_the_level ["S840D-STOP-053/a"]:
+    stopsi_shows_the_level ["S840D-STOP-053/a", "S840D-SIGNAL-020/a"]:
         when |s| s.after.level != Level::None
             => matches!(
                 (s.outputs.stopsi, s.after.level),
@@ -361,7 +371,7 @@ monitor! { sinumerik::stop;
             );
 
     /// Without an effective stop the variable shows the test of the external shutdown, else STOP F, the lowest of all.
-    stopsi_shows_test_and_fault ["S840D-STOP-053/b", "S840D-STOP-053/c"]:
+    stopsi_shows_test_and_fault ["S840D-STOP-053/b", "S840D-STOP-053/c", "S840D-SIGNAL-020/a"]:
         when |s| s.after.level == Level::None
             => s.outputs.stopsi == match (s.inputs.external_test, s.inputs.fault) {
                 (true, _) => 11,
@@ -370,7 +380,8 @@ monitor! { sinumerik::stop;
             };
 
     /// The operating stop is required, and the braking said to be over, exactly in their phases.
-    phases_are_shown ["S840D-STOP-080", "S840D-STOP-086", "S840D-EXT-018"]:
+    phases_are_shown ["S840D-STOP-080", "S840D-STOP-086", "S840D-EXT-018", "S840D-MDTIM-010", "S840D-MDTIM-011",
+        "S840D-MDTIM-012"]:
         when |s| s.after.level.ends_in_standstill()
             => s.outputs.sbh_internal == (s.after.phase == Phase::SbhInt)
                 && s.outputs.ended == (s.after.phase == Phase::SbhInt)
@@ -384,7 +395,8 @@ monitor! { sinumerik::stop;
                 || s.outputs.sga_stop_d || s.outputs.sga_stop_e) && s.outputs.ended;
 
     /// The restart is prevented exactly while an internal stop is latched.
-    restart_is_prevented ["S840D-P-42", "S840D-P-43", "S840D-STOP-083", "S840D-EXT-008", "S840D-STOP-032", "S840D-STOP-041", "S840D-STOP-052"]:
+    restart_is_prevented ["S840D-P-42", "S840D-P-43", "S840D-STOP-083", "S840D-EXT-008", "S840D-STOP-032",
+        "S840D-STOP-041", "S840D-STOP-052", "S840D-SIGNAL-026"]:
         when |s| s.after.internal != InternalStop::None || !s.outputs.start_inhibit
             => s.outputs.start_inhibit == (s.after.internal != InternalStop::None);
 

@@ -47,7 +47,8 @@ monitor! { sinumerik::test_stop;
                 && !s.inputs.power_on && s.before.phase == Phase::Idle;
 
     /// The rise of the selection with enabled pulses starts the test with the whole t_chk.
-    rise_starts_the_test ["S840D-TEST-009", "S840D-TEST-010", "S840D-TEST-015", "S840D-SH-002/c", "S840D-TEST-031"]:
+    rise_starts_the_test ["S840D-TEST-009", "S840D-TEST-010", "S840D-TEST-015", "S840D-SH-002/c", "S840D-TEST-031",
+        "S840D-SIGNAL-009"]:
         when |s| !s.inputs.power_on && s.inputs.select && !s.before.selected && s.before.phase == Phase::Idle
             && !s.inputs.pulses_cancelled && !s.inputs.internal_ab && !s.config.t_chk().is_zero()
             => s.after.phase == Phase::Run && s.after.timer == s.config.t_chk() && s.outputs.active;
@@ -58,7 +59,8 @@ monitor! { sinumerik::test_stop;
             => s.inputs.select && !s.before.selected && !s.inputs.internal_ab && !s.inputs.power_on;
 
     /// Awaiting the feedback ends: each cycle the timer is lower, and at its end STOP A is demanded.
-    missing_feedback_ends_in_stop_a ["S840D-P-29", "S840D-P-35", "S840D-TEST-012", "S840D-PULSE-007", "S840D-KDV-723"]:
+    missing_feedback_ends_in_stop_a ["S840D-P-29", "S840D-P-35", "S840D-TEST-012", "S840D-PULSE-007", "S840D-KDV-723",
+        "S840D-SIGNAL-008", "S840D-SIGNAL-009", "S840D-MDTIM-015"]:
         when |s| s.before.phase == Phase::Run && !s.inputs.power_on && !s.inputs.internal_ab && !s.inputs.pulses_cancelled
             => if s.after.phase == Phase::Run { s.after.timer < s.before.timer }
                 else { s.outputs.demand == InternalStop::A && s.outputs.code == Code::TEST_FAILED };
@@ -75,7 +77,7 @@ monitor! { sinumerik::test_stop;
             => s.outputs.demand == InternalStop::A && !s.outputs.active;
 
     /// Feedback in time is kept: the test goes on without stop, whatever the feedback shows later.
-    feedback_in_time_is_kept ["S840D-P-29", "S840D-TEST-009", "S840D-TEST-022", "S840D-TEST-020"]:
+    feedback_in_time_is_kept ["S840D-P-29", "S840D-TEST-009", "S840D-TEST-022", "S840D-TEST-020", "S840D-MDTIM-015"]:
         when |s| !s.inputs.power_on && !s.inputs.internal_ab
             && (s.before.phase == Phase::RunOk
                 || s.before.phase == Phase::Run && s.inputs.pulses_cancelled && s.before.timer.count() > 1)
@@ -83,7 +85,7 @@ monitor! { sinumerik::test_stop;
                 && (s.after.phase == Phase::RunOk || s.outputs.passed);
 
     /// The cancellation is held until t_chk has passed and the selection is withdrawn, whichever comes last.
-    held_until_time_and_withdrawal ["S840D-TEST-009", "S840D-TEST-029"]:
+    held_until_time_and_withdrawal ["S840D-TEST-009", "S840D-TEST-029", "S840D-SIGNAL-009"]:
         when |s| s.before.phase == Phase::RunOk && !s.inputs.power_on && !s.inputs.internal_ab
             => s.outputs.active == (s.inputs.select || !s.after.timer.is_zero());
 
@@ -100,7 +102,7 @@ monitor! { sinumerik::test_stop;
                 && !s.outputs.active;
 
     /// The feedback that a passed test rests on came while it was awaited: it was absent at the start and present then.
-    feedback_is_seen_to_change ["S840D-P-55", "S840D-TEST-022"]:
+    feedback_is_seen_to_change ["S840D-P-55", "S840D-TEST-022", "S840D-SIGNAL-008"]:
         when |s| s.before.phase != Phase::RunOk && s.after.phase == Phase::RunOk
             => s.before.phase == Phase::Run && s.inputs.pulses_cancelled && !s.inputs.power_on;
 

@@ -186,7 +186,7 @@ fn modulo_range_has_no_false_difference_at_its_ends() {
     assert_eq!(machine.first(300, |o| o.nck.channel.fault.interlock), None);
 }
 
-/// S840D-NX-001: at n_x the signal may be different in the channels for ever. 20 mm/min are 4 um a cycle.
+/// S840D-SIGNAL-018/a, S840D-NX-001: at n_x the signal may be different in the channels for ever. 20 mm/min are 4 um a cycle.
 #[test]
 fn threshold_may_differ_at_its_limit() {
     let mut machine = Machine::powered(&parameters(), false, None);

@@ -71,7 +71,7 @@ fn gear_change_withdraws_the_agreement() {
     assert!(machine.step().nck.sga.safely_referenced);
 }
 
-/// S840D-REF-016, S840D-INTERACT-718: parking freezes the position and takes the safe reference; after a new reference approach the
+/// S840D-INTERACT-719, S840D-REF-016, S840D-INTERACT-718: parking freezes the position and takes the safe reference; after a new reference approach the
 /// stored position decides.
 #[test]
 fn parking_takes_the_reference() {

@@ -258,7 +258,7 @@ fn the_ramp_and_n_x_do_not_see_the_correction() {
     assert!(corrected >= 5, "{corrected} passes were corrected");
 }
 
-/// S840D-SLIP-505/f, S840D-NX-002, line 1838: with slip n < n_x may lastingly differ between the channels; no code 2, no
+/// S840D-SIGNAL-018/b, S840D-SLIP-505/f, S840D-NX-002, line 1838: with slip n < n_x may lastingly differ between the channels; no code 2, no
 /// stop. Speeds that differ by more than the slip tolerated are a difference.
 #[test]
 fn n_below_n_x_may_differ_with_slip() {
@@ -281,6 +281,12 @@ fn n_below_n_x_may_differ_with_slip() {
         let _ = axis.step([0, 0]);
     }
     assert_eq!(axis.fault([5_000, 400_000], 2), Some(2));
+    // Neither SBH, SG, SE nor SN is active: STOP F stays alone.
+    for _ in 0..PASS {
+        let outputs = axis.step([5_000, 400_000]);
+        assert_eq!(levels(&outputs), both(Level::None));
+        assert!(outputs.nck.channel.fault.interlock);
+    }
 }
 
 /// S840D-SLIP-502, S840D-KDV-709: an axis that has slipped a long way stops and is held: the limits of the operating stop are

@@ -68,6 +68,25 @@ fn delays_are_rounded_up_to_whole_cycles() {
     }
 }
 
+/// S840D-PARAM-027, S840D-MDBUS-001: at the end of MD10089 the pulses are off, so the delay is rounded down to whole cycles, and
+/// what is shorter than a cycle is none. Every millisecond, in every cycle.
+#[test]
+fn the_delay_after_a_bus_failure_is_never_longer_than_the_machine_datum() {
+    for cycle_us in cycles() {
+        for ms in 0..=800 {
+            let p = Parameters {
+                pulse_dis_time_busfail: ms * 1_000,
+                ..axis(cycle_us, false)
+            };
+            let c = converted(&p);
+            let down = (exact(ms * 1_000) / exact(cycle_us)).floor().to_integer();
+            let expected = Cycles::new(u32::try_from(down).expect("a delay"));
+            assert_eq!(c.bus_nck().delay(), expected, "{ms} ms in {cycle_us} us");
+            assert_eq!(c.bus_drive().delay(), expected, "{ms} ms in {cycle_us} us");
+        }
+    }
+}
+
 /// S840D-SBH-003, S840D-PARAM-020, -021, the effect on the two-channel axis: the operating stop comes t_vel after its selection,
 /// that of STOP C t_C after the stop, STOP A t_B after STOP B: in the first cycle in which the exact time has passed, never
 /// before. Cycles and times drawn.

@@ -185,6 +185,7 @@ impl Values<'_> {
             posctrl_sysclock_time_ratio: self.plain("POSCTRL_SYSCLOCK_TIME_RATIO")?,
             safety_sysclock_time_ratio: self.plain("SAFETY_SYSCLOCK_TIME_RATIO")?,
             spl_stop_mode: self.plain("SAFE_SPL_STOP_MODE")?,
+            pulse_dis_time_busfail: self.plain("SAFE_PULSE_DIS_TIME_BUSFAIL")?,
             function_enable: self.enable_word(),
             is_rot_ax: self.axis.kind == AxisKind::Rotary,
             modulo_range: self.plain("MODULO_RANGE")?,
@@ -227,6 +228,7 @@ impl Values<'_> {
             pos_stop_mode: self.plain("POS_STOP_MODE")?,
             velo_stop_reaction: self.array("VELO_STOP_REACTION", same)?,
             ipo_stop_group: self.plain("IPO_STOP_GROUP")?,
+            park_alarm_suppress: self.is("PARK_ALARM_SUPPRESS"),
             ..Parameters::default()
         })
     }

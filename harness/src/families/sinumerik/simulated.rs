@@ -310,9 +310,9 @@ impl Pairs {
         };
         axis.obey(own.max(other), any(&|c| c.start_inhibit));
         // A help of the control for its user, in one channel only.
-        let speed = &self.outputs.nck.channel.speed;
-        let limited = setpoint_limited && speed.setpoint_limited;
-        axis.plant.limit = limited.then(|| i64::from(speed.setpoint_limit.0) * 1_000);
+        let setpoint = &self.outputs.setpoint;
+        let limited = setpoint_limited && setpoint.limited;
+        axis.plant.limit = limited.then(|| i64::from(setpoint.limit.0) * 1_000);
     }
 
     /// What the logic of a door sees of this axis, where the open door asks for `open`.

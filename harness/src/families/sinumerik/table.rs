@@ -327,7 +327,6 @@ fn bound(file: &Path, produced: &Produced) -> Result<Bound, String> {
         ("velo_x", speed(words.velo_x.0)),
         ("velo_tol", speed(words.standstill_velo_tol.0)),
         ("sg_mode", i64::from(p.velo_stop_mode % 10)),
-        ("setpoint_percent", i64::from(p.des_velo_limit)),
         ("internal", i64::from(p.installation.internal_cancellation)),
         ("tested", 1),
         ("peer", 1),

@@ -169,21 +169,21 @@ fields! {
 
 monitor! { sinumerik::compare;
     /// A difference of a static item is a finding, whatever timer runs.
-    static_difference_is_found ["S840D-STOP-002/f", "S840D-P-26", "S840D-P-27", "S840D-KDV-501", "S840D-KDV-502", "S840D-KDV-508",
-        "S840D-KDV-707"]:
+    static_difference_is_found ["S840D-STOP-002/f", "S840D-P-26", "S840D-P-27", "S840D-KDV-501", "S840D-KDV-502",
+        "S840D-KDV-508", "S840D-KDV-707", "S840D-PARAM-001"]:
         when |s| s.inputs.differs && s.before.due(&s.config, s.inputs.power_on).kind() == Kind::Static
             => s.outputs.discrepancy && s.outputs.code == s.before.due(&s.config, s.inputs.power_on).code();
 
     /// A difference of a dynamic item is a finding while no change timer runs.
     dynamic_difference_is_found ["S840D-P-26", "S840D-KDV-505/a", "S840D-KDV-509", "S840D-KDV-512", "S840D-KDV-515",
         "S840D-KDV-704", "S840D-KDV-705", "S840D-KDV-706", "S840D-KDV-709", "S840D-KDV-710", "S840D-KDV-713",
-        "S840D-KDV-714", "S840D-TEST-019/b", "S840D-GEAR-503", "S840D-GEAR-504"]:
+        "S840D-KDV-714", "S840D-TEST-019/b", "S840D-GEAR-503", "S840D-GEAR-504", "S840D-GEAR-702", "S840D-GEAR-704"]:
         when |s| s.inputs.differs && s.before.due(&s.config, s.inputs.power_on).kind() == Kind::Dynamic
             && !s.outputs.suspended
             => s.outputs.discrepancy && s.outputs.code == s.before.due(&s.config, s.inputs.power_on).code();
 
     /// While a change timer runs no dynamic item is a finding.
-    change_suspends_dynamic_items ["S840D-P-27", "S840D-KDV-506", "S840D-KDV-716"]:
+    change_suspends_dynamic_items ["S840D-P-27", "S840D-KDV-506", "S840D-KDV-716", "S840D-MDTIM-008", "S840D-MDTIM-007"]:
         when |s| (s.outputs.changing || s.inputs.other_changing)
             && s.before.due(&s.config, s.inputs.power_on).kind() == Kind::Dynamic
             => s.outputs.suspended && (!s.outputs.discrepancy || s.outputs.code == Code::TOO_MANY_CHANGES);
@@ -199,13 +199,14 @@ monitor! { sinumerik::compare;
             => if s.outputs.discrepancy { s.outputs.code == Code::TOO_MANY_CHANGES } else { s.outputs.code.is_none() };
 
     /// The next item of the list is due in the next cycle, the first after the last, whatever happens.
-    list_is_worked_off ["S840D-P-26", "S840D-KDV-504", "S840D-KDV-701", "S840D-TIMING-503"]:
+    list_is_worked_off ["S840D-P-26", "S840D-KDV-504", "S840D-KDV-701", "S840D-TIMING-503", "S840D-PARAM-004"]:
         when |s| !s.inputs.power_on
             => s.after.item == if usize::from(s.before.item) + 1 == s.config.pass() { 0 }
                 else { s.before.item.saturating_add(1) };
 
     /// A change of an own signal starts the whole change timer anew.
-    change_starts_the_timer ["S840D-KDV-506", "S840D-KDV-507", "S840D-KDV-715", "S840D-EXT-006", "S840D-OVR-004"]:
+    change_starts_the_timer ["S840D-KDV-506", "S840D-KDV-507", "S840D-KDV-715", "S840D-EXT-006", "S840D-OVR-004",
+        "S840D-MDTIM-007"]:
         when |s| s.inputs.change
             => s.after.change_timer == s.config.t_chg() && s.outputs.changing != s.config.t_chg().is_zero();
 
@@ -216,17 +217,17 @@ monitor! { sinumerik::compare;
                 && s.outputs.changing != s.after.change_timer.is_zero();
 
     /// The first cycle of the other channel's change timer starts the whole checking timer.
-    checking_starts_its_timer ["S840D-KDV-507", "S840D-KDV-715"]:
+    checking_starts_its_timer ["S840D-KDV-507", "S840D-KDV-715", "S840D-MDTIM-007"]:
         when |s| s.inputs.other_changing && (!s.before.checking || s.inputs.power_on)
             => s.after.checking && s.after.check_timer == s.config.checking_time();
 
     /// While the other channel's change timer runs on, further changes do not restart the checking timer.
-    checking_runs_once ["S840D-P-50", "S840D-KDV-507", "S840D-KDV-715"]:
+    checking_runs_once ["S840D-P-50", "S840D-KDV-507", "S840D-KDV-715", "S840D-MDTIM-007"]:
         when |s| s.inputs.other_changing && s.before.checking && !s.inputs.power_on && s.before.check_timer.count() > 1
             => s.after.check_timer == s.before.check_timer.tick() && s.outputs.code != Code::TOO_MANY_CHANGES;
 
     /// A change timer of the other channel that outlives the checking timer is a finding; the checking begins anew.
-    lasting_change_is_found ["S840D-P-50", "S840D-KDV-507", "S840D-KDV-715", "S840D-OVR-004"]:
+    lasting_change_is_found ["S840D-P-50", "S840D-KDV-507", "S840D-KDV-715", "S840D-OVR-004", "S840D-MDTIM-007"]:
         when |s| s.inputs.other_changing && s.before.checking && !s.inputs.power_on && s.before.check_timer.count() == 1
             => s.outputs.discrepancy && (s.inputs.differs || s.outputs.code == Code::TOO_MANY_CHANGES)
                 && s.after.check_timer == s.config.checking_time();

@@ -3,7 +3,8 @@
 use crate::kernel::Cycles;
 
 use crate::sinumerik::level::{ExternalStop, InternalStop};
-use crate::sinumerik::{external, fault, group, stop};
+use crate::sinumerik::selection::Monitored;
+use crate::sinumerik::{bus_failure, external, fault, group, stop};
 
 variants! { sinumerik::stop:
     /// STOP B never becomes STOP A by its timer, only by standstill.
@@ -117,5 +118,44 @@ variants! { sinumerik::group:
             inputs.internal = level;
         }
         group::transition(state, config, &inputs)
+    }
+}
+
+variants! { sinumerik::bus_failure:
+    /// Only what was active when the bus failed counts: the operating stop selected during the delay does not.
+    "bus-failure-selection-comes-too-late" |state, config, inputs| {
+        let mut inputs = *inputs;
+        if state.phase == bus_failure::Phase::Waits && !inputs.power_on && !inputs.sge_sbh {
+            inputs.sge_sbh_sg = true;
+        }
+        bus_failure::transition(state, config, &inputs)
+    }
+
+    /// An operating stop that is active without being selected waits.
+    "bus-failure-forced-standstill-waits" |state, config, inputs| {
+        let mut inputs = *inputs;
+        if inputs.monitored == Monitored::Standstill {
+            inputs.monitored = Monitored::Nothing;
+        }
+        bus_failure::transition(state, config, &inputs)
+    }
+
+    /// A bus that comes back ends the delay.
+    "bus-failure-forgiven" |state, config, inputs| {
+        let state = if !inputs.failed && state.phase == bus_failure::Phase::Waits {
+            bus_failure::State::INITIAL
+        } else {
+            state
+        };
+        bus_failure::transition(state, config, inputs)
+    }
+
+    /// The signals are taken away when the bus fails, not when the pulses go off.
+    "bus-failure-signals-cleared-early" |state, config, inputs| {
+        let (after, mut outputs) = bus_failure::transition(state, config, inputs);
+        if outputs.signals == bus_failure::Signals::Held {
+            outputs.signals = bus_failure::Signals::Cleared;
+        }
+        (after, outputs)
     }
 }

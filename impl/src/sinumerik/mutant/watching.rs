@@ -4,7 +4,9 @@ use crate::kernel::Speed;
 
 use crate::sinumerik::level::InternalStop;
 use crate::sinumerik::selection::Monitored;
-use crate::sinumerik::{cam, limit_switch, motion, ramp, results, speed, standstill, threshold};
+use crate::sinumerik::{
+    cam, limit_switch, motion, ramp, results, setpoint, speed, standstill, threshold,
+};
 
 variants! { sinumerik::motion:
     /// The way made while parked counts as speed.
@@ -67,6 +69,27 @@ variants! { sinumerik::speed:
             inputs.encoder_speed = Speed(0);
         }
         speed::transition(state, config, &inputs)
+    }
+}
+
+variants! { sinumerik::setpoint:
+    /// The first channel that changes over raises the limit.
+    "setpoint-first-channel-raises" |state, config, inputs| {
+        let mut inputs = *inputs;
+        if inputs.nck_goal == Monitored::Speed && inputs.drive_goal == Monitored::Speed {
+            let higher = inputs.nck_limit.max(inputs.drive_limit);
+            (inputs.nck_limit, inputs.drive_limit) = (higher, higher);
+        }
+        setpoint::transition(state, config, &inputs)
+    }
+
+    /// A channel with nothing selected lifts the limit of the other one.
+    "setpoint-one-channel-frees" |state, config, inputs| {
+        let mut inputs = *inputs;
+        if inputs.drive_goal == Monitored::Nothing {
+            inputs.nck_goal = Monitored::Nothing;
+        }
+        setpoint::transition(state, config, &inputs)
     }
 }
 

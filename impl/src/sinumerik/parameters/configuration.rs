@@ -7,9 +7,9 @@ use crate::kernel::{ConfigError, Cycles, Distance, Percent, Position, Speed};
 use crate::sinumerik::compare::list;
 use crate::sinumerik::encoder::LimitFrequency;
 use crate::sinumerik::{
-    agreement, cam, channel, compare, external, fault, forced_check, gear, group, history,
-    limit_switch, pulses, ramp, reference, results, selection, shutdown_test, slip, speed,
-    standstill, stop, test_stop, threshold,
+    agreement, bus_failure, cam, channel, compare, external, fault, forced_check, gear, group,
+    history, limit_switch, pulses, ramp, reference, results, selection, setpoint, shutdown_test,
+    slip, speed, standstill, stop, test_stop, threshold,
 };
 use crate::units::{ModuloRange, Scale};
 
@@ -41,6 +41,9 @@ pub struct Configuration {
     pub(crate) shutdown_test: shutdown_test::Config,
     pub(crate) forced_check: forced_check::Config,
     pub(crate) group: group::Config,
+    pub(crate) setpoint: setpoint::Config,
+    pub(crate) bus_nck: bus_failure::Config,
+    pub(crate) bus_drive: bus_failure::Config,
     pub(crate) words: list::Parameters,
     pub(crate) park_alarm_suppress: bool,
 }
@@ -78,6 +81,12 @@ shown! {
     forced_check: forced_check::Config;
     /// The effect of its stops on other axes.
     group: group::Config;
+    /// The limit of the speed setpoint.
+    setpoint: setpoint::Config;
+    /// The NCK's reaction to a failure of the drive bus.
+    bus_nck: bus_failure::Config;
+    /// The drive's reaction to it.
+    bus_drive: bus_failure::Config;
     /// The parameters as they are compared with the other channel.
     words: list::Parameters;
 }
@@ -161,6 +170,19 @@ impl Configuration {
         self.cycle_us
     }
 
+    /// How long one pass of the comparison takes, in us (MD36992): one item in each monitoring cycle (S840D-PARAM-004).
+    pub fn comparison_us(&self) -> u64 {
+        // A list has fewer than 256 items.
+        u64::try_from(self.compare.pass())
+            .unwrap_or(u64::MAX)
+            .saturating_mul(u64::from(self.cycle_us.get()))
+    }
+
+    /// The longest pass of several axes, in us (MD10092); 0 without an axis (S840D-PARAM-004).
+    pub fn longest_comparison_us(axes: &[Self]) -> u64 {
+        axes.iter().map(Self::comparison_us).max().unwrap_or(0)
+    }
+
     pub(super) fn convert(p: &Parameters) -> Result<Self, ParameterError> {
         let clock = Clock::new(p)?;
         let se_sn_enabled = p.se_sn_enabled();
@@ -210,6 +232,9 @@ impl Configuration {
             } else {
                 group::Reach::Interpolating
             }),
+            setpoint: setpoint::Config::new(p.des_velo_limit)?,
+            bus_nck: bus_failure(p, clock, true)?,
+            bus_drive: bus_failure(p, clock, false)?,
             words: words(p, clock)?,
             park_alarm_suppress: p.park_alarm_suppress,
         })
@@ -246,12 +271,7 @@ fn channel(p: &Parameters, clock: Clock) -> Result<channel::Config, ConfigError>
             selection
         },
         standstill: standstill::Config::new(Distance(p.standstill_tol))?,
-        speed: speed::Config::new(
-            p.velo_stop_mode,
-            p.velo_stop_reaction,
-            encoder_max,
-            p.des_velo_limit,
-        )?,
+        speed: speed::Config::new(p.velo_stop_mode, p.velo_stop_reaction, encoder_max)?,
         limit_switch: limit_switch::Config::new(
             p.enabled(Function::Se),
             p.pos_limit_plus.map(Position),
@@ -275,6 +295,21 @@ fn channel(p: &Parameters, clock: Clock) -> Result<channel::Config, ConfigError>
         standstill_speed: clock.speed(p.standstill_velo_tol)?,
         se_sn_enabled: p.se_sn_enabled(),
     })
+}
+
+fn bus_failure(
+    p: &Parameters,
+    clock: Clock,
+    nck: bool,
+) -> Result<bus_failure::Config, ConfigError> {
+    bus_failure::Config::new(
+        nck,
+        p.enabled(Function::SbhSg),
+        // Rounded down: at its end the pulses must be off.
+        clock.interval(p.pulse_dis_time_busfail.into())?,
+        p.velo_stop_mode,
+        p.velo_stop_reaction,
+    )
 }
 
 fn cams(p: &Parameters) -> Result<[cam::Config; 8], ConfigError> {

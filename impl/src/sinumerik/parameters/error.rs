@@ -15,7 +15,7 @@ pub enum Rule {
     CycleNotInDrive,
     /// A function is enabled without SBH/SG, in which STOP C, D and E end (S840D-PARAM-502, context 5).
     WithoutSbhSg,
-    /// The reserved bit 2 of the enable word is set (S840D-PARAM-501).
+    /// The reserved bit 2 of the enable word is set (S840D-PARAM-501, S840D-MDCHK-029/a).
     ReservedBit,
     /// External STOP E is enabled without external stops (S840D-EXT-003).
     StopEWithoutExternalStops,

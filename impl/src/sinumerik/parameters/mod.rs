@@ -130,7 +130,7 @@ machine_data! {
     /// Position-control cycle in basic system clocks (S840D-TIMING-502).
     10060 "POSCTRL_SYSCLOCK_TIME_RATIO" posctrl_sysclock_time_ratio: u32 = 1, Range(1, 31), Number;
 
-    /// Delay from a failure of the drive bus to pulse cancellation (S840D-BUSFAIL-701); compared only.
+    /// Delay from a failure of the drive bus to pulse cancellation (S840D-BUSFAIL-701, S840D-MDBUS-001).
     10089 "SAFE_PULSE_DIS_TIME_BUSFAIL" pulse_dis_time_busfail: u32 = 0, Range(0, 800_000), Microseconds;
 
     /// Monitoring cycle T_SI in basic system clocks (S840D-TIMING-501, S840D-PARAM-003).
@@ -337,10 +337,10 @@ impl Parameters {
 
     /// Checks every value and the plausibility of their combination, and converts them for the monitors.
     ///
-    /// Limits, thresholds and tolerances are rounded down to whole increments, the interval of the tests down to whole cycles: by
-    /// these a monitor never permits more than the machine datum. Two things it rounds up, so that what the machine datum
-    /// names is granted whole: a delay, by less than a cycle, during which the old state is tolerated that much longer; and
-    /// the slip tolerated, by the dead band and less than an increment in a pass of the comparison (see `Clock::slip`).
+    /// Limits, thresholds and tolerances are rounded down to whole increments, the interval of the tests and the time from a
+    /// failure of the drive bus to the pulse cancellation down to whole cycles: by these a monitor never permits more than
+    /// the machine datum. Two things it rounds up, so that what the machine datum names is granted whole: any other delay,
+    /// by less than a cycle, during which the old state is tolerated that much longer; and the slip tolerated, by the dead band and less than an increment in a pass of the comparison (see `Clock::slip`).
     ///
     /// # Errors
     /// [`ParameterError`] with the machine datum, its value and what is permitted, the first found: ranges by number

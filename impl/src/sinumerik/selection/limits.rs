@@ -19,7 +19,7 @@ fields! {
 }
 
 impl Stage {
-    /// The stage of the signals "SG selection bit 1, bit 0" (S840D-SG-002).
+    /// The stage of the signals "SG selection bit 1, bit 0" (S840D-SG-002, S840D-SIGNAL-004).
     pub const fn from_bits(bit1: bool, bit0: bool) -> Self {
         match (bit1, bit0) {
             (false, false) => Self::Sg1,
@@ -56,7 +56,7 @@ impl FactorIndex {
     }
 
     /// The index of the signals "SG override selection bit 3, 2, 1, 0"; a signal that is not configured counts as 0
-    /// (S840D-OVR-001, S840D-OVR-002).
+    /// (S840D-OVR-001, S840D-OVR-002, S840D-SIGNAL-007).
     pub const fn from_bits(bit3: bool, bit2: bool, bit1: bool, bit0: bool) -> Self {
         Self(((bit3 as u8) << 3) | ((bit2 as u8) << 2) | ((bit1 as u8) << 1) | bit0 as u8)
     }

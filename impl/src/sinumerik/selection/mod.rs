@@ -193,6 +193,10 @@ fields! {
         pub limit: Speed,
         /// The reference where the position is monitored, else 0.
         pub reference: Position,
+        /// What the setpoints are to keep to already: what will be monitored once a delay that runs is over.
+        pub goal: Monitored,
+        /// The effective limit that will be monitored then, else 0.
+        pub goal_limit: Speed,
     }
 }
 
@@ -242,7 +246,7 @@ monitor! { sinumerik::selection;
             => s.after == s.before;
 
     /// The reference of the operating stop is the position at its activation.
-    reference_is_captured_on_activation ["S840D-SBH-001", "S840D-SBH-003", "S840D-STOP-080"]:
+    reference_is_captured_on_activation ["S840D-SBH-001", "S840D-SBH-003", "S840D-STOP-080", "S840D-MDTIM-005"]:
         when |s| s.after.mode == Mode::Sbh
             && (s.inputs.power_on || (s.after.mode != s.before.mode && s.before.mode != Mode::SbhForced))
             => s.after.reference == s.inputs.position;
@@ -274,12 +278,14 @@ monitor! { sinumerik::selection;
             => s.after.reference == s.before.reference;
 
     /// De-selection acts at once in every mode but the forced operating stop.
-    deselection_acts_at_once ["S840D-SBH-006", "S840D-SBH-010", "S840D-SBH-011", "S840D-SG-005"]:
+    deselection_acts_at_once ["S840D-SBH-006", "S840D-SBH-010", "S840D-SBH-011", "S840D-SG-005", "S840D-MDTIM-003",
+        "S840D-SIGNAL-003"]:
         when |s| s.inputs.sge_sbh_sg && !s.inputs.sbh_internal
             => s.after == State::INITIAL && s.outputs.monitored == Monitored::Nothing;
 
     /// A limit at least as high as the monitored one takes effect in the same cycle.
-    higher_limit_acts_at_once ["S840D-P-09", "S840D-SBH-010", "S840D-SG-003", "S840D-OVR-003"]:
+    higher_limit_acts_at_once ["S840D-P-09", "S840D-SBH-010", "S840D-SG-003", "S840D-OVR-003", "S840D-MDTIM-002",
+        "S840D-MDTIM-006"]:
         when |s| s.before.mode.watches_speed() && !s.inputs.power_on && !s.inputs.sbh_internal
             && !s.inputs.sge_sbh_sg && s.inputs.sge_sbh
             && s.config.effective(s.inputs.choice(&s.config)) >= s.config.effective(s.before.monitored())
@@ -287,7 +293,8 @@ monitor! { sinumerik::selection;
             => s.after == State::speed(s.inputs.choice(&s.config));
 
     /// A lower limit newly selected starts the whole delay; the old limit stays in force, unless the delay is 0.
-    lower_limit_waits ["S840D-P-08", "S840D-SBH-010", "S840D-SG-004", "S840D-OVR-003", "S840D-PARAM-011"]:
+    lower_limit_waits ["S840D-P-08", "S840D-SBH-010", "S840D-SG-004", "S840D-OVR-003", "S840D-PARAM-011",
+        "S840D-MDTIM-004", "S840D-MDTIM-001", "S840D-MDTIM-018"]:
         when |s| s.before.mode.watches_speed() && !s.inputs.power_on && !s.inputs.sbh_internal
             && !s.inputs.sge_sbh_sg && s.inputs.sge_sbh
             && s.config.effective(s.inputs.choice(&s.config)) < s.config.effective(s.before.monitored())
@@ -300,7 +307,7 @@ monitor! { sinumerik::selection;
             };
 
     /// The same lower limit selected on: the delay runs to its end, then the new limit is in force, not before.
-    lower_limit_comes_in_time ["S840D-P-08", "S840D-SG-004"]:
+    lower_limit_comes_in_time ["S840D-P-08", "S840D-SG-004", "S840D-MDTIM-005", "S840D-MDTIM-018"]:
         when |s| s.before.mode == Mode::SgDown && !s.inputs.power_on && !s.inputs.sbh_internal
             && !s.inputs.sge_sbh_sg && s.inputs.sge_sbh && s.inputs.choice(&s.config) == s.before.pending()
             => if s.before.timer > Cycles::new(1) {
@@ -310,7 +317,7 @@ monitor! { sinumerik::selection;
             };
 
     /// The operating stop selected from a speed stage starts the whole delay; the old limit stays in force.
-    standstill_waits ["S840D-SBH-003", "S840D-SBH-010"]:
+    standstill_waits ["S840D-SBH-003", "S840D-SBH-010", "S840D-MDTIM-004", "S840D-MDTIM-001", "S840D-MDTIM-018"]:
         when |s| (s.before.mode == Mode::Sg || s.before.mode == Mode::SgDown) && !s.inputs.power_on
             && !s.inputs.sbh_internal && !s.inputs.sge_sbh_sg && !s.inputs.sge_sbh
             => if s.config.t_vel.is_zero() {
@@ -321,7 +328,7 @@ monitor! { sinumerik::selection;
             };
 
     /// The operating stop selected on: the delay runs to its end, then the position is monitored, not before.
-    standstill_comes_in_time ["S840D-SBH-003"]:
+    standstill_comes_in_time ["S840D-SBH-003", "S840D-MDTIM-005", "S840D-MDTIM-018"]:
         when |s| s.before.mode == Mode::SbhPend && !s.inputs.power_on && !s.inputs.sbh_internal
             && !s.inputs.sge_sbh_sg && !s.inputs.sge_sbh
             => if s.before.timer > Cycles::new(1) {
@@ -331,7 +338,8 @@ monitor! { sinumerik::selection;
             };
 
     /// Without a speed stage before, the selection acts at once.
-    selection_without_speed_acts_at_once ["S840D-SBH-002/b", "S840D-SBH-002/c", "S840D-SBH-004", "S840D-SBH-006", "S840D-SG-005"]:
+    selection_without_speed_acts_at_once ["S840D-SBH-002/b", "S840D-SBH-002/c", "S840D-SBH-004", "S840D-SBH-006",
+        "S840D-SG-005", "S840D-MDTIM-017", "S840D-INTERACT-704", "S840D-SIGNAL-003", "S840D-SIGNAL-004"]:
         when |s| s.config.enable && !s.inputs.sbh_internal && !s.inputs.sge_sbh_sg
             && (s.inputs.power_on || !s.before.mode.watches_speed())
             => if s.inputs.sge_sbh {
@@ -342,7 +350,7 @@ monitor! { sinumerik::selection;
 
     /// The limit compared is that of the stage, in SG2 and SG4 reduced by the factor in force and rounded down to the next
     /// whole increment.
-    factor_reduces_the_limit ["S840D-OVR-001", "S840D-OVR-002", "S840D-PARAM-011", "S840D-SG-001"]:
+    factor_reduces_the_limit ["S840D-OVR-001", "S840D-OVR-002", "S840D-PARAM-011", "S840D-SG-001", "S840D-SIGNAL-007"]:
         when |s| s.outputs.monitored == Monitored::Speed
             => {
                 let exact = u64::from(s.config.limit(s.after.stage).0)
@@ -358,7 +366,8 @@ monitor! { sinumerik::selection;
             => s.after.factor == FactorIndex::NONE && s.outputs.limit == s.config.limit(s.after.stage);
 
     /// The signals to the user show what is monitored, not what is selected.
-    feedback_shows_what_is_monitored ["S840D-P-53", "S840D-SBH-007", "S840D-SG-009", "S840D-SG-014"]:
+    feedback_shows_what_is_monitored ["S840D-P-53", "S840D-SBH-007", "S840D-SG-009", "S840D-SG-014", "S840D-SIGNAL-017",
+        "S840D-SIGNAL-016"]:
         when |s| s.after.mode != Mode::Nsb
             => s.outputs.sga_active
                 && s.outputs.sga_sbh_active == (s.outputs.monitored == Monitored::Standstill)
@@ -371,9 +380,19 @@ monitor! { sinumerik::selection;
                 };
 
     /// With nothing selected nothing is monitored and every signal is 0.
-    nothing_selected_nothing_monitored ["S840D-SG-012", "S840D-SBH-002/a"]:
+    nothing_selected_nothing_monitored ["S840D-SG-012", "S840D-SBH-002/a", "S840D-SIGNAL-017"]:
         when |s| s.after.mode == Mode::Nsb
             => !s.outputs.sga_active && !s.outputs.sga_sbh_active && s.outputs.monitored == Monitored::Nothing;
+
+    /// The setpoints are to keep to what the mode leads to, from the cycle on in which the signals change.
+    goal_is_where_the_delay_leads ["S840D-INTERACT-702", "S840D-INTERACT-704", "S840D-INTERACT-705", "S840D-INTERACT-707"]:
+        when |s| s.before.invariant(&s.config)
+            => (s.outputs.goal, s.outputs.goal_limit) == match s.after.mode {
+                Mode::Nsb => (Monitored::Nothing, Speed(0)),
+                Mode::Sg => (Monitored::Speed, s.config.effective(s.after.monitored())),
+                Mode::SgDown => (Monitored::Speed, s.config.effective(s.after.pending())),
+                Mode::SbhPend | Mode::Sbh | Mode::SbhForced => (Monitored::Standstill, Speed(0)),
+            };
 
     /// Where SBH and SG are not enabled nothing is ever selected.
     disabled_is_off ["S840D-SG-012"]:
@@ -404,7 +423,18 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
     } else {
         select(before, config, inputs)
     };
-    (after, outputs(after, config))
+    (after, outputs(after, config, goal(config, inputs)))
+}
+
+/// What is asked for in this cycle, without any delay.
+fn goal(config: &Config, inputs: &Inputs) -> Selected {
+    if !config.enable {
+        Selected::Nothing
+    } else if inputs.sbh_internal {
+        Selected::Standstill
+    } else {
+        inputs.selected(config)
+    }
 }
 
 /// The next state where the signals decide.
@@ -470,7 +500,7 @@ fn speed_after(left: Cycles, old: Choice, new: Choice) -> State {
     }
 }
 
-fn outputs(state: State, config: &Config) -> Outputs {
+fn outputs(state: State, config: &Config, goal: Selected) -> Outputs {
     let monitored = match state.mode {
         Mode::Nsb => Monitored::Nothing,
         Mode::Sg | Mode::SgDown | Mode::SbhPend => Monitored::Speed,
@@ -488,5 +518,14 @@ fn outputs(state: State, config: &Config) -> Outputs {
             Speed(0)
         },
         reference: state.reference,
+        goal: match goal {
+            Selected::Nothing => Monitored::Nothing,
+            Selected::Standstill => Monitored::Standstill,
+            Selected::Speed(_) => Monitored::Speed,
+        },
+        goal_limit: match goal {
+            Selected::Speed(choice) => config.effective(choice),
+            Selected::Nothing | Selected::Standstill => Speed(0),
+        },
     }
 }

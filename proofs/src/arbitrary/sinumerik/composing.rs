@@ -60,7 +60,6 @@ fn config<S: Source>(source: &mut S, t_f: Cycles) -> Option<channel::Config> {
         }
     }
     let encoder_max = source.any_bool().then(|| velocity(source));
-    let setpoint = source.any_u32(1, 100) as u8;
     let t_chk = source.any_delay(Cycles::TEN_SECONDS);
     Some(channel::Config {
         external: external::Config::new(enable_ext, enable_e, spl_stop_e).ok()?,
@@ -72,7 +71,7 @@ fn config<S: Source>(source: &mut S, t_f: Cycles) -> Option<channel::Config> {
             12,
         )))
         .ok()?,
-        speed: speed::Config::new(mode, reactions, encoder_max, setpoint).ok()?,
+        speed: speed::Config::new(mode, reactions, encoder_max).ok()?,
         limit_switch: limit_switch::Config::new(
             source.any_bool(),
             [plus_1, plus_2],
@@ -257,7 +256,7 @@ fn sample(delay: Cycles) -> Option<channel::Config> {
         test: test_stop::Config::new(delay).ok()?,
         selection: selection::Config::new(true, delay, limits).ok()?,
         standstill: standstill::Config::new(Distance(6)).ok()?,
-        speed: speed::Config::new(5, [2, 3, 0, 1], None, 50).ok()?,
+        speed: speed::Config::new(5, [2, 3, 0, 1], None).ok()?,
         limit_switch: limit_switch::Config::new(
             true,
             [Position(0), Position(-7)],

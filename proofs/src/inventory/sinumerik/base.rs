@@ -45,6 +45,11 @@ inventory! {
         tries: "",
         caveat: "of several stopping axes the highest reaction counts: a maximum, tested in the monitor's module",
     }]
+    [contract bus_failure_contract on sinumerik::bus_failure {
+        property: "every clause of the reaction to a failure of the drive bus: at once, delayed, kept, what each channel still does",
+        tries: "delay: 0..2; left: 0..2",
+        caveat: "that the signals and the monitored stage are those still known to the channel is up to the caller",
+    }]
     [run(18) initial_states on sinumerik::"all" by initial::initial_states {
         property: "the initial state of every monitor satisfies its invariant: the base of the induction",
         requirements: ["S840D-ARCH-504"],
@@ -74,7 +79,7 @@ inventory! {
     }]
     [run(4) stop_queue on sinumerik::"stop" by stop::queued_stop_acts_after_withdrawal {
         property: "a stop queued beneath an external STOP A acts after its withdrawal and starts its time then",
-        requirements: ["S840D-P-20", "S840D-EXT-009", "S840D-STOP-097"],
+        requirements: ["S840D-P-20", "S840D-EXT-009", "S840D-STOP-097", "S840D-SIGNAL-011"],
         covers: ["a queued STOP C, D or E", "a queued STOP B"],
         domain: Domain { delays: &[0, 1, 2], highest_speed: 0 },
         domain_text: "times 0, 1 or 2 cycles each; every queued stop",

@@ -110,7 +110,7 @@ fn movement_of_axis_is_compared_exactly<S: Source>(
     let Ok(limit) = Scale::new(axis, cycle_us).and_then(|scale| scale.speed(per_minute)) else {
         return Verdict::Discarded;
     };
-    let Ok(config) = speed::Config::new(2, [0; 4], None, 0) else {
+    let Ok(config) = speed::Config::new(2, [0; 4], None) else {
         return Verdict::Discarded;
     };
     let from = Position(source.any_i32(1));

@@ -260,7 +260,7 @@ pub fn violation_stops_in_the_same_cycle<S: Source>(source: &mut S, subject: &Su
     if let Some(reaction) = reactions.get_mut(usize::from(stage.index())) {
         *reaction = source.any_in(0, 4) as u8;
     }
-    let Ok(stops) = speed::Config::new(5, reactions, None, 0) else {
+    let Ok(stops) = speed::Config::new(5, reactions, None) else {
         return Verdict::Discarded;
     };
     let at = Position(source.any_i32(1));

@@ -11,7 +11,7 @@ use stillpoint_monitors::units::Axis;
 use toml::{Table, Value};
 
 /// Machine data of the monitors that a machine file does not hold under their own name.
-const NOT_IN_FILE: [u32; 5] = [36901, 36902, 10089, 36958, 36965];
+const NOT_IN_FILE: [u32; 3] = [36901, 36902, 36958];
 
 /// A value of a machine datum, in a machine file and in the monitors, which must agree.
 ///

@@ -13,6 +13,7 @@ use stillpoint_monitors::sinumerik::parameters::{Configuration, Parameters};
 pub const RUNNERS: &[(&str, Runner)] = &[
     ("story", story::run),
     ("external_stops", single::external_stops),
+    ("bus_failure", single::bus_failure),
     ("priority", single::priority),
     ("signal", single::signal),
     ("alarm", single::alarm),

@@ -1,5 +1,6 @@
 //! Runners of one monitor each.
 
+use super::parameters;
 use crate::manuals::case::Given;
 use core::num::NonZeroU32;
 use stillpoint_harness::families::sinumerik::vocabulary;
@@ -9,7 +10,8 @@ use stillpoint_monitors::sinumerik::encoder::{Encoder, LimitFrequency, Mounting,
 use stillpoint_monitors::sinumerik::gear::GearIndex;
 use stillpoint_monitors::sinumerik::interface::{Place, SGA, SGE};
 use stillpoint_monitors::sinumerik::level::{InternalStop, Level};
-use stillpoint_monitors::sinumerik::{external, stop};
+use stillpoint_monitors::sinumerik::selection::{Monitored, Stage};
+use stillpoint_monitors::sinumerik::{bus_failure, external, stop};
 use toml::{Table, Value};
 
 /// External stops of one channel, once the safe logic is compared. Given: `selected`, the letters whose signal is 0; `stop_e`,
@@ -33,6 +35,41 @@ pub fn external_stops(given: &Given<'_>) -> Result<Table, String> {
         "request".to_owned(),
         Value::from(request),
     )]))
+}
+
+/// The drive bus fails. Given: `axis`, `control`, lines of a machine file; `stage`, the active and selected one from 1, 0 for
+/// neither SBH nor SG. Answer: `pulses_off`, in ms after the failure; it is an error if the channels differ.
+pub fn bus_failure(given: &Given<'_>) -> Result<Table, String> {
+    let (_, configuration) = parameters(given)?;
+    let stage = given.int("stage")?;
+    let index = u8::try_from((stage - 1).max(0)).map_err(|e| e.to_string())?;
+    let selected = Stage::from_bits(index & 2 == 2, index & 1 == 1);
+    let inputs = bus_failure::Inputs {
+        failed: true,
+        sge_sbh_sg: stage == 0,
+        sge_sbh: true,
+        sg_select: selected,
+        monitored: match stage {
+            0 => Monitored::Nothing,
+            _ => Monitored::Speed,
+        },
+        stage: selected,
+        ..bus_failure::Inputs::default()
+    };
+    let mut off = Vec::new();
+    for config in [configuration.bus_nck(), configuration.bus_drive()] {
+        let mut monitor = bus_failure::Monitor::new(*config);
+        let cycles = (0..2_000_u32).find(|_| monitor.step(&inputs).cancel);
+        let cycles = cycles.ok_or("the pulses stay on")?;
+        off.push(i64::from(cycles * configuration.cycle_us().get() / 1_000));
+    }
+    match off.as_slice() {
+        [nck, drive] if nck == drive => Ok(Table::from_iter([(
+            "pulses_off".to_owned(),
+            Value::from(*nck),
+        )])),
+        differ => Err(format!("the channels differ: {differ:?}")),
+    }
 }
 
 /// Two stops of one channel, one a cycle after the other. Given: `first`, `then`, letters or `TEST`. Answer: `after`, the

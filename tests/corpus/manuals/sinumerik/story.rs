@@ -19,7 +19,7 @@ use stillpoint_harness::families::sinumerik::vocabulary;
 use stillpoint_harness::recording::Value as Seen;
 use stillpoint_monitors::kernel::Position;
 use stillpoint_monitors::sinumerik::axis::{self, Local};
-use stillpoint_monitors::sinumerik::pair::{Config, Inputs, Pair, State};
+use stillpoint_monitors::sinumerik::pair::{Config, Inputs, Outputs, Pair, State};
 use toml::{Table, Value};
 
 /// Cycles a story may last; the longest time of the manual is a minute.
@@ -38,7 +38,7 @@ struct Event<'a> {
 type Extra = (&'static str, fn(&axis::Outputs) -> Seen);
 
 /// Outputs that recordings do not have.
-const EXTRAS: [Extra; 7] = [
+const EXTRAS: [Extra; 5] = [
     ("stopsi", |o| Seen::Int(i64::from(o.channel.stop.stopsi))),
     ("xfaultsi_1", |o| Seen::Bool(o.channel.fault.bit1)),
     ("ramp_limit", |o| {
@@ -47,13 +47,15 @@ const EXTRAS: [Extra; 7] = [
     ("gear_stage", |o| {
         Seen::Int(i64::from(o.gear.stage.get()) + 1)
     }),
-    ("setpoint_limited", |o| {
-        Seen::Bool(o.channel.speed.setpoint_limited)
-    }),
-    ("setpoint_limit", |o| {
-        Seen::Int(i64::from(o.channel.speed.setpoint_limit.0))
-    }),
     ("position", |o| Seen::Int(i64::from(o.position.0))),
+];
+
+/// Outputs of both channels together; either may be asked.
+const JOINT: [(&str, fn(&Outputs) -> Seen); 2] = [
+    ("setpoint_limited", |o| Seen::Bool(o.setpoint.limited)),
+    ("setpoint_limit", |o| {
+        Seen::Int(i64::from(o.setpoint.limit.0))
+    }),
 ];
 
 /// What both channels showed in a cycle: by side, by output.
@@ -222,7 +224,9 @@ fn play(
         pulses = enabled(&outputs.nck) && enabled(&outputs.drive);
         let all = |side, local: &Local, of: &axis::Outputs| {
             let named = names.iter().map(|n| n.get(side, local, of));
-            named.chain(EXTRAS.iter().map(|(_, get)| get(of))).collect()
+            let extras = EXTRAS.iter().map(|(_, get)| get(of));
+            let joint = JOINT.iter().map(|(_, get)| get(&outputs));
+            named.chain(extras).chain(joint).collect()
         };
         shown.push([
             all(0, &now.nck, &outputs.nck),
@@ -248,6 +252,7 @@ fn reply(
         let named = vocabulary::outputs().into_iter().map(|o| o.name);
         named
             .chain(EXTRAS.iter().map(|(name, _)| *name))
+            .chain(JOINT.iter().map(|(name, _)| *name))
             .position(|known| known == name)
             .ok_or(format!("no output is called {name}"))
     };

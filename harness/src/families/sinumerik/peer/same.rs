@@ -2,7 +2,7 @@
 
 use stillpoint_monitors::kernel::{ConfigError, Position};
 use stillpoint_monitors::mutant::Mutant;
-use stillpoint_monitors::sinumerik::{limit_switch, selection, speed, spl_file};
+use stillpoint_monitors::sinumerik::{bus_failure, limit_switch, selection, speed, spl_file};
 
 use super::numbers::{EXTERNAL, INTERNAL, small};
 use crate::diff::peer::numbers::upto;
@@ -26,7 +26,6 @@ pub(super) fn speed_config(p: &Params, mode: &str) -> Result<speed::Config, Conf
         small(p.value(mode)),
         reactions.map(|name| small(p.value(name))),
         p.is("one_encoder").then(|| p.speed("encoder_max")),
-        small(p.value("setpoint_percent")),
     )
 }
 
@@ -42,6 +41,17 @@ pub(super) fn limit_switch_config(
         pair(["plus_1", "plus_2"]),
         pair(["minus_1", "minus_2"]),
         small(p.value(mode)),
+    )
+}
+
+fn bus_failure_config(p: &Params) -> Result<bus_failure::Config, ConfigError> {
+    let reactions = ["reaction_1", "reaction_2", "reaction_3", "reaction_4"];
+    bus_failure::Config::new(
+        p.is("nck"),
+        p.is("enable"),
+        p.time("t_bus"),
+        small(p.value("stop_mode")),
+        reactions.map(|name| small(p.value(name))),
     )
 }
 
@@ -66,6 +76,11 @@ peers! { sinumerik |p|
         .only(&["demand", "rx_internal"], INTERNAL)
         .only(&["external", "rx_external"], EXTERNAL);
 
+    // The table counts what has passed of the delay, the monitor what is left of it.
+    "bus_failure" => bus_failure
+        .config(bus_failure_config(p)?)
+        .cell("left", upto(p.value("t_bus")));
+
     // State of the axis.
     "selection" => selection
         .config(selection_config(p)?)
@@ -78,6 +93,7 @@ peers! { sinumerik |p|
     "motion" => motion.named(&[("actual", "outputs.position"), ("moved", "state.speed")]);
     "standstill" => standstill;
     "speed" => speed.config(speed_config(p, "stop_mode")?);
+    "setpoint" => setpoint;
     "end_stop" => limit_switch.config(limit_switch_config(p, "enabled", "stop_mode")?);
     "ramp" => ramp.without(&["restart"]).cell("lowest", upto(p.value("v_max")));
     "threshold" => threshold;
