@@ -34,6 +34,11 @@
 //! | [`history`] | standstill position kept through power-off and its comparison | - |
 //! | [`forced_check`] | how long ago the shutdown paths were tested | `test_stop` of both channels |
 //! | [`relay`] | EMERGENCY STOP of the safe logic: acknowledgement, delayed outputs | inputs of the safe logic |
+//! | [`f_master`] | clock of the PROFIsafe communication between NCK and PLC | OB40 of the PLC; `external`: STOP D, E |
+//! | [`f_module`] | data and faults of an F module | `f_master`; `external`: STOP D, E |
+//! | [`f_setup`], [`net_data`] | run-up checks of the F master; which bit of an F module is which variable: no step | `f_master`, `f_module` |
+//! | [`f_times`] | response times of the F master: no step | - |
+//! | [`assignment`], [`db18`] | where signals and variables lie: no step | - |
 //! | [`level`] | stops in their priority: no step | - |
 //! | [`code`], [`alarm`] | codes of STOP F and alarms: no step | - |
 //!
@@ -53,19 +58,25 @@
 macro_rules! sinumerik_monitors {
     ($callback:ident $($more:tt)*) => { $callback! { sinumerik [$($more)*]
         stop external fault group selection reference agreement gear test_stop shutdown_test pulses compare slip history
-        forced_check relay motion standstill speed limit_switch ramp threshold cam results channel
+        forced_check relay f_master f_module motion standstill speed limit_switch ramp threshold cam results channel
     } };
 }
 
 pub mod agreement;
 pub mod alarm;
+pub mod assignment;
 pub mod axis;
 pub mod cam;
 pub mod channel;
 pub mod code;
 pub mod compare;
+pub mod db18;
 pub mod encoder;
 pub mod external;
+pub mod f_master;
+pub mod f_module;
+pub mod f_setup;
+pub mod f_times;
 pub mod fault;
 pub mod forced_check;
 pub mod gear;
@@ -77,6 +88,7 @@ pub mod limit_switch;
 pub mod motion;
 #[cfg(feature = "mutants")]
 pub mod mutant;
+pub mod net_data;
 pub mod pair;
 pub mod parameters;
 pub mod path_test;

@@ -112,4 +112,16 @@ peers! { sinumerik |p|
         .named(&[("tm1", "window"), ("ti_1", "delay_1"), ("ti_2", "delay_2"), ("ti_3", "delay_3")])
         .cell("left", upto(p.value("tm1")))
         .cell("least", upto(p.value("tm1")));
+
+    // PROFIsafe. The table counts what is left of the 50 ms and of the overruns, the monitor what has passed; the table counts to the
+    // next PROFIsafe cycle from the last one, the monitor from the next.
+    "f_master" => f_master
+        .named(&[("t_limit", "tolerated")])
+        .cell("until", upto(p.value("ratio") - 1))
+        .cell("since", upto(p.value("t_limit")))
+        .cell("exceeded", upto(p.value("overruns")));
+    "f_module" => f_module
+        .named(&[("cleared", "blocked")])
+        .constants(&[("bits", 2)])
+        .cell("shown", upto(3));
 }
