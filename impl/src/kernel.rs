@@ -176,8 +176,6 @@ pub enum ConfigError {
     CamNearModuloLimit,
     /// The encoder limit frequency is not 300 to 420 kHz (S840D-FREQ-003).
     FrequencyOutOfRange,
-    /// The PROFIsafe cycle is longer than 25 ms (S840D-PSAFE-025).
-    ProfisafeCycleTooLong,
     /// A value is outside the range of its parameter (HFS-PARAM-010).
     ValueOutOfRange,
 }
@@ -209,7 +207,6 @@ impl core::fmt::Display for ConfigError {
             }
             Self::CamNearModuloLimit => "a cam is too close to the limits of the modulo range",
             Self::FrequencyOutOfRange => "the encoder limit frequency is not 300 to 420 kHz",
-            Self::ProfisafeCycleTooLong => "the PROFIsafe cycle is longer than 25 ms",
             Self::ValueOutOfRange => "a value is outside the range of its parameter",
         })
     }

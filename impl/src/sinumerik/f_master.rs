@@ -11,7 +11,7 @@
 
 use core::num::{NonZeroU8, NonZeroU32};
 
-use crate::kernel::{ConfigError, Cycles, DurationTooLong};
+use crate::kernel::{Cycles, DurationTooLong};
 
 /// The longest PROFIsafe cycle in microseconds (S840D-PSAFE-011, S840D-PSAFE-025).
 pub const LONGEST_PROFISAFE_CYCLE_US: u32 = 25_000;
@@ -21,6 +21,28 @@ pub const TOLERATED_US: u32 = 50_000;
 
 /// The most interpolator cycles in a PROFIsafe cycle: MD10098.
 pub const LARGEST_RATIO: u8 = 25;
+
+/// Why a clock is refused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ClockError {
+    /// The PROFIsafe cycle is no 1 to 25 interpolator cycles, or no overrun is permitted to count.
+    OutOfRange,
+    /// The PROFIsafe cycle is longer than 25 ms: alarm 27200 (S840D-PSAFE-025).
+    CycleTooLong,
+}
+
+impl core::fmt::Display for ClockError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str(match self {
+            Self::OutOfRange => {
+                "a PROFIsafe cycle has 1 to 25 interpolator cycles, and at least one overrun is reported"
+            }
+            Self::CycleTooLong => "the PROFIsafe cycle is longer than 25 ms",
+        })
+    }
+}
+
+impl core::error::Error for ClockError {}
 
 config! {
     /// The clock of the communication.
@@ -37,15 +59,15 @@ impl Config {
     /// `overruns`: how many PROFIsafe cycles exceeded one after the other are reported as continuous.
     ///
     /// # Errors
-    /// [`ConfigError::ValueOutOfRange`] for a ratio or a number of overruns outside their range;
-    /// [`ConfigError::ProfisafeCycleTooLong`] for a tolerated time of less than two PROFIsafe cycles: one is at most half of
+    /// [`ClockError::OutOfRange`] for a ratio or a number of overruns outside their range;
+    /// [`ClockError::CycleTooLong`] for a tolerated time of less than two PROFIsafe cycles: one is at most half of
     /// the 50 ms.
-    pub const fn new(ratio: u8, tolerated: Cycles, overruns: u8) -> Result<Self, ConfigError> {
+    pub const fn new(ratio: u8, tolerated: Cycles, overruns: u8) -> Result<Self, ClockError> {
         if ratio == 0 || ratio > LARGEST_RATIO || overruns == 0 {
-            return Err(ConfigError::ValueOutOfRange);
+            return Err(ClockError::OutOfRange);
         }
         if tolerated.count() < 2 * ratio as u32 {
-            return Err(ConfigError::ProfisafeCycleTooLong);
+            return Err(ClockError::CycleTooLong);
         }
         Ok(Self {
             ratio,
@@ -57,19 +79,19 @@ impl Config {
     /// The clock for an interpolator cycle of so many microseconds.
     ///
     /// # Errors
-    /// Those of [`Config::new`]; [`ConfigError::ProfisafeCycleTooLong`] for a PROFIsafe cycle above 25 ms, alarm 27200
+    /// Those of [`Config::new`]; [`ClockError::CycleTooLong`] for a PROFIsafe cycle above 25 ms, alarm 27200
     /// (S840D-PSAFE-011, S840D-PSAFE-025).
     pub const fn of(
         interpolator_us: NonZeroU32,
         ratio: NonZeroU8,
         overruns: NonZeroU8,
-    ) -> Result<Self, ConfigError> {
+    ) -> Result<Self, ClockError> {
         if interpolator_us.get() as u64 * ratio.get() as u64 > LONGEST_PROFISAFE_CYCLE_US as u64 {
-            return Err(ConfigError::ProfisafeCycleTooLong);
+            return Err(ClockError::CycleTooLong);
         }
         match tolerated(interpolator_us) {
             Ok(cycles) => Self::new(ratio.get(), cycles, overruns.get()),
-            Err(DurationTooLong) => Err(ConfigError::DelayTooLong),
+            Err(DurationTooLong) => Err(ClockError::CycleTooLong),
         }
     }
 }
@@ -323,7 +345,7 @@ fn communicate(state: &mut State, config: &Config, inputs: &Inputs) -> bool {
 mod tests {
     use super::*;
 
-    fn of(interpolator_us: u32, ratio: u8) -> Result<Config, ConfigError> {
+    fn of(interpolator_us: u32, ratio: u8) -> Result<Config, ClockError> {
         let us = NonZeroU32::new(interpolator_us).expect("not zero");
         let ratio = NonZeroU8::new(ratio).expect("not zero");
         Config::of(us, ratio, NonZeroU8::MIN)
@@ -334,11 +356,11 @@ mod tests {
     fn a_profisafe_cycle_is_25_ms_at_most() {
         let longest = of(5_000, 5).expect("25 ms");
         assert_eq!(longest.tolerated, Cycles::new(10));
-        assert_eq!(of(5_001, 5), Err(ConfigError::ProfisafeCycleTooLong));
+        assert_eq!(of(5_001, 5), Err(ClockError::CycleTooLong));
         assert_eq!(of(12_500, 2).expect("25 ms").tolerated, Cycles::new(4));
         assert_eq!(of(125, 25).expect("3 ms").tolerated, Cycles::new(400));
         let beyond = Config::new(26, Cycles::new(400), 1);
-        assert_eq!(beyond, Err(ConfigError::ValueOutOfRange));
+        assert_eq!(beyond, Err(ClockError::OutOfRange));
     }
 
     /// S840D-PSAFE-013, S840D-PSAFE-014, S840D-PSTIME-001: the whole way from an overrun to the stop and back.
