@@ -147,7 +147,8 @@ impl State {
     pub fn invariant(&self, config: &Config) -> bool {
         self.until < config.ratio
             && self.since <= config.tolerated
-            && (self.waiting || self.since.count() + self.until as u32 + 1 <= config.ratio as u32)
+            && (self.waiting
+                || self.since.count().saturating_add(self.until as u32) < config.ratio as u32)
             && self.exceeded <= config.overruns
             && (self.slow || self.exceeded < config.overruns)
     }
@@ -199,13 +200,13 @@ monitor! { sinumerik::f_master;
     /// Between PROFIsafe cycles that are kept OB40 is not started.
     nothing_starts_between ["S840D-PSAFE-011", "S840D-PSAFE-051"]:
         when |s| communicates(&s.before, &s.inputs) && !s.before.waiting && s.before.until > 0
-            => !s.outputs.trigger && !s.after.waiting && s.after.since.count() == s.before.since.count() + 1;
+            => !s.outputs.trigger && !s.after.waiting && s.after.since.count() == s.before.since.count().saturating_add(1);
 
     /// What is not ready is not started, and the time since the last start runs on to its end.
     only_what_is_ready_starts ["S840D-PSAFE-013", "S840D-PSAFE-014"]:
         when |s| communicates(&s.before, &s.inputs) && !s.inputs.ready
             => !s.outputs.trigger
-                && (s.after.since.count() == s.before.since.count() + 1 || s.after.since == s.config.tolerated);
+                && (s.after.since.count() == s.before.since.count().saturating_add(1) || s.after.since == s.config.tolerated);
 
     /// Once OB40 was not ready, each interpolator cycle tries again, also after the 50 ms.
     each_cycle_tries_again ["S840D-PSAFE-013", "S840D-PSAFE-014", "S840D-PSAFE-052"]:
