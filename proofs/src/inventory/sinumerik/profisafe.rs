@@ -18,7 +18,7 @@ inventory! {
         requirements: ["S840D-P-22", "S840D-PSAFE-001", "S840D-PSPARAM-003", "S840D-PSPARAM-004", "S840D-PSPARAM-006"],
         covers: ["no filter", "a filter with gaps", "a bit that is not used"],
         domain: NARROW,
-        domain_text: "rows of 1 to 8 from variable 1, 2, 3 and 64 on; filters 0 to 40 and none; net data 0 to 3 and all; every bit",
+        domain_text: "filters 0 to 40 and none; rows from variable 1, 2, 3 and the last possible on; net data 0 to 3 and all; every bit",
         bound: "none",
         caveat: "rows of at most eight variables (AMB-19)",
     }]
@@ -27,7 +27,7 @@ inventory! {
         requirements: ["S840D-P-22", "S840D-PSAFE-003", "S840D-PSAFE-007", "S840D-PSPARAM-005", "S840D-PSPARAM-006"],
         covers: ["no filter", "a filter with gaps", "a bit that is not used"],
         domain: NARROW,
-        domain_text: "rows of 1 to 8 from variable 1, 2, 3 and 64 on; filters 0 to 40 and none; words 0, 1 and all of each channel; every bit",
+        domain_text: "filters 0 to 40 and none; rows from variable 1, 2, 3 and the last possible on; words 0, 1 and all of each channel; every bit",
         bound: "none",
         caveat: "rows of at most eight variables (AMB-19)",
     }]
@@ -36,7 +36,7 @@ inventory! {
         requirements: ["S840D-P-22", "S840D-PSPARAM-003", "S840D-PSPARAM-005"],
         covers: ["no filter", "a filter with gaps"],
         domain: NARROW,
-        domain_text: "rows of 1 to 8 from variable 1, 2, 3 and 64 on; filters 0 to 40 and none; net data and variables 0 to 8 and all",
+        domain_text: "filters 0 to 40 and none; rows from variable 1, 2, 3 and the last possible on; net data and variables 0 to 8 and all",
         bound: "none",
         caveat: "both channels alike; rows of at most eight variables (AMB-19)",
     }]

@@ -13,12 +13,32 @@ struct Drawn {
     bits: u32,
 }
 
-/// Any connection that is accepted; cover 0: without a filter, cover 1: with a filter that has gaps.
-fn connection<S: Source>(source: &mut S) -> Option<Drawn> {
-    let low = 1 + source.any_u32(2, 63);
-    let count = source.any_in(1, 8);
-    let filter = source.any_u32(40, u32::MAX);
-    let connection = Connection::new(filter, (low + count - 1) * 1000 + low).ok()?;
+/// Any filter that a connection can have, and any row that fits it; cover 0: without a filter, cover 1: with a filter that has gaps.
+fn connection<S: Source>(source: &mut S) -> Result<Drawn, Verdict> {
+    let filter = if source.enumerates() {
+        source.any_u32(40, NO_FILTER)
+    } else if source.any_bool() {
+        NO_FILTER
+    } else {
+        // Up to eight bits, each anywhere.
+        let mut bits = 0;
+        for _ in 0..source.any_in(1, 8) {
+            bits |= 1 << source.any_in(0, 31);
+        }
+        bits
+    };
+    let count = if filter == NO_FILTER {
+        source.any_in(1, 8)
+    } else {
+        filter.count_ones()
+    };
+    if count == 0 {
+        return Err(Verdict::Discarded);
+    }
+    let low = 1 + source.any_u32(2, 64 - count);
+    let Ok(connection) = Connection::new(filter, (low + count - 1) * 1000 + low) else {
+        return Err(Verdict::Broken("what_fits_is_accepted"));
+    };
     let bits = if filter == NO_FILTER {
         (1 << count) - 1
     } else {
@@ -26,7 +46,7 @@ fn connection<S: Source>(source: &mut S) -> Option<Drawn> {
     };
     source.cover(0, filter == NO_FILTER);
     source.cover(1, bits & (bits >> 1) == 0 && count > 1);
-    Some(Drawn {
+    Ok(Drawn {
         connection,
         low,
         count,
@@ -37,8 +57,9 @@ fn connection<S: Source>(source: &mut S) -> Option<Drawn> {
 /// From the module: a bit that is used is the variable with as many used ones below it; the others go nowhere; nothing else is
 /// written.
 pub fn taken_in_order<S: Source>(source: &mut S, _subject: &Subject) -> Verdict {
-    let Some(drawn) = connection(source) else {
-        return Verdict::Discarded;
+    let drawn = match connection(source) {
+        Ok(drawn) => drawn,
+        Err(verdict) => return verdict,
     };
     let net = source.any_u32(3, u32::MAX);
     let bit = source.any_in(0, 31);
@@ -67,8 +88,9 @@ pub fn taken_in_order<S: Source>(source: &mut S, _subject: &Subject) -> Verdict 
 
 /// To the module: a bit that is used is its variable where both channels have it; every other bit is 0.
 pub fn given_in_order<S: Source>(source: &mut S, _subject: &Subject) -> Verdict {
-    let Some(drawn) = connection(source) else {
-        return Verdict::Discarded;
+    let drawn = match connection(source) {
+        Ok(drawn) => drawn,
+        Err(verdict) => return verdict,
     };
     let low = source.any_u32(1, u32::MAX);
     let high = source.any_u32(0, u32::MAX);
@@ -92,8 +114,9 @@ pub fn given_in_order<S: Source>(source: &mut S, _subject: &Subject) -> Verdict 
 
 /// What is given to a module and taken from it again is what it was, and the other way round.
 pub fn there_and_back<S: Source>(source: &mut S, _subject: &Subject) -> Verdict {
-    let Some(drawn) = connection(source) else {
-        return Verdict::Discarded;
+    let drawn = match connection(source) {
+        Ok(drawn) => drawn,
+        Err(verdict) => return verdict,
     };
     let net = source.any_u32(8, u32::MAX);
     let variables = of_words([source.any_u32(8, u32::MAX), source.any_u32(0, u32::MAX)]);
