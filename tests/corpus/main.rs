@@ -4,12 +4,14 @@
 mod alarms;
 mod book;
 mod conversion;
+mod db18;
 mod fuzz;
 mod guarantees;
 mod interface;
 mod machines;
 mod manuals;
 mod parameters;
+mod profisafe_example;
 mod programs;
 mod reaction_times;
 mod safe_logic;

@@ -46,6 +46,11 @@
 //! | [`spl_access`] | who may do what with its variables and actions | - |
 //! | [`spl_output_test`] | forced check of a two-channel output by one test input | - |
 //! | [`spl_stop_test`] | test of the shutdown paths and external stops, one channel after the other | - |
+//! | [`f_master`] | clock of the PROFIsafe communication between NCK and PLC | OB40 of the PLC; `external`: STOP D, E |
+//! | [`f_module`] | data and faults of an F module | `f_master`; `external`: STOP D, E |
+//! | [`f_setup`], [`net_data`] | run-up checks of the F master; which bit of an F module is which variable: no step | `f_master`, `f_module` |
+//! | [`f_times`] | response times of the F master: no step | - |
+//! | [`assignment`], [`db18`] | where signals and variables lie: no step | - |
 //! | [`level`] | stops in their priority: no step | - |
 //! | [`code`], [`alarm`] | codes of STOP F and alarms: no step | - |
 //!
@@ -66,20 +71,26 @@ macro_rules! sinumerik_monitors {
     ($callback:ident $($more:tt)*) => { $callback! { sinumerik [$($more)*]
         stop external fault group bus_failure selection reference agreement gear test_stop shutdown_test pulses compare slip history
         forced_check relay spl_protection spl_signal spl_comparison spl_link
-        spl_start spl_file spl_access spl_output_test spl_stop_test motion standstill speed setpoint limit_switch ramp threshold cam results channel
+        spl_start spl_file spl_access spl_output_test spl_stop_test f_master f_module motion standstill speed setpoint limit_switch ramp threshold cam results channel
     } };
 }
 
 pub mod agreement;
 pub mod alarm;
+pub mod assignment;
 pub mod axis;
 pub mod bus_failure;
 pub mod cam;
 pub mod channel;
 pub mod code;
 pub mod compare;
+pub mod db18;
 pub mod encoder;
 pub mod external;
+pub mod f_master;
+pub mod f_module;
+pub mod f_setup;
+pub mod f_times;
 pub mod fault;
 pub mod forced_check;
 pub mod gear;
@@ -91,6 +102,7 @@ pub mod limit_switch;
 pub mod motion;
 #[cfg(feature = "mutants")]
 pub mod mutant;
+pub mod net_data;
 pub mod pair;
 pub mod parameters;
 pub mod path_test;

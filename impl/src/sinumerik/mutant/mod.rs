@@ -5,6 +5,7 @@ mod checking;
 mod composing;
 mod pair;
 mod spl;
+mod profisafe;
 mod stops;
 mod watching;
 
@@ -13,6 +14,7 @@ pub use checking::*;
 pub use composing::*;
 pub use pair::*;
 pub use spl::*;
+pub use profisafe::*;
 pub use stops::*;
 pub use watching::*;
 

@@ -4,6 +4,7 @@ mod base;
 mod checking;
 mod composing;
 mod spl;
+mod profisafe;
 mod watching;
 
 /// The lists of this family.
@@ -13,4 +14,5 @@ pub(super) static ENTRIES: [&[super::Entry]; 5] = [
     spl::ENTRIES,
     watching::ENTRIES,
     composing::ENTRIES,
+    profisafe::ENTRIES,
 ];

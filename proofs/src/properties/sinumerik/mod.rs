@@ -5,6 +5,7 @@ pub mod axis;
 pub mod checking;
 pub mod fault;
 pub mod initial;
+pub mod profisafe;
 pub mod selection;
 pub mod stop;
 pub mod units;

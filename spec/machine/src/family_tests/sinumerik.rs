@@ -179,7 +179,7 @@ fn alarms_exist() {
 }
 
 /// For each rule a machine that violates it and one beside it that does not: what stands in the file after the family.
-pub(super) const EXAMPLES: [(&str, &str, &str); 30] = [
+pub(super) const EXAMPLES: [(&str, &str, &str); 65] = [
     (
         "the monitoring cycle is longer than 25 ms",
         "control.SYSCLOCK_CYCLE_TIME = \"5 ms\"\ncontrol.SAFETY_SYSCLOCK_TIME_RATIO = 6\naxis.X = { kind = \"linear\" }",
@@ -194,6 +194,181 @@ pub(super) const EXAMPLES: [(&str, &str, &str); 30] = [
         "the drive cannot hold the monitoring cycle",
         "control.SYSCLOCK_CYCLE_TIME = \"3.333 ms\"\naxis.X = { kind = \"linear\" }",
         "control.SYSCLOCK_CYCLE_TIME = \"3.375 ms\"\naxis.X = { kind = \"linear\" }",
+    ),
+    (
+        "the PROFIsafe cycle is longer than 25 ms",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_IN_ADDRESS = [0x050003FE, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]\ncontrol.PROFISAFE_IN_ASSIGN = [4001, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]\ncontrol.PROFISAFE_IPO_TIME_RATIO = 2\naxis.X = { kind = \"linear\" }",
+        "control.PROFISAFE_IPO_TIME_RATIO = 2\naxis.X = { kind = \"linear\" }",
+    ),
+    (
+        "the bus segment of the F master is not 5",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x040007D2\naxis.X = { kind = \"linear\" }",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\naxis.X = { kind = \"linear\" }",
+    ),
+    (
+        "F modules are connected to an F master without an address",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x05000000\ncontrol.PROFISAFE_IN_ADDRESS = [0x050003FE, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]\ncontrol.PROFISAFE_IN_ASSIGN = [4001, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]\naxis.X = { kind = \"linear\" }",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_IN_ADDRESS = [0x050003FE, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]\ncontrol.PROFISAFE_IN_ASSIGN = [4001, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]\naxis.X = { kind = \"linear\" }",
+    ),
+    (
+        "the bus segment of an input connection is not 5",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_IN_ADDRESS = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x040003FE]\ncontrol.PROFISAFE_IN_ASSIGN = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 4001]\naxis.X = { kind = \"linear\" }",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_IN_ADDRESS = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x050003FE]\ncontrol.PROFISAFE_IN_ASSIGN = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 4001]\naxis.X = { kind = \"linear\" }",
+    ),
+    (
+        "an input connection has no PROFIsafe address",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_IN_ADDRESS = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x05000000]\ncontrol.PROFISAFE_IN_ASSIGN = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 4001]\naxis.X = { kind = \"linear\" }",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_IN_ADDRESS = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x05000001]\ncontrol.PROFISAFE_IN_ASSIGN = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 4001]\naxis.X = { kind = \"linear\" }",
+    ),
+    (
+        "an input connection has no PROFIsafe address",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_IN_ASSIGN = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 4001]\naxis.X = { kind = \"linear\" }",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\naxis.X = { kind = \"linear\" }",
+    ),
+    (
+        "the variables of an input connection are no row",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_IN_ADDRESS = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x050003FE]\ncontrol.PROFISAFE_IN_ASSIGN = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 9001]\naxis.X = { kind = \"linear\" }",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_IN_ADDRESS = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x050003FE]\ncontrol.PROFISAFE_IN_ASSIGN = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 8001]\naxis.X = { kind = \"linear\" }",
+    ),
+    (
+        "the variables of an input connection are no row",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_IN_ADDRESS = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x050003FE]\ncontrol.PROFISAFE_IN_ASSIGN = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1002]\naxis.X = { kind = \"linear\" }",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_IN_ADDRESS = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x050003FE]\ncontrol.PROFISAFE_IN_ASSIGN = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 2002]\naxis.X = { kind = \"linear\" }",
+    ),
+    (
+        "the variables of an input connection are no row",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_IN_ADDRESS = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x050003FE]\ncontrol.PROFISAFE_IN_ASSIGN = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 64000]\naxis.X = { kind = \"linear\" }",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_IN_ADDRESS = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x050003FE]\ncontrol.PROFISAFE_IN_ASSIGN = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 64057]\naxis.X = { kind = \"linear\" }",
+    ),
+    (
+        "the variables of an input connection are no row",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_IN_ADDRESS = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x050003FE]\ncontrol.PROFISAFE_IN_ASSIGN = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]\naxis.X = { kind = \"linear\" }",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_IN_ADDRESS = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x050003FE]\ncontrol.PROFISAFE_IN_ASSIGN = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1001]\naxis.X = { kind = \"linear\" }",
+    ),
+    (
+        "a variable belongs to two input connections",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_IN_ADDRESS = [0x050003FE, 0, 0, 0, 0, 0, 0, 0, 0, 0x050003FE, 0, 0, 0, 0, 0, 0]\ncontrol.PROFISAFE_IN_ASSIGN = [4001, 0, 0, 0, 0, 0, 0, 0, 0, 8004, 0, 0, 0, 0, 0, 0]\naxis.X = { kind = \"linear\" }",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_IN_ADDRESS = [0x050003FE, 0, 0, 0, 0, 0, 0, 0, 0, 0x050003FE, 0, 0, 0, 0, 0, 0]\ncontrol.PROFISAFE_IN_ASSIGN = [4001, 0, 0, 0, 0, 0, 0, 0, 0, 8005, 0, 0, 0, 0, 0, 0]\naxis.X = { kind = \"linear\" }",
+    ),
+    (
+        "a variable belongs to two input connections",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_IN_ADDRESS = [0x050003FE, 0, 0, 0, 0, 0, 0, 0, 0, 0x050003FE, 0, 0, 0, 0, 0, 0]\ncontrol.PROFISAFE_IN_ASSIGN = [8005, 0, 0, 0, 0, 0, 0, 0, 0, 5001, 0, 0, 0, 0, 0, 0]\naxis.X = { kind = \"linear\" }",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_IN_ADDRESS = [0x050003FE, 0, 0, 0, 0, 0, 0, 0, 0, 0x050003FE, 0, 0, 0, 0, 0, 0]\ncontrol.PROFISAFE_IN_ASSIGN = [8005, 0, 0, 0, 0, 0, 0, 0, 0, 4001, 0, 0, 0, 0, 0, 0]\naxis.X = { kind = \"linear\" }",
+    ),
+    (
+        "a variable of an input connection belongs to a module of the NCK",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_IN_ADDRESS = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x050003FE]\ncontrol.PROFISAFE_IN_ASSIGN = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 4001]\ncontrol.SAFE_IN_HW_ASSIGN = [0x01020101, 0, 0, 0, 0, 0, 0, 0]\naxis.X = { kind = \"linear\" }",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_IN_ADDRESS = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x050003FE]\ncontrol.PROFISAFE_IN_ASSIGN = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 4001]\ncontrol.SAFE_IN_HW_ASSIGN = [0, 0x01020101, 0, 0, 0, 0, 0, 0]\naxis.X = { kind = \"linear\" }",
+    ),
+    (
+        "a variable of an input connection belongs to a module of the NCK",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_IN_ADDRESS = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x050003FE]\ncontrol.PROFISAFE_IN_ASSIGN = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 8008]\ncontrol.SAFE_IN_HW_ASSIGN = [0x01020101, 0, 0, 0, 0, 0, 0, 0]\naxis.X = { kind = \"linear\" }",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_IN_ADDRESS = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x050003FE]\ncontrol.PROFISAFE_IN_ASSIGN = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 9009]\ncontrol.SAFE_IN_HW_ASSIGN = [0x01020101, 0, 0, 0, 0, 0, 0, 0]\naxis.X = { kind = \"linear\" }",
+    ),
+    (
+        "a variable of an input connection belongs to a module of the NCK",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_IN_ADDRESS = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x050003FE]\ncontrol.PROFISAFE_IN_ASSIGN = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 5002]\ncontrol.SAFE_IN_HW_ASSIGN = [2, 0, 0, 0, 0, 0, 0, 0]\naxis.X = { kind = \"linear\" }",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_IN_ADDRESS = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x050003FE]\ncontrol.PROFISAFE_IN_ASSIGN = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 5002]\ncontrol.SAFE_IN_HW_ASSIGN = [1, 0, 0, 0, 0, 0, 0, 0]\naxis.X = { kind = \"linear\" }",
+    ),
+    (
+        "a variable of an input connection belongs to a module of the NCK",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_IN_ADDRESS = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x050003FE]\ncontrol.PROFISAFE_IN_ASSIGN = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 12012]\ncontrol.SAFE_IN_HW_ASSIGN = [0, 8, 0, 0, 0, 0, 0, 0]\naxis.X = { kind = \"linear\" }",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_IN_ADDRESS = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x050003FE]\ncontrol.PROFISAFE_IN_ASSIGN = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 12012]\ncontrol.SAFE_IN_HW_ASSIGN = [0, 7, 0, 0, 0, 0, 0, 0]\naxis.X = { kind = \"linear\" }",
+    ),
+    (
+        "the filter of an input connection chooses another number",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_IN_ADDRESS = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x050003FE]\ncontrol.PROFISAFE_IN_ASSIGN = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 4001]\ncontrol.PROFISAFE_IN_FILTER = [0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0x000F001F]\naxis.X = { kind = \"linear\" }",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_IN_ADDRESS = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x050003FE]\ncontrol.PROFISAFE_IN_ASSIGN = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 4001]\ncontrol.PROFISAFE_IN_FILTER = [0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0x80010011]\naxis.X = { kind = \"linear\" }",
+    ),
+    (
+        "the filter of an input connection chooses another number",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_IN_ADDRESS = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x050003FE]\ncontrol.PROFISAFE_IN_ASSIGN = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 4001]\ncontrol.PROFISAFE_IN_FILTER = [0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0x7FFFFFFF]\naxis.X = { kind = \"linear\" }",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_IN_ADDRESS = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x050003FE]\ncontrol.PROFISAFE_IN_ASSIGN = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 4001]\ncontrol.PROFISAFE_IN_FILTER = [0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF]\naxis.X = { kind = \"linear\" }",
+    ),
+    (
+        "the bus segment of an output connection is not 5",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_OUT_ADDRESS = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x040003FE]\ncontrol.PROFISAFE_OUT_ASSIGN = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 4001]\naxis.X = { kind = \"linear\" }",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_OUT_ADDRESS = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x050003FE]\ncontrol.PROFISAFE_OUT_ASSIGN = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 4001]\naxis.X = { kind = \"linear\" }",
+    ),
+    (
+        "an output connection has no PROFIsafe address",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_OUT_ADDRESS = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x05000000]\ncontrol.PROFISAFE_OUT_ASSIGN = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 4001]\naxis.X = { kind = \"linear\" }",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_OUT_ADDRESS = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x05000001]\ncontrol.PROFISAFE_OUT_ASSIGN = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 4001]\naxis.X = { kind = \"linear\" }",
+    ),
+    (
+        "an output connection has no PROFIsafe address",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_OUT_ASSIGN = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 4001]\naxis.X = { kind = \"linear\" }",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\naxis.X = { kind = \"linear\" }",
+    ),
+    (
+        "the variables of an output connection are no row",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_OUT_ADDRESS = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x050003FE]\ncontrol.PROFISAFE_OUT_ASSIGN = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 9001]\naxis.X = { kind = \"linear\" }",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_OUT_ADDRESS = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x050003FE]\ncontrol.PROFISAFE_OUT_ASSIGN = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 8001]\naxis.X = { kind = \"linear\" }",
+    ),
+    (
+        "the variables of an output connection are no row",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_OUT_ADDRESS = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x050003FE]\ncontrol.PROFISAFE_OUT_ASSIGN = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1002]\naxis.X = { kind = \"linear\" }",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_OUT_ADDRESS = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x050003FE]\ncontrol.PROFISAFE_OUT_ASSIGN = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 2002]\naxis.X = { kind = \"linear\" }",
+    ),
+    (
+        "the variables of an output connection are no row",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_OUT_ADDRESS = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x050003FE]\ncontrol.PROFISAFE_OUT_ASSIGN = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 64000]\naxis.X = { kind = \"linear\" }",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_OUT_ADDRESS = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x050003FE]\ncontrol.PROFISAFE_OUT_ASSIGN = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 64057]\naxis.X = { kind = \"linear\" }",
+    ),
+    (
+        "the variables of an output connection are no row",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_OUT_ADDRESS = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x050003FE]\ncontrol.PROFISAFE_OUT_ASSIGN = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]\naxis.X = { kind = \"linear\" }",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_OUT_ADDRESS = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x050003FE]\ncontrol.PROFISAFE_OUT_ASSIGN = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1001]\naxis.X = { kind = \"linear\" }",
+    ),
+    (
+        "a variable belongs to two output connections",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_OUT_ADDRESS = [0x050003FE, 0, 0, 0, 0, 0, 0, 0, 0, 0x050003FE, 0, 0, 0, 0, 0, 0]\ncontrol.PROFISAFE_OUT_ASSIGN = [4001, 0, 0, 0, 0, 0, 0, 0, 0, 8004, 0, 0, 0, 0, 0, 0]\naxis.X = { kind = \"linear\" }",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_OUT_ADDRESS = [0x050003FE, 0, 0, 0, 0, 0, 0, 0, 0, 0x050003FE, 0, 0, 0, 0, 0, 0]\ncontrol.PROFISAFE_OUT_ASSIGN = [4001, 0, 0, 0, 0, 0, 0, 0, 0, 8005, 0, 0, 0, 0, 0, 0]\naxis.X = { kind = \"linear\" }",
+    ),
+    (
+        "a variable belongs to two output connections",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_OUT_ADDRESS = [0x050003FE, 0, 0, 0, 0, 0, 0, 0, 0, 0x050003FE, 0, 0, 0, 0, 0, 0]\ncontrol.PROFISAFE_OUT_ASSIGN = [8005, 0, 0, 0, 0, 0, 0, 0, 0, 5001, 0, 0, 0, 0, 0, 0]\naxis.X = { kind = \"linear\" }",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_OUT_ADDRESS = [0x050003FE, 0, 0, 0, 0, 0, 0, 0, 0, 0x050003FE, 0, 0, 0, 0, 0, 0]\ncontrol.PROFISAFE_OUT_ASSIGN = [8005, 0, 0, 0, 0, 0, 0, 0, 0, 4001, 0, 0, 0, 0, 0, 0]\naxis.X = { kind = \"linear\" }",
+    ),
+    (
+        "a variable of an output connection belongs to a module of the NCK",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_OUT_ADDRESS = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x050003FE]\ncontrol.PROFISAFE_OUT_ASSIGN = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 4001]\ncontrol.SAFE_OUT_HW_ASSIGN = [0x01020101, 0, 0, 0, 0, 0, 0, 0]\naxis.X = { kind = \"linear\" }",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_OUT_ADDRESS = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x050003FE]\ncontrol.PROFISAFE_OUT_ASSIGN = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 4001]\ncontrol.SAFE_OUT_HW_ASSIGN = [0, 0x01020101, 0, 0, 0, 0, 0, 0]\naxis.X = { kind = \"linear\" }",
+    ),
+    (
+        "a variable of an output connection belongs to a module of the NCK",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_OUT_ADDRESS = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x050003FE]\ncontrol.PROFISAFE_OUT_ASSIGN = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 8008]\ncontrol.SAFE_OUT_HW_ASSIGN = [0x01020101, 0, 0, 0, 0, 0, 0, 0]\naxis.X = { kind = \"linear\" }",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_OUT_ADDRESS = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x050003FE]\ncontrol.PROFISAFE_OUT_ASSIGN = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 9009]\ncontrol.SAFE_OUT_HW_ASSIGN = [0x01020101, 0, 0, 0, 0, 0, 0, 0]\naxis.X = { kind = \"linear\" }",
+    ),
+    (
+        "a variable of an output connection belongs to a module of the NCK",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_OUT_ADDRESS = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x050003FE]\ncontrol.PROFISAFE_OUT_ASSIGN = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 5002]\ncontrol.SAFE_OUT_HW_ASSIGN = [2, 0, 0, 0, 0, 0, 0, 0]\naxis.X = { kind = \"linear\" }",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_OUT_ADDRESS = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x050003FE]\ncontrol.PROFISAFE_OUT_ASSIGN = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 5002]\ncontrol.SAFE_OUT_HW_ASSIGN = [1, 0, 0, 0, 0, 0, 0, 0]\naxis.X = { kind = \"linear\" }",
+    ),
+    (
+        "a variable of an output connection belongs to a module of the NCK",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_OUT_ADDRESS = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x050003FE]\ncontrol.PROFISAFE_OUT_ASSIGN = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 12012]\ncontrol.SAFE_OUT_HW_ASSIGN = [0, 8, 0, 0, 0, 0, 0, 0]\naxis.X = { kind = \"linear\" }",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_OUT_ADDRESS = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x050003FE]\ncontrol.PROFISAFE_OUT_ASSIGN = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 12012]\ncontrol.SAFE_OUT_HW_ASSIGN = [0, 7, 0, 0, 0, 0, 0, 0]\naxis.X = { kind = \"linear\" }",
+    ),
+    (
+        "the filter of an output connection chooses another number",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_OUT_ADDRESS = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x050003FE]\ncontrol.PROFISAFE_OUT_ASSIGN = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 4001]\ncontrol.PROFISAFE_OUT_FILTER = [0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0x000F001F]\naxis.X = { kind = \"linear\" }",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_OUT_ADDRESS = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x050003FE]\ncontrol.PROFISAFE_OUT_ASSIGN = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 4001]\ncontrol.PROFISAFE_OUT_FILTER = [0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0x80010011]\naxis.X = { kind = \"linear\" }",
+    ),
+    (
+        "the filter of an output connection chooses another number",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_OUT_ADDRESS = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x050003FE]\ncontrol.PROFISAFE_OUT_ASSIGN = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 4001]\ncontrol.PROFISAFE_OUT_FILTER = [0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0x7FFFFFFF]\naxis.X = { kind = \"linear\" }",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_OUT_ADDRESS = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x050003FE]\ncontrol.PROFISAFE_OUT_ASSIGN = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 4001]\ncontrol.PROFISAFE_OUT_FILTER = [0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF]\naxis.X = { kind = \"linear\" }",
+    ),
+    (
+        "an input connection uses another sub-slot than 0",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_IN_ADDRESS = [0x050103FE, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]\ncontrol.PROFISAFE_IN_ASSIGN = [4001, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]\naxis.X = { kind = \"linear\" }",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_OUT_ADDRESS = [0x050103FE, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]\ncontrol.PROFISAFE_OUT_ASSIGN = [4001, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]\naxis.X = { kind = \"linear\" }",
+    ),
+    (
+        "a connection uses variables that the option SI-Basic does not have",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_IN_ADDRESS = [0x050003FE, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]\ncontrol.PROFISAFE_IN_ASSIGN = [5002, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]\ncontrol.SI_BASIC = true\naxis.X = { kind = \"linear\" }",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_IN_ADDRESS = [0x050003FE, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]\ncontrol.PROFISAFE_IN_ASSIGN = [4001, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]\ncontrol.SI_BASIC = true\naxis.X = { kind = \"linear\" }",
     ),
     (
         "functions are enabled without \"SBH/SG\"",

@@ -2,6 +2,7 @@
 
 mod comparison;
 mod datum;
+mod profisafe;
 mod single;
 mod story;
 
@@ -29,6 +30,8 @@ pub const RUNNERS: &[(&str, Runner)] = &[
     ("code", comparison::code),
     ("limits", comparison::limits),
     ("result_list", comparison::result_list),
+    ("f_times", profisafe::f_times),
+    ("connection", profisafe::connection),
 ];
 
 /// The machine data of axis X of a machine file, in the units of the monitors. Given: `axis`, the lines of the table of the axis;

@@ -182,4 +182,16 @@ peers! { sinumerik |p|
         .hidden(&["item"])
         .cell("left", upto(p.value("t_step")))
         .told("step", |state, _| (state.item as i64 * 2 - 1).max(0) + i64::from(state.drive));
+
+    // PROFIsafe. The table counts what is left of the 50 ms and of the overruns, the monitor what has passed; the table counts to the
+    // next PROFIsafe cycle from the last one, the monitor from the next.
+    "f_master" => f_master
+        .named(&[("t_limit", "tolerated")])
+        .cell("until", upto(p.value("ratio") - 1))
+        .cell("since", upto(p.value("t_limit")))
+        .cell("exceeded", upto(p.value("overruns")));
+    "f_module" => f_module
+        .named(&[("cleared", "blocked")])
+        .constants(&[("bits", 2)])
+        .cell("shown", upto(3));
 }
