@@ -105,7 +105,16 @@ fn judged(path: &std::path::Path, guarantee: &str) -> (Verdict, Vec<String>) {
 #[test]
 fn the_lathe_keeps_what_it_guarantees() {
     let lathe = root().join(MACHINE);
-    for name in ["slides", "work", "emergency_stop", "emergency_stop_work"] {
+    for name in [
+        "slides",
+        "work",
+        "emergency_stop",
+        "emergency_stop_work",
+        "hold_to_run",
+        "acknowledge",
+        "acknowledge_work",
+        "no_start",
+    ] {
         assert_eq!(judged(&lathe, name).0, Verdict::Holds, "{name}");
     }
 }

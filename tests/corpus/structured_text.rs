@@ -182,6 +182,7 @@ fn task(spec: &Spec, bound: Bound, title: String) -> Task {
         title,
         axes: Vec::new(),
         guarantee: None,
+        faults: Vec::new(),
         before: 0,
         abstractions: Vec::new(),
         bound,

@@ -23,6 +23,8 @@ pub struct Task {
     pub axes: Vec<String>,
     /// The guarantee of the machine file that it decides.
     pub guarantee: Option<String>,
+    /// The classes of single faults that it answers, in words.
+    pub faults: Vec<String>,
     /// A time in microseconds that passes before what is explored begins; no bound has it.
     pub before: u64,
     /// Where it is coarser than the machine.
@@ -95,6 +97,7 @@ fn of_spec(path: &Path, text: Arc<str>, readings: &Readings) -> Result<Subject> 
                 title: bound.system.text.clone(),
                 axes: Vec::new(),
                 guarantee: None,
+                faults: Vec::new(),
                 before: 0,
                 abstractions: Vec::new(),
                 bound,
@@ -157,6 +160,7 @@ pub fn of_runs(
             title: run.title.clone(),
             axes: run.axes.clone(),
             guarantee: run.guarantee.clone(),
+            faults: run.faults.clone(),
             before: u64::try_from(run.before).unwrap_or(0),
             abstractions: run.abstractions.clone(),
             bound,

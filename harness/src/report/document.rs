@@ -308,6 +308,7 @@ fn guaranteed(subject: &Subject, checked: &[Checked]) -> Vec<Block> {
                     answer.guarantee.text, answer.guarantee.source
                 )),
                 words(run.task.axes.join(", ")),
+                words(run.task.faults.join("\n")),
                 words(
                     run.bound
                         .map_or_else(String::new, |b| format!("at most {}", time(b))),
@@ -321,6 +322,7 @@ fn guaranteed(subject: &Subject, checked: &[Checked]) -> Vec<Block> {
         "verdict",
         "in plain words",
         "axes",
+        "also after this fault",
         "tightest bound",
         "values it depends on",
     ];
@@ -332,6 +334,9 @@ fn counterexamples(subject: &Subject, checked: &[Checked]) -> Vec<Block> {
     for (n, violation) in violations(subject, checked).iter().enumerate() {
         let mut inside = vec![paragraph(&violation.text)];
         inside.push(paragraph(format!("In: {}", violation.task.title)));
+        for fault in &violation.task.faults {
+            inside.push(paragraph(format!("After this fault: {fault}")));
+        }
         if let Some(reason) = violation.refuted {
             inside.push(paragraph(reason));
         }

@@ -107,7 +107,7 @@ fn guarantees(subject: &Subject, checked: &[Checked]) -> Vec<Value> {
             let values =
                 values.map(|v| json!({ "name": v.name, "value": v.value, "axes": v.axes }));
             json!({
-                "axes": run.task.axes, "verdict": verdict_name(run.verdict), "bound_us": run.bound,
+                "axes": run.task.axes, "title": run.task.title, "faults": run.task.faults, "verdict": verdict_name(run.verdict), "bound_us": run.bound,
                 "values": values.collect::<Vec<_>>(), "abstractions": run.task.abstractions,
             })
         });

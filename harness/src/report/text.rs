@@ -42,6 +42,9 @@ pub fn text(subject: &Subject, checked: &[Checked], summaries: &[Summary], all: 
     for violation in violations(subject, checked) {
         let _ = writeln!(out, "VIOLATED  {}  {}", violation.id, violation.text);
         let _ = writeln!(out, "  in: {}", violation.task.title);
+        for fault in &violation.task.faults {
+            wrapped(&mut out, "  ", &format!("after this fault: {fault}"));
+        }
         if let Some(reason) = violation.refuted {
             let _ = writeln!(out, "  {reason}");
         }
@@ -116,10 +119,15 @@ fn guaranteed(out: &mut String, subject: &Subject, checked: &[Checked]) {
                 None => verdict_name(run.verdict).to_owned(),
             };
             let part = match systems.len() {
-                1 => run.task.axes.join(", "),
+                1 if answer.runs.iter().all(|run| run.task.faults.is_empty()) => {
+                    run.task.axes.join(", ")
+                }
                 _ => run.task.title.clone(),
             };
             wrapped(out, &" ".repeat(15), &format!("{part}: {bound}"));
+            for fault in &run.task.faults {
+                wrapped(out, &" ".repeat(17), &format!("also after this fault: {fault}"));
+            }
             let values = run.told().collect::<Vec<_>>().join("; ");
             if values != before {
                 wrapped(out, &" ".repeat(17), &format!("with {values}"));

@@ -24,6 +24,9 @@ use stillpoint_lang::diag::Result;
 /// The file of the patterns in the folder of a family.
 pub(super) const FILE: &str = "guarantees.toml";
 
+/// The argument that tells what may have failed before; 0 is nothing.
+const AFTER: &str = "after";
+
 /// In the expressions of patterns: whether the machine file has a program whose signals its values connect.
 const PROGRAMMED: &str = "programmed";
 
@@ -59,6 +62,10 @@ pub(super) struct Pattern {
     pub arguments: IndexMap<String, Param>,
     /// The arguments without a default.
     pub required: Vec<String>,
+    /// Whether it is about a program of the machine file.
+    pub needs_program: bool,
+    /// Parameters that count only after a fault.
+    pub of_faults: Vec<String>,
     pub explore: Vec<Explore>,
 }
 
@@ -76,9 +83,23 @@ pub(super) enum About {
 #[serde(deny_unknown_fields)]
 struct File {
     #[serde(default)]
+    fault: IndexMap<String, FaultData>,
+    /// Parameters that count only after a fault.
+    #[serde(default)]
+    of_faults: Vec<String>,
+    #[serde(default)]
     argument: IndexMap<Spanned<String>, ParamData>,
     #[serde(default)]
     pattern: IndexMap<String, PatternData>,
+}
+
+/// A class of single faults.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct FaultData {
+    text: String,
+    #[allow(dead_code)] // where it comes from, for readers of the data
+    id: Vec<String>,
 }
 
 #[derive(Deserialize)]
@@ -89,8 +110,13 @@ struct PatternData {
     source: String,
     #[serde(default)]
     required: Vec<Spanned<String>>,
+    #[serde(default)]
+    needs_program: bool,
     explore: Vec<ExploreData>,
 }
+
+/// The patterns of a family, and its classes of single faults in words.
+type Patterns = (IndexMap<String, Pattern>, IndexMap<String, String>);
 
 /// Reads the patterns of a family; a family without the file has none.
 ///
@@ -100,14 +126,15 @@ pub(super) fn load(
     folder: &Path,
     known: &Known,
     group_lets: &[(String, Formula)],
-) -> Result<IndexMap<String, Pattern>> {
+) -> Result<Patterns> {
     if !stillpoint_lang::files::is_file(&folder.join(FILE)) {
-        return Ok(IndexMap::new());
+        return Ok(Patterns::default());
     }
     let file = DataFile::read(folder, FILE, "guarantees")?;
     let data: File = file.parse()?;
     let mut check = file.check();
     check.signals = known.signals.clone();
+    check.faults = data.fault.keys().cloned().collect();
     let places: Vec<Place> = data.argument.keys().map(Spanned::span).collect();
     let argument = data.argument.into_iter();
     let argument = argument.map(|(name, data)| (name.into_inner(), data));
@@ -116,6 +143,7 @@ pub(super) fn load(
         arguments: &arguments,
         known,
         group_lets,
+        of_faults: &data.of_faults,
     };
     let mut patterns = IndexMap::new();
     for (name, data) in data.pattern {
@@ -129,7 +157,9 @@ pub(super) fn load(
             check.findings.add(place, message, "", help);
         }
     }
-    check.findings.finish(patterns)
+    let faults = data.fault.into_iter();
+    let faults = faults.map(|(name, fault)| (name, fault.text)).collect();
+    check.findings.finish((patterns, faults))
 }
 
 /// What patterns may name.
@@ -137,6 +167,7 @@ struct Context<'a> {
     arguments: &'a IndexMap<String, Param>,
     known: &'a Known,
     group_lets: &'a [(String, Formula)],
+    of_faults: &'a [String],
 }
 
 impl Context<'_> {
@@ -173,6 +204,8 @@ impl Context<'_> {
             text: data.text.into_inner(),
             source: data.source,
             required: data.required.into_iter().map(Spanned::into_inner).collect(),
+            needs_program: data.needs_program,
+            of_faults: self.of_faults.to_vec(),
             explore: explore.filter_map(|e| check.explore(e, &known)).collect(),
             arguments,
         }
@@ -227,6 +260,14 @@ impl Pattern {
     }
 }
 
+impl Guarantee {
+    /// Whether it must hold after a fault too.
+    pub fn after_fault(&self) -> bool {
+        let after = self.values.get(AFTER);
+        after.is_some_and(|setting| setting.cells.iter().any(|cell| *cell != 0))
+    }
+}
+
 impl Machine {
     /// What a guarantee depends on for one of its axes: parameters with their values, functions with whether they are enabled.
     pub fn depends(&self, guarantee: &Guarantee, axis: &str) -> IndexMap<String, String> {
@@ -257,7 +298,8 @@ impl Machine {
             .iter()
             .find(|g| g.group.map(|g| &g.name) == ground.group.map(|g| &g.name));
         let value = |name: String| {
-            if guarantee.values.contains_key(&name) {
+            let counts = guarantee.after_fault() || !pattern.of_faults.contains(&name);
+            if guarantee.values.contains_key(&name) || !counts {
                 return None;
             }
             let function = family.functions.iter().find(|f| f.variable == name);

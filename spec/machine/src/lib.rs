@@ -185,6 +185,8 @@ pub struct Run {
     pub axes: Vec<String>,
     /// The guarantee that it decides; none: what is true of every machine of the family is shown for this one.
     pub guarantee: Option<String>,
+    /// The classes of single faults that it answers, in words, where the guarantee must hold after any of them.
+    pub faults: Vec<String>,
     /// The specification file.
     pub file: PathBuf,
     /// The system in that file.

@@ -78,6 +78,17 @@ pub(super) fn guaranteed(
     let mut planned: Vec<Planned> = Vec::new();
     let mut files = BTreeMap::new();
     for asked in asked(family, guarantees, parts, judged, logic.is_programmed())? {
+        let (name, axis) = (&asked.guarantee.name, asked.axis);
+        if asked.pattern.needs_program && !logic.is_programmed() {
+            let message = format!(
+                "guarantee {name} is about the program of the safe logic, and the file has none"
+            );
+            let place = Some(asked.guarantee.place.clone());
+            let found = logic.fault(place, message).label("this guarantee");
+            let help = "add [logic.NAME] with source = \"...\", a program beside the machine file";
+            return Err(found.help(help).into());
+        }
+        let mut answered: Vec<&str> = Vec::new();
         let mut decided = false;
         for explore in &asked.pattern.explore {
             if evaluate(family, &explore.when, &asked.values, judged.cycle)? == 0 {
@@ -102,11 +113,23 @@ pub(super) fn guaranteed(
             let mut run = bind(family, explore, &system, judged.cycle, &subject, 0)?;
             run.run.wiring = wiring;
             run.run.guarantee = Some(asked.guarantee.name.clone());
+            for (fault, when) in &explore.covers {
+                let counts = asked.guarantee.after_fault()
+                    && evaluate(family, when, &asked.values, judged.cycle)? != 0;
+                if let Some(text) = family.faults.get(fault).filter(|_| counts) {
+                    answered.push(fault);
+                    run.run.faults.push(text.clone());
+                }
+            }
             merge(&mut planned, run);
         }
-        if !decided {
-            let (name, axis) = (&asked.guarantee.name, asked.axis);
-            let message = format!("nothing decides the guarantee {name} for the axis {axis}");
+        let open = family.faults.keys();
+        let mut open = open.filter(|fault| !answered.contains(&fault.as_str()));
+        let open = open.next().filter(|_| asked.guarantee.after_fault());
+        if !decided || open.is_some() {
+            let after = open.map_or(String::new(), |fault| format!(" after the fault '{fault}'"));
+            let message =
+                format!("nothing decides the guarantee {name} for the axis {axis}{after}");
             let fault = Diagnostic::new(&family.file, &family.source, None, message);
             let help = "this is an error of the family's data, not of the machine file: an entry of its pattern must apply";
             return Err(fault.help(help).into());
@@ -332,6 +355,7 @@ fn bind(
         title: explore.text.clone(),
         axes: subject.axes.clone(),
         guarantee: None,
+        faults: Vec::new(),
         file: family.folder.join(&explore.file),
         system: explore.system.clone(),
         cycle,
@@ -487,5 +511,6 @@ fn merge(list: &mut Vec<Planned>, new: Planned) {
     };
     add(&mut known.names, new.names);
     add(&mut known.run.axes, new.run.axes);
+    add(&mut known.run.faults, new.run.faults);
     add(&mut known.run.abstractions, new.run.abstractions);
 }

@@ -72,7 +72,7 @@ fn functions(family: &Family, name: &str) -> Result<Vec<String>> {
 
 /// The signals that a program in an explored system is connected to.
 pub(super) fn of_wires(explore: &Explore) -> impl Iterator<Item = String> + '_ {
-    explore.wires.iter().map(|(_, name, _)| name.clone())
+    explore.wires.iter().map(|wire| wire.name.clone())
 }
 
 /// The names that an explored system reads.

@@ -104,9 +104,13 @@ pub(super) fn wiring(
     logic: &Logic,
 ) -> Result<Wiring> {
     let mut wiring = Wiring::new();
-    for (port, name, index) in &explore.wires {
+    for wire in &explore.wires {
+        let (port, name) = (&wire.port, &wire.name);
         let cells = asked.values.get(name).map_or(&[][..], Vec::as_slice);
-        let code = cells.get(*index).copied().unwrap_or(0);
+        let code = cells.get(wire.index).copied().unwrap_or(0);
+        if code == 0 && wire.optional {
+            continue;
+        }
         if code == 0 && logic.is_told(port) {
             let guarantee = asked.guarantee;
             let message = format!(
