@@ -11,6 +11,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::eval::Values;
+use super::own::Own;
 use super::family::{Explore, Family, Formula, Known, Param, Quantity};
 use super::family_file::{Check, ExploreData, ParamData};
 use super::ground::{About as Subjects, DataFile, grounds};
@@ -27,6 +28,9 @@ pub(super) const FILE: &str = "guarantees.toml";
 /// The argument that tells what may have failed before; 0 is nothing.
 const AFTER: &str = "after";
 
+/// The argument with the time of a property of the machine file.
+pub(super) const WITHIN: &str = "within";
+
 /// In the expressions of patterns: whether the machine file has a program whose signals its values connect.
 const PROGRAMMED: &str = "programmed";
 
@@ -41,6 +45,8 @@ pub struct Guarantee {
     pub door: Option<String>,
     /// The axes that it is about, all of one kind.
     pub axes: Vec<Spanned<String>>,
+    /// What it asks of the safe logic in words of its own.
+    pub own: Option<Own>,
     /// A value for every argument of the pattern.
     pub values: Settings,
     /// What is guaranteed, with these values.
@@ -77,6 +83,8 @@ pub(super) enum About {
     Axis,
     /// A door, and axes behind it: all of them, where it names none.
     Door,
+    /// The safe logic alone: the file says what is looked at and what must be true.
+    Logic,
 }
 
 #[derive(Deserialize)]
@@ -174,7 +182,7 @@ impl Context<'_> {
     fn pattern(&self, check: &mut Check, data: PatternData) -> Pattern {
         let arguments = self.told(check, &data.text, data.about);
         let mut names = match data.about {
-            About::Axis => self.known.axis.clone(),
+            About::Axis | About::Logic => self.known.axis.clone(),
             About::Door => self.known.door.clone(),
         };
         names.extend(arguments.keys().cloned());
@@ -224,6 +232,7 @@ impl Context<'_> {
                 Some((name, argument)) => {
                     told.insert(name.clone(), argument.clone());
                 }
+                None if about == About::Logic && (place == "when" || place == "then") => {}
                 None if place == "axes" || (place == "door" && about == About::Door) => {}
                 None => {
                     let known: Vec<&str> = self.arguments.keys().map(String::as_str).collect();
@@ -245,10 +254,18 @@ impl Context<'_> {
 
 impl Pattern {
     /// What is guaranteed, in words.
-    pub fn told(&self, door: Option<&str>, axes: &[Spanned<String>], values: &Settings) -> String {
+    pub fn told(
+        &self,
+        door: Option<&str>,
+        axes: &[Spanned<String>],
+        own: Option<&Own>,
+        values: &Settings,
+    ) -> String {
         let axes: Vec<&str> = axes.iter().map(|a| a.get_ref().as_str()).collect();
         let place = |name: &str| {
             Some(match (name, values.get(name)) {
+                ("when", _) => own.map_or("", |own| &own.when.text).to_owned(),
+                ("then", _) => own.map_or("", |own| &own.then.text).to_owned(),
                 ("axes", _) => axes.join(", "),
                 ("door", _) => door.unwrap_or_default().to_owned(),
                 (_, Some(setting)) => setting.shown.join(", ").replace('"', ""),
@@ -276,7 +293,7 @@ impl Machine {
             return IndexMap::new();
         };
         let subjects = match pattern.about {
-            About::Axis => Subjects::Axis,
+            About::Axis | About::Logic => Subjects::Axis,
             About::Door => Subjects::DoorAxis,
         };
         let all = grounds(self, subjects);
@@ -347,8 +364,11 @@ pub(super) fn asked<'a>(
         let Some(pattern) = family.patterns.get(&guarantee.pattern) else {
             continue;
         };
-        for axis in &guarantee.axes {
-            let axis = axis.get_ref().as_str();
+        // What is asked of the logic has the values of the control, which each axis has.
+        let any = parts.axes.first().map(|axis| axis.name.as_str());
+        let of_logic = any.filter(|_| pattern.about == About::Logic);
+        let named = guarantee.axes.iter().map(|axis| axis.get_ref().as_str());
+        for axis in named.chain(of_logic) {
             let Some(values) = values.get(axis) else {
                 continue;
             };

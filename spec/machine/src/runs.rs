@@ -4,8 +4,9 @@ use std::collections::BTreeMap;
 
 use super::eval::Values;
 use super::family::{Binding, Explore, Family, Rounding, Scope};
-use super::guarantee::{Guarantee, asked};
+use super::guarantee::{Asked, Guarantee, WITHIN, asked};
 use super::logic::Logic;
+use super::own::{Asks, Own};
 use super::plausible::{Judged, evaluate};
 use super::wired::wiring;
 use super::{Axis, Door, Group, Run, Wiring};
@@ -104,6 +105,10 @@ pub(super) fn guaranteed(
                 true => wiring(family, explore, &asked, logic)?,
                 false => Wiring::new(),
             };
+            let wiring = match &asked.guarantee.own {
+                Some(_) => logic.unserved(wiring),
+                None => wiring,
+            };
             let mut system = system;
             if let Some(scan) = explore.scan.as_ref().filter(|_| !wiring.is_empty()) {
                 let scan = evaluate(family, scan, &asked.values, judged.cycle)?.max(1);
@@ -113,6 +118,12 @@ pub(super) fn guaranteed(
             let mut run = bind(family, explore, &system, judged.cycle, &subject, 0)?;
             run.run.wiring = wiring;
             run.run.guarantee = Some(asked.guarantee.name.clone());
+            if let Some(own) = &asked.guarantee.own {
+                // It is about the logic, whatever axis there is.
+                run.each = Scope::Machine;
+                run.run.axes.clear();
+                run.run.asks = Some(asks(own, &asked, run.run.cycle, logic)?);
+            }
             for (fault, when) in &explore.covers {
                 let counts = asked.guarantee.after_fault()
                     && evaluate(family, when, &asked.values, judged.cycle)? != 0;
@@ -136,6 +147,23 @@ pub(super) fn guaranteed(
         }
     }
     Ok(planned.into_iter().map(Planned::titled).collect())
+}
+
+/// The question of a machine file, with its time in cycles: what is asked for begins at any moment between two of them.
+fn asks(own: &Own, asked: &Asked<'_>, cycle: i64, logic: &Logic) -> Result<Asks> {
+    let within = asked.values.get(WITHIN).and_then(|cells| cells.first());
+    let within = within.copied().unwrap_or(0);
+    if within > 0 && within < cycle {
+        let cycle = super::units::Dimension::Time.show(cycle);
+        let message = format!("guarantee {}: the logic runs once in {cycle}", own.name);
+        let found = logic.fault(Some(asked.guarantee.place.clone()), message);
+        let help = format!("write within = \"{cycle}\" or more, or leave it out: then in the same cycle");
+        return Err(found.label("this guarantee").help(help).into());
+    }
+    Ok(Asks {
+        own: own.clone(),
+        within: (within > 0).then(|| within / cycle.max(1) - 1),
+    })
 }
 
 /// An exploration, and what it stands for.
@@ -355,6 +383,7 @@ fn bind(
         title: explore.text.clone(),
         axes: subject.axes.clone(),
         guarantee: None,
+        asks: None,
         faults: Vec::new(),
         file: family.folder.join(&explore.file),
         system: explore.system.clone(),
@@ -494,6 +523,7 @@ fn merge(list: &mut Vec<Planned>, new: Planned) {
         let (a, b) = (&known.run, &new.run);
         (&a.file, &a.system, a.cycle, a.before, &a.params, &a.wiring)
             == (&b.file, &b.system, b.cycle, b.before, &b.params, &b.wiring)
+            && a.asks == b.asks
             && a.guarantee == b.guarantee
             && (known.each, known.of_member) == (new.each, new.of_member)
             && (!new.of_member || known.names == new.names)

@@ -1,5 +1,6 @@
 //! Programs with numbered signals, SAFE.SPF: what they are connected to follows from the values of the machine file, axis by axis.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use stillpoint_lang::Spec;
@@ -28,6 +29,7 @@ pub(super) struct Wired {
     /// The interface of that machine, and its inputs by name.
     signature: Signature,
     inputs: Vec<String>,
+    outputs: Vec<String>,
 }
 
 impl Wired {
@@ -43,11 +45,16 @@ impl Wired {
     ) -> Result<Self> {
         let mut machines = spec.outline().machines.into_iter();
         let machine = machines.find(|m| m.name == *name.get_ref());
-        let inputs = machine.into_iter().flat_map(|m| m.inputs);
+        let (inputs, outputs) = machine.map_or_else(Default::default, |m| {
+            let inputs: Vec<String> = m.inputs.into_iter().map(|port| port.name).collect();
+            let outputs: Vec<String> = m.outputs.into_iter().map(|port| port.name).collect();
+            (inputs, outputs)
+        });
         Ok(Self {
             program: spf::parse(&file, &source, Mode::Strict)?,
             signature: Signature::of(spec, name.get_ref())?,
-            inputs: inputs.map(|port| port.name).collect(),
+            inputs,
+            outputs,
             name,
             file,
             source,
@@ -64,6 +71,21 @@ impl Wired {
     /// # Errors
     /// It cannot be explored.
     pub fn compiled(&self, wiring: &Wiring) -> Result<Compiled> {
+        self.program.compile(&self.interface(wiring))
+    }
+
+    /// What its variables are called in that table: `INSE[3]`, and the names that it defines.
+    pub fn identifiers(&self, wiring: &Wiring) -> BTreeMap<String, String> {
+        self.program.identifiers(&self.interface(wiring))
+    }
+
+    /// The outputs of the machine that it stands for, served by nothing.
+    pub fn unserved(&self) -> impl Iterator<Item = (String, String)> + '_ {
+        let outputs = self.outputs.iter();
+        outputs.map(|port| (port.clone(), "TRUE".to_owned()))
+    }
+
+    fn interface(&self, wiring: &Wiring) -> Interface {
         let mut interface = Interface {
             signature: self.signature.clone(),
             inputs: Vec::new(),
@@ -89,7 +111,7 @@ impl Wired {
                 }
             }
         }
-        self.program.compile(&interface)
+        interface
     }
 }
 
