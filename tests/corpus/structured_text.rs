@@ -183,6 +183,7 @@ fn task(spec: &Spec, bound: Bound, title: String) -> Task {
         axes: Vec::new(),
         guarantee: None,
         faults: Vec::new(),
+        travel: 0,
         before: 0,
         abstractions: Vec::new(),
         bound,

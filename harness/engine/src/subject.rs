@@ -27,6 +27,8 @@ pub struct Task {
     pub faults: Vec<String>,
     /// A time in microseconds that passes before what is explored begins; no bound has it.
     pub before: u64,
+    /// The speed, in base units a minute, at which a bound is told as a way too; 0: at none.
+    pub travel: i64,
     /// Where it is coarser than the machine.
     pub abstractions: Vec<String>,
     /// The system with its parameter values.
@@ -99,6 +101,7 @@ fn of_spec(path: &Path, text: Arc<str>, readings: &Readings) -> Result<Subject> 
                 guarantee: None,
                 faults: Vec::new(),
                 before: 0,
+                travel: 0,
                 abstractions: Vec::new(),
                 bound,
                 analysis,
@@ -162,6 +165,7 @@ pub fn of_runs(
             guarantee: run.guarantee.clone(),
             faults: run.faults.clone(),
             before: u64::try_from(run.before).unwrap_or(0),
+            travel: run.travel,
             abstractions: run.abstractions.clone(),
             bound,
             analysis,

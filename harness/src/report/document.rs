@@ -311,7 +311,7 @@ fn guaranteed(subject: &Subject, checked: &[Checked]) -> Vec<Block> {
                 words(run.task.faults.join("\n")),
                 words(
                     run.bound
-                        .map_or_else(String::new, |b| format!("at most {}", time(b))),
+                        .map_or_else(String::new, |b| format!("at most {}{}", time(b), run.travelled())),
                 ),
                 words(run.told().collect::<Vec<_>>().join("\n")),
             ]

@@ -108,6 +108,7 @@ fn guarantees(subject: &Subject, checked: &[Checked]) -> Vec<Value> {
                 values.map(|v| json!({ "name": v.name, "value": v.value, "axes": v.axes }));
             json!({
                 "axes": run.task.axes, "title": run.task.title, "faults": run.task.faults, "verdict": verdict_name(run.verdict), "bound_us": run.bound,
+                "way": run.way.as_ref().map(|(way, _)| way), "way_at": run.way.as_ref().map(|(_, speed)| speed),
                 "values": values.collect::<Vec<_>>(), "abstractions": run.task.abstractions,
             })
         });

@@ -115,7 +115,7 @@ fn guaranteed(out: &mut String, subject: &Subject, checked: &[Checked]) {
         let mut before = String::new();
         for run in &answer.runs {
             let bound = match run.bound {
-                Some(bound) => format!("in at most {}", time(bound)),
+                Some(bound) => format!("in at most {}{}", time(bound), run.travelled()),
                 None => verdict_name(run.verdict).to_owned(),
             };
             let part = match systems.len() {

@@ -133,6 +133,7 @@ pub(super) struct ExploreData {
     cycle: Option<Spanned<String>>,
     before: Option<Spanned<String>>,
     scan: Option<Spanned<String>>,
+    travel: Option<Spanned<String>>,
     #[serde(default)]
     wire: IndexMap<String, Spanned<String>>,
     #[serde(default)]
@@ -481,6 +482,7 @@ impl Check {
         let cycle = optional(data.cycle)?;
         let before = optional(data.before)?;
         let scan = optional(data.scan)?;
+        let travel = optional(data.travel)?;
         let mut wires = Vec::new();
         for (port, text) in data.wire {
             let written = text.get_ref();
@@ -570,6 +572,7 @@ impl Check {
             cycle,
             before,
             scan,
+            travel,
             wires,
             covers,
             params,

@@ -389,6 +389,7 @@ fn bind(
         system: explore.system.clone(),
         cycle,
         before: 0,
+        travel: 0,
         wiring: Wiring::new(),
         params: BTreeMap::new(),
         sources: BTreeMap::new(),
@@ -410,6 +411,9 @@ fn bind(
     run.cycle = cycle;
     if let Some(formula) = &explore.before {
         run.before = evaluate(family, formula, values, cycle)?;
+    }
+    if let Some(formula) = &explore.travel {
+        run.travel = evaluate(family, formula, values, cycle)?;
     }
     if !explore.note.is_empty() {
         run.abstractions.push(explore.note.clone());
@@ -523,7 +527,7 @@ fn merge(list: &mut Vec<Planned>, new: Planned) {
         let (a, b) = (&known.run, &new.run);
         (&a.file, &a.system, a.cycle, a.before, &a.params, &a.wiring)
             == (&b.file, &b.system, b.cycle, b.before, &b.params, &b.wiring)
-            && a.asks == b.asks
+            && (&a.asks, a.travel) == (&b.asks, b.travel)
             && a.guarantee == b.guarantee
             && (known.each, known.of_member) == (new.each, new.of_member)
             && (!new.of_member || known.names == new.names)

@@ -79,7 +79,7 @@ pub(super) fn of_wires(explore: &Explore) -> impl Iterator<Item = String> + '_ {
 pub(super) fn of_system(explore: &Explore) -> Vec<String> {
     let mut names = read_names(&explore.when.expr);
     let times = explore.cycle.iter().chain(&explore.before);
-    let times = times.chain(&explore.scan);
+    let times = times.chain(&explore.scan).chain(&explore.travel);
     names.extend(times.flat_map(|f| read_names(&f.expr)));
     for binding in &explore.params {
         match binding {
