@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 use std::fmt::Write;
 
 use stillpoint_engine::check::{Checked, Settings, Summary, Unfired, violations};
+use stillpoint_engine::excluded::Decisive;
 use stillpoint_engine::lines::{self, Line};
 use stillpoint_engine::subject::{Subject, Task};
 use stillpoint_engine::{Evaluator, verdict_name};
@@ -47,6 +48,11 @@ pub fn text(subject: &Subject, checked: &[Checked], summaries: &[Summary], all: 
         }
         if let Some(reason) = violation.refuted {
             let _ = writeln!(out, "  {reason}");
+        }
+        if !violation.decisive.is_empty() {
+            let list: Vec<String> = violation.decisive.iter().map(Decisive::text).collect();
+            let what = format!("each of these values decides it: {}", list.join("; "));
+            wrapped(&mut out, "  ", &what);
         }
         match violation.trace {
             Some(trace) => {
