@@ -149,7 +149,8 @@ fn every_dangerous_value_breaks_a_guarantee() {
             let name = change.breaks.as_str();
             let broken = changed(&machine.file, &change.replace, &change.by);
             let found = guaranteed(&machine.file, broken, &[name]);
-            (found[name].0 != Verdict::Violated).then(|| format!("{}: {:?}", change.text, found[name]))
+            (found[name].0 != Verdict::Violated)
+                .then(|| format!("{}: {:?}", change.text, found[name]))
         });
         let wrong: Vec<String> = wrong.into_iter().flatten().collect();
         assert!(wrong.is_empty(), "{}: {}", machine.file, wrong.join("\n"));
@@ -161,7 +162,12 @@ fn every_dangerous_value_breaks_a_guarantee() {
 fn the_fault_that_breaks_a_guarantee_is_named() {
     for (file, from, to, name) in [
         (MILLING, "contacts      = 2 ", "contacts      = 1 ", "table"),
-        (CENTRE, "contacts    = 2            #", "contacts    = 1            #", "table_som_1"),
+        (
+            CENTRE,
+            "contacts    = 2            #",
+            "contacts    = 1            #",
+            "table_som_1",
+        ),
     ] {
         let machine = changed(file, from, to);
         let path = root().join(file);
@@ -174,12 +180,24 @@ fn the_fault_that_breaks_a_guarantee_is_named() {
         let checked = check(&subject, &Settings::default(), &mut |_| Box::new(()))
             .unwrap_or_else(|(t, e)| panic!("{t}: {e}"));
         let list = answers(&subject, &checked);
-        let answer = list.iter().find(|a| a.guarantee.name == name).expect("asked");
+        let answer = list
+            .iter()
+            .find(|a| a.guarantee.name == name)
+            .expect("asked");
         for run in &answer.runs {
             let stuck = run.task.faults.iter().any(|f| f.starts_with("a contact"));
-            let expected = if stuck { Verdict::Violated } else { Verdict::Holds };
+            let expected = if stuck {
+                Verdict::Violated
+            } else {
+                Verdict::Holds
+            };
             assert_eq!(run.verdict, expected, "{name}: {}", run.task.title);
         }
-        assert!(answer.runs.iter().any(|run| run.verdict == Verdict::Violated));
+        assert!(
+            answer
+                .runs
+                .iter()
+                .any(|run| run.verdict == Verdict::Violated)
+        );
     }
 }

@@ -94,7 +94,10 @@ pub fn decisive(
 impl Decisive {
     /// `VELO_SWITCH_DELAY (t_vel = 5000, holds with 1)`.
     pub fn text(&self) -> String {
-        let value = format!("{} = {}, holds with {}", self.name, self.value, self.instead);
+        let value = format!(
+            "{} = {}, holds with {}",
+            self.name, self.value, self.instead
+        );
         match &self.source {
             Some(source) if *source != self.name => format!("{source} ({value})"),
             _ => value,

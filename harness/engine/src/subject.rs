@@ -150,7 +150,11 @@ pub fn of_runs(
     let mut tasks = Vec::new();
     let mut specs: BTreeMap<_, Spec> = BTreeMap::new();
     for run in runs {
-        let spec = match specs.entry((&run.file, &run.wiring, run.asks.as_ref().map(|asks| &asks.own.name))) {
+        let spec = match specs.entry((
+            &run.file,
+            &run.wiring,
+            run.asks.as_ref().map(|asks| &asks.own.name),
+        )) {
             Entry::Occupied(known) => known.into_mut(),
             Entry::Vacant(new) => new.insert(machine.spec(run)?),
         };

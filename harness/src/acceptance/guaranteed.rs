@@ -68,8 +68,12 @@ pub(super) fn section(machine: &Machine, decided: Option<&Decided>) -> Option<Bl
     });
     let heads = ["Guarantee", "In plain words", "Measured", "OK"];
     let mut blocks = vec![Block::Paragraph(vec![Inline::text(match decided {
-        Some(_) => "What was explored of each guarantee stands below. It is computed from the values of this configuration and, where there is one, from its program; whether wiring, drives and mechanics are as assumed is measured on the machine.",
-        None => "Whether these values and this program keep the guarantees is told by stillpoint check, and here with --guarantees; whether wiring, drives and mechanics are as assumed is measured on the machine.",
+        Some(_) => {
+            "What was explored of each guarantee stands below. It is computed from the values of this configuration and, where there is one, from its program; whether wiring, drives and mechanics are as assumed is measured on the machine."
+        }
+        None => {
+            "Whether these values and this program keep the guarantees is told by stillpoint check, and here with --guarantees; whether wiring, drives and mechanics are as assumed is measured on the machine."
+        }
     })])];
     blocks.push(Block::table(&heads, rows));
     blocks.extend(decided.iter().flat_map(|d| d.blocks.clone()));

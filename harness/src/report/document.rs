@@ -5,9 +5,7 @@ use std::time::Instant;
 
 use stillpoint_certify::format::{Kind, Source};
 use stillpoint_certify::subject as certified;
-use stillpoint_engine::check::{
-    Checked, Settings, Summary, Violation, exit_status, violations,
-};
+use stillpoint_engine::check::{Checked, Settings, Summary, Violation, exit_status, violations};
 use stillpoint_engine::lines;
 use stillpoint_engine::readings::Compared;
 use stillpoint_engine::subject::{Subject, Task};
@@ -312,10 +310,9 @@ pub fn guaranteed(subject: &Subject, checked: &[Checked]) -> Vec<Block> {
                 )),
                 words(run.task.axes.join(", ")),
                 words(run.task.faults.join("\n")),
-                words(
-                    run.bound
-                        .map_or_else(String::new, |b| format!("at most {}{}", time(b), run.travelled())),
-                ),
+                words(run.bound.map_or_else(String::new, |b| {
+                    format!("at most {}{}", time(b), run.travelled())
+                })),
                 words(run.told().collect::<Vec<_>>().join("\n")),
             ]
         })

@@ -132,7 +132,11 @@ fn guaranteed(out: &mut String, subject: &Subject, checked: &[Checked]) {
             };
             wrapped(out, &" ".repeat(15), &format!("{part}: {bound}"));
             for fault in &run.task.faults {
-                wrapped(out, &" ".repeat(17), &format!("also after this fault: {fault}"));
+                wrapped(
+                    out,
+                    &" ".repeat(17),
+                    &format!("also after this fault: {fault}"),
+                );
             }
             let values = run.told().collect::<Vec<_>>().join("; ");
             if values != before {
@@ -254,7 +258,8 @@ fn run(out: &mut String, n: usize, task: &Task, done: &Checked, all: bool) {
     if all {
         unfired(out, done);
     }
-    for warning in &task.bound.system.warnings {
+    // What nothing in the tables reads is their matter.
+    for warning in task.bound.system.warnings.iter().filter(|_| all) {
         wrapped(out, "  warning: ", warning);
     }
     for skipped in &task.analysis.skipped {

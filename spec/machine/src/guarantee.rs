@@ -11,10 +11,10 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::eval::Values;
-use super::own::Own;
 use super::family::{Explore, Family, Formula, Known, Param, Quantity};
 use super::family_file::{Check, ExploreData, ParamData};
 use super::ground::{About as Subjects, DataFile, grounds};
+use super::own::Own;
 use super::plausible::{Judged, evaluate, insert};
 use super::runs::Parts;
 use super::template::filled;

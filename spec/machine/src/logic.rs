@@ -281,7 +281,8 @@ impl Logic {
         let parts = parts.map_or(&[][..], |s| &s.instances);
         let mut names = BTreeMap::new();
         for (instance, machine) in parts.iter().filter(|(_, m)| slots.contains(&m.as_str())) {
-            let mut add = |name: String, port: &str| names.insert(name, format!("{instance}.{port}"));
+            let mut add =
+                |name: String, port: &str| names.insert(name, format!("{instance}.{port}"));
             let wired = self.wired.iter().find(|w| w.name.get_ref() == machine);
             match (wired, outline.machines.iter().find(|m| m.name == *machine)) {
                 (Some(wired), _) => {

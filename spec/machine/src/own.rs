@@ -105,12 +105,22 @@ mod tests {
 
     #[test]
     fn signals_have_the_names_of_the_table() {
-        let pairs = [("INSE[1]", "spl.inse_1"), ("DOOR", "spl.inse_1"), ("OUTSI[12]", "spl.outsi_12")];
+        let pairs = [
+            ("INSE[1]", "spl.inse_1"),
+            ("DOOR", "spl.inse_1"),
+            ("OUTSI[12]", "spl.outsi_12"),
+        ];
         let names = pairs.map(|(a, b)| (a.to_owned(), b.to_owned())).into();
         let of = |text: &str| named(text, &names);
-        assert_eq!(of("NOT INSE[1] AND $A_OUTSI[12]"), "NOT spl.inse_1 AND spl.outsi_12");
+        assert_eq!(
+            of("NOT INSE[1] AND $A_OUTSI[12]"),
+            "NOT spl.inse_1 AND spl.outsi_12"
+        );
         assert_eq!(of("(DOOR)OR DOOR_2"), "(spl.inse_1)OR DOOR_2");
-        assert_eq!(of("PREV(OUTSI[12]) = OUTSI[1]"), "PREV(spl.outsi_12) = OUTSI[1]");
+        assert_eq!(
+            of("PREV(OUTSI[12]) = OUTSI[1]"),
+            "PREV(spl.outsi_12) = OUTSI[1]"
+        );
         assert_eq!(of("ä = 1"), "ä = 1");
     }
 }

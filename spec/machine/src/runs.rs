@@ -157,7 +157,8 @@ fn asks(own: &Own, asked: &Asked<'_>, cycle: i64, logic: &Logic) -> Result<Asks>
         let cycle = super::units::Dimension::Time.show(cycle);
         let message = format!("guarantee {}: the logic runs once in {cycle}", own.name);
         let found = logic.fault(Some(asked.guarantee.place.clone()), message);
-        let help = format!("write within = \"{cycle}\" or more, or leave it out: then in the same cycle");
+        let help =
+            format!("write within = \"{cycle}\" or more, or leave it out: then in the same cycle");
         return Err(found.label("this guarantee").help(help).into());
     }
     Ok(Asks {
