@@ -17,6 +17,7 @@ use toml::de::{DeTable, DeValue, Deserializer};
 
 use super::document::Findings;
 use super::family::{Family, Language, Slot};
+use super::own::Own;
 use super::wired::Wired;
 use super::{Basis, Machine, Place, Run, Wiring, own};
 
@@ -257,14 +258,28 @@ impl Logic {
         Ok(all)
     }
 
-    /// What is connected to nothing else: of a program in numbered signals no output serves an axis.
-    pub fn unserved(&self, mut wiring: Wiring) -> Wiring {
-        for wired in &self.wired {
-            for (port, value) in wired.unserved() {
-                wiring.entry(port).or_insert(value);
-            }
-        }
-        wiring
+    /// The signals of a question in words of the file, at the ports of the machine that a program in numbered signals stands for.
+    ///
+    /// # Errors
+    /// More signals than ports.
+    pub fn shown(&self, own: &Own, place: &Place) -> Result<Wiring> {
+        let Some(wired) = self.wired.first() else {
+            return Ok(Wiring::new());
+        };
+        let used = own::used(own, &wired.signals());
+        wired.shown(&used).ok_or_else(|| {
+            let message = format!(
+                "guarantee {}: {} signals are too many for one question",
+                own.name,
+                used.len()
+            );
+            let found = self
+                .fault(Some(place.clone()), message)
+                .label("this guarantee");
+            found
+                .help("ask two questions, or let the program give a marker of some of them")
+                .into()
+        })
     }
 
     /// What the signals of the logic are called in a system: those of a program as it names them, else the inputs, outputs and
@@ -286,8 +301,11 @@ impl Logic {
             let wired = self.wired.iter().find(|w| w.name.get_ref() == machine);
             match (wired, outline.machines.iter().find(|m| m.name == *machine)) {
                 (Some(wired), _) => {
-                    for (name, port) in wired.identifiers(wiring) {
-                        add(name, &port);
+                    for (name, (variable, _)) in wired.signals() {
+                        let port = wiring.iter().find(|(_, signal)| **signal == variable);
+                        if let Some((port, _)) = port {
+                            add(name, port);
+                        }
                     }
                 }
                 (None, Some(machine)) => {

@@ -66,8 +66,29 @@ pub(super) fn ask(
     Ok(())
 }
 
-/// An expression with the names of the system: `NOT INSE[1] AND $A_OUTSI[3]` is `NOT spl.inse_1 AND spl.outsi_3`.
+/// The signals that a question names, each once.
+pub(super) fn used(own: &Own, signals: &BTreeMap<String, (String, bool)>) -> Vec<(String, bool)> {
+    let mut found: Vec<(String, bool)> = Vec::new();
+    for stated in [&own.when, &own.then] {
+        let mut note = |word: &str| {
+            let signal = signals.get(word)?;
+            if !found.contains(signal) {
+                found.push(signal.clone());
+            }
+            Some(word.to_owned())
+        };
+        let _ = rewritten(&stated.text, &mut note);
+    }
+    found
+}
+
+/// An expression with the names of the system: `NOT INSE[1] AND $A_OUTSI[3]` is `NOT spl.contact AND spl.sge_a`.
 fn named(text: &str, names: &BTreeMap<String, String>) -> String {
+    rewritten(text, &mut |word| names.get(word).cloned())
+}
+
+/// An expression in which each word with its index, `OUTSI[3]`, or without it is replaced by what `find` gives for it.
+fn rewritten(text: &str, find: &mut impl FnMut(&str) -> Option<String>) -> String {
     let mut out = String::new();
     let mut rest = text;
     while let Some(first) = rest.chars().next() {
@@ -80,21 +101,14 @@ fn named(text: &str, names: &BTreeMap<String, String>) -> String {
         let end = rest.find(|c: char| !is_word(c)).unwrap_or(rest.len());
         let index = rest[end..].strip_prefix('[').and_then(|t| t.find(']'));
         let whole = index.map_or(end, |k| end + k + 2);
-        let plain = |text: &str| text.strip_prefix("$A_").unwrap_or(text).to_owned();
         let found = [whole, end].into_iter().find_map(|to| {
-            let name = names.get(&plain(&rest[..to]))?;
+            let word = &rest[..to];
+            let name = find(word.strip_prefix("$A_").unwrap_or(word))?;
             Some((name, to))
         });
-        match found {
-            Some((name, to)) => {
-                out.push_str(name);
-                rest = &rest[to..];
-            }
-            None => {
-                out.push_str(&rest[..end]);
-                rest = &rest[end..];
-            }
-        }
+        let (name, to) = found.unwrap_or_else(|| (rest[..end].to_owned(), end));
+        out.push_str(&name);
+        rest = &rest[to..];
     }
     out
 }

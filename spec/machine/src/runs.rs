@@ -106,7 +106,7 @@ pub(super) fn guaranteed(
                 false => Wiring::new(),
             };
             let wiring = match &asked.guarantee.own {
-                Some(_) => logic.unserved(wiring),
+                Some(own) => logic.shown(own, &asked.guarantee.place)?,
                 None => wiring,
             };
             let mut system = system;

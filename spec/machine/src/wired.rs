@@ -30,6 +30,8 @@ pub(super) struct Wired {
     signature: Signature,
     inputs: Vec<String>,
     outputs: Vec<String>,
+    /// The inputs of type BOOL.
+    bools: Vec<String>,
 }
 
 impl Wired {
@@ -45,16 +47,14 @@ impl Wired {
     ) -> Result<Self> {
         let mut machines = spec.outline().machines.into_iter();
         let machine = machines.find(|m| m.name == *name.get_ref());
-        let (inputs, outputs) = machine.map_or_else(Default::default, |m| {
-            let inputs: Vec<String> = m.inputs.into_iter().map(|port| port.name).collect();
-            let outputs: Vec<String> = m.outputs.into_iter().map(|port| port.name).collect();
-            (inputs, outputs)
-        });
+        let (inputs, outputs) = machine.map_or_else(Default::default, |m| (m.inputs, m.outputs));
+        let bools = inputs.iter().filter(|port| port.ty == "BOOL");
         Ok(Self {
             program: spf::parse(&file, &source, Mode::Strict)?,
             signature: Signature::of(spec, name.get_ref())?,
-            inputs,
-            outputs,
+            bools: bools.map(|port| port.name.clone()).collect(),
+            inputs: inputs.into_iter().map(|port| port.name).collect(),
+            outputs: outputs.into_iter().map(|port| port.name).collect(),
             name,
             file,
             source,
@@ -74,15 +74,38 @@ impl Wired {
         self.program.compile(&self.interface(wiring))
     }
 
-    /// What its variables are called in that table: `INSE[3]`, and the names that it defines.
-    pub fn identifiers(&self, wiring: &Wiring) -> BTreeMap<String, String> {
-        self.program.identifiers(&self.interface(wiring))
+    /// Its signals by all their names, `INSE[3]` and those that it defines: the variable, and whether the program gives it.
+    pub fn signals(&self) -> BTreeMap<String, (String, bool)> {
+        let mut all = BTreeMap::new();
+        for used in self.program.variables() {
+            let variable = used.variable.to_string();
+            for name in used.names.iter().chain([&variable]) {
+                all.insert(name.clone(), (variable.clone(), used.writes));
+            }
+        }
+        all
     }
 
-    /// The outputs of the machine that it stands for, served by nothing.
-    pub fn unserved(&self) -> impl Iterator<Item = (String, String)> + '_ {
-        let outputs = self.outputs.iter();
-        outputs.map(|port| (port.clone(), "TRUE".to_owned()))
+    fn is_bool(&self, input: &str) -> bool {
+        self.bools.iter().any(|port| port == input)
+    }
+
+    /// The signals at the ports of the machine that it stands for, where nothing but these signals is looked at: what the program
+    /// gives at its outputs, what it is told at its inputs. None: there are more of them than ports.
+    pub fn shown(&self, signals: &[(String, bool)]) -> Option<Wiring> {
+        let mut wiring = Wiring::new();
+        let (inputs, mut outputs) = (self.inputs.iter(), self.outputs.iter());
+        // Signals are of type BOOL; the scan is told by another port.
+        let mut inputs = inputs.filter(|port| *port != SCAN && self.is_bool(port));
+        for (variable, given) in signals {
+            let port = match given {
+                true => outputs.next()?,
+                false => inputs.next()?,
+            };
+            wiring.insert(port.clone(), variable.clone());
+        }
+        wiring.extend(outputs.map(|port| (port.clone(), "TRUE".to_owned())));
+        Some(wiring)
     }
 
     fn interface(&self, wiring: &Wiring) -> Interface {

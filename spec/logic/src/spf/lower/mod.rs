@@ -65,24 +65,6 @@ impl Program {
         lower(&self.file, &self.source, &tree, &making.wiring.signature).map_err(all)
     }
 
-    /// What the variables are called in the table that [`Program::compile`] makes: each as `INSE[3]` and by the names that the program
-    /// defines for it. What the program neither reads nor writes is not in it.
-    #[must_use]
-    pub fn identifiers(&self, interface: &Interface) -> BTreeMap<String, String> {
-        // What is wrong with it is told where it is compiled.
-        let wiring = Wiring::new(self, interface, &self.numbers(), &mut Vec::new());
-        let mut all = BTreeMap::new();
-        for (variable, role) in &wiring.roles {
-            let (Role::Input(identifier) | Role::State(identifier)) = role else {
-                continue;
-            };
-            all.insert(variable.to_string(), identifier.clone());
-            let names = self.names.iter().filter(|name| name.variable == *variable);
-            all.extend(names.map(|name| (name.name.clone(), identifier.clone())));
-        }
-        all
-    }
-
     /// The first name that the program defines for a variable.
     fn title(&self, variable: &Variable) -> Option<String> {
         let mut names = self.names.iter().filter(|name| name.variable == *variable);
