@@ -26,6 +26,8 @@ pub struct Decided<'a> {
     pub verdict: Verdict,
     /// The longest time that a response takes in any run, in microseconds; none where there is no bound.
     pub bound: Option<u64>,
+    /// How far an axis goes in this time at the fastest of its limits: way and speed as texts. An axis that accelerates goes farther.
+    pub way: Option<(String, String)>,
     /// What it was computed from.
     pub values: Vec<Value>,
 }
@@ -75,13 +77,26 @@ fn decided_by<'a>(
     let verdict = verdicts.chain(faulty).max_by_key(|v| severity(*v));
     let cycles = report.properties.iter().filter_map(|p| p.bound).max();
     let cycle = task.bound.system.cycle_us;
+    // It begins at any moment between two cycles.
+    let bound = cycles.map(|n| task.before + (n + 1) * cycle);
     Decided {
         task,
         verdict: verdict.unwrap_or(Verdict::Inconclusive),
-        // It begins at any moment between two cycles.
-        bound: cycles.map(|n| task.before + (n + 1) * cycle),
+        way: bound.and_then(|bound| way(subject, task, bound)),
+        bound,
         values: values(subject, guarantee, task),
     }
+}
+
+/// How far an axis of a run goes in a time, in microseconds, at the speed of the run.
+fn way(subject: &Subject, task: &Task, bound: u64) -> Option<(String, String)> {
+    const MINUTE: i128 = 60_000_000;
+    let first = task.axes.first()?;
+    let mut axes = subject.machine.iter().flat_map(|m| &m.axes);
+    let dimensions = axes.find(|a| a.name == *first)?.kind.dimensions();
+    let way = i128::from(task.travel) * i128::from(bound);
+    let way = i64::try_from(way / MINUTE + i128::from(way % MINUTE != 0)).ok()?;
+    (task.travel > 0).then(|| (dimensions.way.show(way), dimensions.speed.show(task.travel)))
 }
 
 /// What the axes of a run depend on, each value once.
@@ -110,6 +125,12 @@ fn values(subject: &Subject, guarantee: &Guarantee, task: &Task) -> Vec<Value> {
 }
 
 impl Decided<'_> {
+    /// The way as a text to follow the time.
+    pub fn travelled(&self) -> String {
+        let way = self.way.as_ref();
+        way.map_or(String::new(), |(way, speed)| format!(", {way} at {speed}"))
+    }
+
     /// The values as texts, `STANDSTILL_TOL = 0.5 mm`; of which axes, where it is not that of all.
     pub fn told(&self) -> impl Iterator<Item = String> {
         self.values.iter().map(|v| {

@@ -13,8 +13,8 @@ use stillpoint_model::Verdict;
 use stillpoint_tests::peer::each;
 use stillpoint_tests::root;
 
-const MACHINE: &str = "spec/machines/lathe-840d.toml";
-const PROGRAM: &str = "spec/machines/lathe-840d.spf";
+const LATHE: &str = "spec/machines/lathe-840d";
+const INTERLOCK: &str = "tests/machines/interlock-840d";
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -28,6 +28,8 @@ struct Cases {
 #[serde(deny_unknown_fields)]
 struct Case {
     text: String,
+    /// The machine and its program, without the end of their names; the lathe where nothing is said.
+    base: Option<String>,
     #[serde(default)]
     replace: Vec<(String, String)>,
     #[serde(default)]
@@ -65,10 +67,13 @@ fn written(k: usize, case: &Case) -> PathBuf {
     };
     let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("spf-{kind}-{k}"));
     std::fs::create_dir_all(&folder).expect("a folder");
-    let program = changed(text(PROGRAM), &case.replace);
-    std::fs::write(folder.join("lathe-840d.spf"), program).expect("written");
-    let path = folder.join("lathe-840d.toml");
-    std::fs::write(&path, changed(text(MACHINE), &case.machine)).expect("written");
+    let base = case.base.as_deref().unwrap_or(LATHE);
+    let stem = base.rsplit('/').next().unwrap_or(base);
+    let program = changed(text(&format!("{base}.spf")), &case.replace);
+    std::fs::write(folder.join(format!("{stem}.spf")), program).expect("written");
+    let path = folder.join(format!("{stem}.toml"));
+    let machine = changed(text(&format!("{base}.toml")), &case.machine);
+    std::fs::write(&path, machine).expect("written");
     path
 }
 
@@ -104,9 +109,24 @@ fn judged(path: &std::path::Path, guarantee: &str) -> (Verdict, Vec<String>) {
 
 #[test]
 fn the_lathe_keeps_what_it_guarantees() {
-    let lathe = root().join(MACHINE);
-    for name in ["slides", "work", "emergency_stop", "emergency_stop_work"] {
+    let lathe = root().join(format!("{LATHE}.toml"));
+    for name in [
+        "slides",
+        "work",
+        "emergency_stop",
+        "emergency_stop_work",
+        "acknowledge",
+        "acknowledge_work",
+    ] {
         assert_eq!(judged(&lathe, name).0, Verdict::Holds, "{name}");
+    }
+}
+
+#[test]
+fn a_door_that_is_confirmed_keeps_what_it_guarantees() {
+    let machine = root().join(format!("{INTERLOCK}.toml"));
+    for name in ["hold_to_run", "acknowledge", "no_start", "slow", "stops"] {
+        assert_eq!(judged(&machine, name).0, Verdict::Holds, "{name}");
     }
 }
 
@@ -136,11 +156,66 @@ fn logic_that_is_right_in_another_way_is_not_accused() {
     });
 }
 
+/// What is asked in words of the file is an expression over signals that the program has.
+#[test]
+fn an_expression_over_signals_that_are_not_there_is_an_error_with_its_place() {
+    let case = Case {
+        text: "a signal that the program does not have".to_owned(),
+        base: Some(INTERLOCK.to_owned()),
+        replace: Vec::new(),
+        machine: vec![("NOT $A_OUTSI[2]".to_owned(), "NOT OUTSI[22]".to_owned())],
+        breaks: None,
+        keeps: None,
+        line: None,
+    };
+    let path = written(98, &case);
+    let machine =
+        machine::load(&path, &root().join("spec/families")).unwrap_or_else(|e| panic!("{e}"));
+    let run = machine
+        .runs
+        .iter()
+        .find(|r| r.guarantee.as_deref() == Some("stops"));
+    let errors = machine
+        .spec(run.expect("asked"))
+        .err()
+        .expect("no such signal");
+    let told = errors.to_string();
+    assert!(
+        told.contains("guarantee stops") && told.contains("interlock-840d.toml:"),
+        "{told}"
+    );
+}
+
+/// A guarantee about the program needs one.
+#[test]
+fn a_guarantee_about_a_program_that_is_not_there_is_an_error() {
+    let case = Case {
+        text: "no program".to_owned(),
+        base: Some(INTERLOCK.to_owned()),
+        replace: Vec::new(),
+        machine: vec![(
+            "[logic.spl]\nsource = \"interlock-840d.spf\"\n".to_owned(),
+            String::new(),
+        )],
+        breaks: None,
+        keeps: None,
+        line: None,
+    };
+    let errors = machine::load(&written(97, &case), &root().join("spec/families"))
+        .expect_err("there is no program");
+    let told = errors.to_string();
+    assert!(
+        told.contains("about the program of the safe logic"),
+        "{told}"
+    );
+}
+
 /// A guarantee about a contact that the program is not told of is refused, with the place and what to write.
 #[test]
 fn a_contact_that_the_program_does_not_know_is_an_error() {
     let case = Case {
         text: "no contact".to_owned(),
+        base: None,
         replace: Vec::new(),
         machine: vec![("contact       = \"INSE[1]\"\n".to_owned(), String::new())],
         breaks: None,

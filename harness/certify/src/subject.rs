@@ -63,7 +63,11 @@ impl Subject {
                 files.extend(machine.data_files());
                 let mut specs: BTreeMap<_, Spec> = BTreeMap::new();
                 for run in &machine.runs {
-                    let spec = match specs.entry((&run.file, &run.wiring)) {
+                    let spec = match specs.entry((
+                        &run.file,
+                        &run.wiring,
+                        run.asks.as_ref().map(|asks| &asks.own.name),
+                    )) {
                         Entry::Occupied(known) => known.into_mut(),
                         Entry::Vacant(new) => {
                             let spec = machine.spec(run).map_err(unreadable)?;

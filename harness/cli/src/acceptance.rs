@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use stillpoint_harness::acceptance::{
-    checksums, document, run as simulate, selected, since, to_json,
+    Undecided, checksums, decide, document, run as simulate, selected, since, to_json,
 };
 use stillpoint_machine::acceptance::{Protocol, Simulated};
 use stillpoint_machine::{self as machine, Machine, families};
@@ -30,6 +30,9 @@ pub struct Arguments {
     /// Run the tests that have a scenario on the production monitors with a simulated axis, and say what came of it
     #[arg(long)]
     run: bool,
+    /// Explore what decides the guarantees of the machine file, and put verdicts, bounds and the values they depend on into the protocol
+    #[arg(long)]
+    guarantees: bool,
 }
 
 fn load(path: &Path) -> Result<(Machine, Protocol), Failure> {
@@ -73,16 +76,25 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         }
         false => None,
     };
-    let document = document(&machine, &protocol, &sums, since.as_ref(), ran.as_deref());
+    let decided = match arguments.guarantees {
+        true => Some(decide(&arguments.file, &machine).map_err(|e| match e {
+            Undecided::Input(diagnostics) => Failure::Input(diagnostics),
+            Undecided::Other(message) => Failure::Other(message),
+        })?),
+        false => None,
+    };
+    let (since, ran) = (since.as_ref(), ran.as_deref());
+    let document = document(&machine, &protocol, &sums, since, ran, decided.as_ref());
     write(arguments.html.as_deref(), |out| {
         out.write_all(document.html().as_bytes())
     })?;
     if arguments.json {
-        let json = to_json(&machine, &protocol, &sums, since.as_ref(), ran.as_deref());
+        let json = to_json(&machine, &protocol, &sums, since, ran, decided.as_ref());
         emit(&format!("{json:#}\n"));
     } else if arguments.markdown || arguments.html.is_none() {
         emit(&document.markdown());
     }
-    let holds = ran.iter().flatten().all(|r| r.holds);
+    let holds = ran.iter().copied().flatten().all(|r| r.holds);
+    let holds = holds && decided.is_none_or(|d| d.hold);
     Ok(u8::from(!holds))
 }

@@ -120,6 +120,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         interpret: arguments.interpret,
         reductions: arguments.reduce,
         // Processes that explore together agree on a search without them.
+        decisive: place.cluster.is_none(),
         witnesses: (arguments.markdown || arguments.html.is_some()) && place.cluster.is_none(),
         cluster: place.cluster.clone(),
         interrupt: Some(interrupt.handle()),

@@ -9,7 +9,7 @@ use indexmap::map::Entry;
 use stillpoint_lang::ir::Property;
 use stillpoint_model::{Cluster, Error, Interrupt, Limits, Options, Progress, Trace, Verdict};
 
-use crate::excluded::{Exclusion, Judge};
+use crate::excluded::{Decisive, Exclusion, Judge, decisive};
 use crate::explore;
 use crate::keep::Keep;
 use crate::outcome::{Outcome, Reductions, label};
@@ -33,6 +33,8 @@ pub struct Settings {
     pub reductions: Reductions,
     /// Rebuild the runs that show what must be reachable, not only those that break a property.
     pub witnesses: bool,
+    /// Look for the parameters that decide a broken guarantee: an exploration for each of them.
+    pub decisive: bool,
     /// The processes that explore together; none for this one alone.
     pub cluster: Option<Arc<Cluster>>,
     /// Ends everything from outside, as a limit would.
@@ -73,7 +75,12 @@ pub struct Checked {
     pub unfired: Vec<(String, Unfired)>,
     /// Witnesses that the values of the machine exclude, by property number.
     pub excluded: BTreeMap<usize, Exclusion>,
+    /// Parameters that alone decide that a guarantee is broken, by property number.
+    pub decisive: BTreeMap<usize, Vec<Decisive>>,
 }
+
+/// Beyond this many states of a broken guarantee it is not asked which parameter decides.
+const ASKED: u64 = 3_000_000;
 
 /// Why a rule never fired.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -157,10 +164,19 @@ pub fn check(
                 .map_err(|e| (task.title.clone(), e))?,
             false => BTreeMap::new(),
         };
+        let mut decided = BTreeMap::new();
+        let asked = settings.decisive && task.guarantee.is_some() && alone;
+        let judged = outcome.report.properties.iter().enumerate();
+        let broken = judged.filter(|(_, j)| j.verdict == Verdict::Violated);
+        for (k, _) in broken.filter(|_| asked && outcome.report.states <= ASKED) {
+            let by = decisive(task, k, &options, settings.interpret);
+            decided.insert(k, by.map_err(|e| (task.title.clone(), e))?);
+        }
         out.push(Checked {
             outcome,
             unfired,
             excluded,
+            decisive: decided,
         });
     }
     Ok(out)
@@ -304,6 +320,8 @@ pub struct Violation<'a> {
     pub second: Option<&'a Trace>,
     /// How the report differs from what the property records.
     pub refuted: Option<&'a str>,
+    /// Parameters that alone decide it, of a guarantee.
+    pub decisive: &'a [Decisive],
 }
 
 /// All violations, in order.
@@ -326,6 +344,7 @@ pub fn violations<'a>(subject: &'a Subject, checked: &'a [Checked]) -> Vec<Viola
                     trace: judged.trace.as_ref(),
                     second: done.outcome.pairs.get(&k).and_then(|p| p.second.as_ref()),
                     refuted: done.outcome.refuted.get(&k).map(String::as_str),
+                    decisive: done.decisive.get(&k).map_or(&[], Vec::as_slice),
                 });
             }
         }
@@ -341,6 +360,7 @@ pub fn violations<'a>(subject: &'a Subject, checked: &'a [Checked]) -> Vec<Viola
                 trace: fault.trace.as_ref(),
                 second: None,
                 refuted: None,
+                decisive: &[],
             });
         }
     }

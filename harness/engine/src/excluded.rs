@@ -29,14 +29,14 @@ pub struct Exclusion {
     pub exact: bool,
 }
 
-/// A parameter of a system with a value that excludes a witness.
+/// A parameter of a system with a value that excludes a witness, or breaks a guarantee.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Decisive {
     /// Its name in the specification.
     pub name: String,
     /// Its value here.
     pub value: String,
-    /// A value with which the witness exists.
+    /// A value with which the witness exists, or the guarantee holds.
     pub instead: String,
     /// Where it comes from: an expression over the parameters of the machine file.
     pub source: Option<String>,
@@ -54,6 +54,54 @@ impl Exclusion {
         };
         let list: Vec<String> = self.by.iter().map(one).collect();
         format!("excluded by your values: {}", list.join("; "))
+    }
+}
+
+/// The parameters that alone decide that a property is broken: with the family's own value of any of them, and all others as they are,
+/// it holds. What the machine file cannot change is not among them.
+///
+/// # Errors
+/// A system that cannot be explored.
+pub fn decisive(
+    task: &Task,
+    property: usize,
+    options: &Options,
+    interpret: bool,
+) -> Result<Vec<Decisive>, Error> {
+    let options = Options {
+        witnesses: false,
+        stop_when_decided: true,
+        checkpoint: None,
+        ..options.clone()
+    };
+    let candidates = differing(&task.bound);
+    let mut found = Vec::new();
+    for (n, candidate) in candidates.iter().enumerate() {
+        let source = task.sources.get(&candidate.name).map_or("", String::as_str);
+        if matches!(source, "" | "TRUE" | "FALSE") {
+            continue;
+        }
+        let Some(other) = with(&task.bound, &candidates, &[n]) else {
+            continue;
+        };
+        if let Some((Verdict::Holds, _)) = judged(&other, property, &options, interpret)? {
+            found.push(candidate.told(task));
+        }
+    }
+    Ok(found)
+}
+
+impl Decisive {
+    /// `VELO_SWITCH_DELAY (t_vel = 5000, holds with 1)`.
+    pub fn text(&self) -> String {
+        let value = format!(
+            "{} = {}, holds with {}",
+            self.name, self.value, self.instead
+        );
+        match &self.source {
+            Some(source) if *source != self.name => format!("{source} ({value})"),
+            _ => value,
+        }
     }
 }
 
@@ -228,9 +276,24 @@ fn reached(
     options: &Options,
     interpret: bool,
 ) -> Result<Option<u64>, Error> {
-    let asked = properties(bound)
+    let witness = properties(bound)
         .into_iter()
-        .find(|(k, p)| *k == property && matches!(p.form, Form::Reachable { .. }));
+        .any(|(k, p)| k == property && matches!(p.form, Form::Reachable { .. }));
+    let found = match witness {
+        true => judged(bound, property, options, interpret)?,
+        false => None,
+    };
+    Ok(found.and_then(|(verdict, states)| (verdict == Verdict::Reached).then_some(states)))
+}
+
+/// The verdict on one property, and the states explored for it; none for a property that the explorer does not judge by itself.
+fn judged(
+    bound: &Bound,
+    property: usize,
+    options: &Options,
+    interpret: bool,
+) -> Result<Option<(Verdict, u64)>, Error> {
+    let asked = properties(bound).into_iter().find(|(k, _)| *k == property);
     let Some((_, asked)) = asked else {
         return Ok(None);
     };
@@ -244,5 +307,5 @@ fn reached(
         None => explore(&Interpreted::new(bound), &asked, options, &mut ())?,
     };
     let found = report.properties.first().map(|j| j.verdict);
-    Ok((found == Some(Verdict::Reached)).then_some(report.states))
+    Ok(found.map(|verdict| (verdict, report.states)))
 }

@@ -23,8 +23,12 @@ pub struct Task {
     pub axes: Vec<String>,
     /// The guarantee of the machine file that it decides.
     pub guarantee: Option<String>,
+    /// The classes of single faults that it answers, in words.
+    pub faults: Vec<String>,
     /// A time in microseconds that passes before what is explored begins; no bound has it.
     pub before: u64,
+    /// The speed, in base units a minute, at which a bound is told as a way too; 0: at none.
+    pub travel: i64,
     /// Where it is coarser than the machine.
     pub abstractions: Vec<String>,
     /// The system with its parameter values.
@@ -95,7 +99,9 @@ fn of_spec(path: &Path, text: Arc<str>, readings: &Readings) -> Result<Subject> 
                 title: bound.system.text.clone(),
                 axes: Vec::new(),
                 guarantee: None,
+                faults: Vec::new(),
                 before: 0,
+                travel: 0,
                 abstractions: Vec::new(),
                 bound,
                 analysis,
@@ -144,7 +150,11 @@ pub fn of_runs(
     let mut tasks = Vec::new();
     let mut specs: BTreeMap<_, Spec> = BTreeMap::new();
     for run in runs {
-        let spec = match specs.entry((&run.file, &run.wiring)) {
+        let spec = match specs.entry((
+            &run.file,
+            &run.wiring,
+            run.asks.as_ref().map(|asks| &asks.own.name),
+        )) {
             Entry::Occupied(known) => known.into_mut(),
             Entry::Vacant(new) => new.insert(machine.spec(run)?),
         };
@@ -157,7 +167,9 @@ pub fn of_runs(
             title: run.title.clone(),
             axes: run.axes.clone(),
             guarantee: run.guarantee.clone(),
+            faults: run.faults.clone(),
             before: u64::try_from(run.before).unwrap_or(0),
+            travel: run.travel,
             abstractions: run.abstractions.clone(),
             bound,
             analysis,

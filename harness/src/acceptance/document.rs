@@ -6,7 +6,7 @@ use stillpoint_machine::{Machine, Shown};
 use stillpoint_show::document::{Block, Document, Inline, Tone};
 
 use super::results::results;
-use super::{Checksums, Ran, Since, expected, latest, selected};
+use super::{Checksums, Decided, Ran, Since, expected, guaranteed, latest, selected};
 
 /// The protocol of a machine; with `since` only what has to be repeated.
 pub fn document(
@@ -15,6 +15,7 @@ pub fn document(
     checksums: &Checksums,
     since: Option<&Since>,
     ran: Option<&[Ran]>,
+    decided: Option<&Decided>,
 ) -> Document {
     let tests = selected(protocol, since);
     let mut blocks = Vec::new();
@@ -26,6 +27,7 @@ pub fn document(
     blocks.extend(verdict);
     blocks.push(identity(machine, protocol, checksums));
     blocks.push(configuration(machine, protocol));
+    blocks.extend(guaranteed::section(machine, decided));
     blocks.push(list(&tests));
     blocks.push(points("Before the tests", "before", &protocol.before));
     for (k, part) in protocol.parts.iter().enumerate() {

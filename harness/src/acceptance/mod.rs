@@ -2,6 +2,7 @@
 
 mod document;
 mod expected;
+mod guaranteed;
 mod results;
 mod run;
 mod since;
@@ -17,6 +18,7 @@ use stillpoint_machine::acceptance::{Expect, Protocol, Simulated, Test};
 
 pub use document::document;
 pub use expected::expected;
+pub use guaranteed::{Decided, Undecided, decide};
 pub use run::{Ran, Unfit, on_the_machine, run};
 pub use since::{Change, Repeat, Since, since};
 
@@ -74,6 +76,7 @@ pub fn to_json(
     checksums: &Checksums,
     since: Option<&Since>,
     ran: Option<&[Ran]>,
+    decided: Option<&Decided>,
 ) -> Value {
     let cycle = machine.monitoring_cycle;
     let selected = selected(protocol, since);
@@ -107,6 +110,9 @@ pub fn to_json(
         "stillpoint": env!("CARGO_PKG_VERSION"), "monitoring_cycle_us": cycle,
         "tests": tests.collect::<Vec<_>>(),
     });
+    if let Some(decided) = decided {
+        value["guarantees"] = decided.json.clone().into();
+    }
     if let Some(ran) = ran {
         value["simulated"] = run::json(ran);
         let not = not.into_iter();

@@ -5,7 +5,8 @@ use std::time::Instant;
 
 use stillpoint_certify::format::{Kind, Source};
 use stillpoint_certify::subject as certified;
-use stillpoint_engine::check::{Checked, Settings, Summary, exit_status, violations};
+use stillpoint_engine::check::{Checked, Settings, Summary, Violation, exit_status, violations};
+use stillpoint_engine::lines;
 use stillpoint_engine::readings::Compared;
 use stillpoint_engine::subject::{Subject, Task};
 use stillpoint_lang::ir::Topic;
@@ -293,7 +294,7 @@ fn figures(checked: &[Checked], summaries: &[Summary]) -> Block {
 }
 
 /// What the machine file asks of its machine, each with its answer.
-fn guaranteed(subject: &Subject, checked: &[Checked]) -> Vec<Block> {
+pub fn guaranteed(subject: &Subject, checked: &[Checked]) -> Vec<Block> {
     let answers = answers(subject, checked);
     if answers.is_empty() {
         return unasked(subject).map(paragraph).into_iter().collect();
@@ -308,10 +309,10 @@ fn guaranteed(subject: &Subject, checked: &[Checked]) -> Vec<Block> {
                     answer.guarantee.text, answer.guarantee.source
                 )),
                 words(run.task.axes.join(", ")),
-                words(
-                    run.bound
-                        .map_or_else(String::new, |b| format!("at most {}", time(b))),
-                ),
+                words(run.task.faults.join("\n")),
+                words(run.bound.map_or_else(String::new, |b| {
+                    format!("at most {}{}", time(b), run.travelled())
+                })),
                 words(run.told().collect::<Vec<_>>().join("\n")),
             ]
         })
@@ -321,6 +322,7 @@ fn guaranteed(subject: &Subject, checked: &[Checked]) -> Vec<Block> {
         "verdict",
         "in plain words",
         "axes",
+        "also after this fault",
         "tightest bound",
         "values it depends on",
     ];
@@ -332,8 +334,16 @@ fn counterexamples(subject: &Subject, checked: &[Checked]) -> Vec<Block> {
     for (n, violation) in violations(subject, checked).iter().enumerate() {
         let mut inside = vec![paragraph(&violation.text)];
         inside.push(paragraph(format!("In: {}", violation.task.title)));
+        for fault in &violation.task.faults {
+            inside.push(paragraph(format!("After this fault: {fault}")));
+        }
         if let Some(reason) = violation.refuted {
             inside.push(paragraph(reason));
+        }
+        if !violation.decisive.is_empty() {
+            inside.push(paragraph("Each of these values decides it:"));
+            let list = violation.decisive.iter();
+            inside.push(Block::List(list.map(|d| words(d.text())).collect()));
         }
         let mark = format!("{} is violated here", violation.id);
         let runs = [violation.trace, violation.second];
@@ -353,6 +363,7 @@ fn counterexamples(subject: &Subject, checked: &[Checked]) -> Vec<Block> {
                 true,
             ));
         }
+        inside.extend(program(violation));
         if violation.trace.is_none() && violation.refuted.is_none() {
             inside.push(paragraph("No run could be rebuilt within the limits."));
         }
@@ -360,6 +371,26 @@ fn counterexamples(subject: &Subject, checked: &[Checked]) -> Vec<Block> {
         out.push(section(&violation.id, &anchor, inside));
     }
     out
+}
+
+/// The lines of a program that decide the last cycle of a run.
+fn program(violation: &Violation<'_>) -> Option<Block> {
+    let (property, trace) = (violation.property?, violation.trace?);
+    let lines = lines::deciding(&violation.task.bound, property, trace);
+    let rows = lines.into_iter().map(|line| {
+        vec![
+            words(line.number.to_string()),
+            code(line.value),
+            code(line.text),
+        ]
+    });
+    let rows: Vec<_> = rows.collect();
+    let heads = [
+        "#line",
+        "value",
+        "what the program computes in the last cycle, as far as it decides this",
+    ];
+    (!rows.is_empty()).then(|| table(&heads, rows))
 }
 
 fn topic(subject: &Subject, checked: &[Checked], topic: Topic) -> Vec<Block> {

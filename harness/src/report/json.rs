@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 use serde_json::{Value, json};
 use stillpoint_engine::Evaluator;
 use stillpoint_engine::check::{Checked, Summary, Unfired};
-use stillpoint_engine::excluded::Exclusion;
+use stillpoint_engine::excluded::{Decisive, Exclusion};
+use stillpoint_engine::lines;
 use stillpoint_engine::subject::Subject;
 use stillpoint_engine::verdict_name;
 use stillpoint_lang::bind::Bound;
@@ -30,6 +31,13 @@ pub fn to_json(subject: &Subject, checked: &[Checked], summaries: &[Summary]) ->
                 .zip(&report.properties)
                 .enumerate()
                 .map(|(k, (p, j))| {
+                    let broken = j.trace.as_ref().filter(|_| j.verdict == Verdict::Violated);
+                    let lines = broken.map_or_else(Vec::new, |t| lines::deciding(&task.bound, p, t));
+                    let lines: Vec<Value> = (lines.iter())
+                        .map(|l| json!({ "line": l.number, "value": l.value, "text": l.text }))
+                        .collect();
+                    let by = done.decisive.get(&k).map_or(&[][..], Vec::as_slice);
+                    let by: Vec<Value> = by.iter().map(decisive).collect();
                     let counterexample = (j.verdict == Verdict::Violated)
                         .then(|| j.trace.as_ref().map(|t| steps(t, &task.bound)));
                     json!({
@@ -37,7 +45,7 @@ pub fn to_json(subject: &Subject, checked: &[Checked], summaries: &[Summary]) ->
                         "verdict": verdict_name(j.verdict), "length": j.length, "bound": j.bound, "fastest": j.fastest,
                         "excluded": done.excluded.get(&k).map(excluded),
                         "refuted": done.outcome.refuted.get(&k),
-                        "counterexample": counterexample.flatten(),
+                        "counterexample": counterexample.flatten(), "lines": lines, "decided_by": by,
                     })
                 })
                 .collect();
@@ -100,14 +108,15 @@ pub fn to_json(subject: &Subject, checked: &[Checked], summaries: &[Summary]) ->
 }
 
 /// What the machine file asks of its machine, each with its answer; times in microseconds.
-fn guarantees(subject: &Subject, checked: &[Checked]) -> Vec<Value> {
+pub fn guarantees(subject: &Subject, checked: &[Checked]) -> Vec<Value> {
     let answer = |answer: &Answer<'_>| {
         let runs = answer.runs.iter().map(|run| {
             let values = run.values.iter();
             let values =
                 values.map(|v| json!({ "name": v.name, "value": v.value, "axes": v.axes }));
             json!({
-                "axes": run.task.axes, "verdict": verdict_name(run.verdict), "bound_us": run.bound,
+                "axes": run.task.axes, "title": run.task.title, "faults": run.task.faults, "verdict": verdict_name(run.verdict), "bound_us": run.bound,
+                "way": run.way.as_ref().map(|(way, _)| way), "way_at": run.way.as_ref().map(|(_, speed)| speed),
                 "values": values.collect::<Vec<_>>(), "abstractions": run.task.abstractions,
             })
         });
@@ -118,6 +127,11 @@ fn guarantees(subject: &Subject, checked: &[Checked]) -> Vec<Value> {
         })
     };
     answers(subject, checked).iter().map(answer).collect()
+}
+
+/// A parameter that alone decides that a guarantee is broken.
+fn decisive(d: &Decisive) -> Value {
+    json!({ "parameter": d.name, "value": d.value, "holds_with": d.instead, "from": d.source })
 }
 
 /// The parameters that exclude a witness.

@@ -23,8 +23,8 @@ use stillpoint_show::diagram::{Diagram, Mark};
 use crate::guarantees::unasked;
 use crate::timing;
 
-pub use document::{About, Control, document};
-pub use json::to_json;
+pub use document::{About, Control, document, guaranteed};
+pub use json::{guarantees, to_json};
 pub use text::{further, text};
 pub(crate) use words::wrapped;
 pub use words::{counted, grouped};

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 use std::fmt::Write;
 
 use stillpoint_engine::check::{Checked, Settings, Summary, Unfired, violations};
+use stillpoint_engine::excluded::Decisive;
 use stillpoint_engine::lines::{self, Line};
 use stillpoint_engine::subject::{Subject, Task};
 use stillpoint_engine::{Evaluator, verdict_name};
@@ -42,8 +43,16 @@ pub fn text(subject: &Subject, checked: &[Checked], summaries: &[Summary], all: 
     for violation in violations(subject, checked) {
         let _ = writeln!(out, "VIOLATED  {}  {}", violation.id, violation.text);
         let _ = writeln!(out, "  in: {}", violation.task.title);
+        for fault in &violation.task.faults {
+            wrapped(&mut out, "  ", &format!("after this fault: {fault}"));
+        }
         if let Some(reason) = violation.refuted {
             let _ = writeln!(out, "  {reason}");
+        }
+        if !violation.decisive.is_empty() {
+            let list: Vec<String> = violation.decisive.iter().map(Decisive::text).collect();
+            let what = format!("each of these values decides it: {}", list.join("; "));
+            wrapped(&mut out, "  ", &what);
         }
         match violation.trace {
             Some(trace) => {
@@ -112,14 +121,23 @@ fn guaranteed(out: &mut String, subject: &Subject, checked: &[Checked]) {
         let mut before = String::new();
         for run in &answer.runs {
             let bound = match run.bound {
-                Some(bound) => format!("in at most {}", time(bound)),
+                Some(bound) => format!("in at most {}{}", time(bound), run.travelled()),
                 None => verdict_name(run.verdict).to_owned(),
             };
             let part = match systems.len() {
-                1 => run.task.axes.join(", "),
+                1 if answer.runs.iter().all(|run| run.task.faults.is_empty()) => {
+                    run.task.axes.join(", ")
+                }
                 _ => run.task.title.clone(),
             };
             wrapped(out, &" ".repeat(15), &format!("{part}: {bound}"));
+            for fault in &run.task.faults {
+                wrapped(
+                    out,
+                    &" ".repeat(17),
+                    &format!("also after this fault: {fault}"),
+                );
+            }
             let values = run.told().collect::<Vec<_>>().join("; ");
             if values != before {
                 wrapped(out, &" ".repeat(17), &format!("with {values}"));
@@ -240,7 +258,8 @@ fn run(out: &mut String, n: usize, task: &Task, done: &Checked, all: bool) {
     if all {
         unfired(out, done);
     }
-    for warning in &task.bound.system.warnings {
+    // What nothing in the tables reads is their matter.
+    for warning in task.bound.system.warnings.iter().filter(|_| all) {
         wrapped(out, "  warning: ", warning);
     }
     for skipped in &task.analysis.skipped {

@@ -1,4 +1,4 @@
-//! A machine that stands in another file and takes the place of the one with its name.
+//! What stands in another file: a machine that takes the place of the one with its name, a property that is asked of a system.
 
 use std::sync::Arc;
 
@@ -6,9 +6,47 @@ use toml::Spanned;
 
 use crate::Spec;
 use crate::diag::{Diagnostic, Result};
+use crate::schema::{Property, Scalar};
 use crate::written::Written;
 
 impl Spec {
+    /// Asks one thing of a system in place of its own properties: whenever `when` is TRUE, `then` is, in the same cycle or at most
+    /// `within` cycles later.
+    pub fn ask(&mut self, system: &str, id: &str, when: &str, then: &str, within: Option<i64>) {
+        let text = |text: &str| Spanned::new(0..0, text.to_owned());
+        let property = Property {
+            id: text(id),
+            text: match within {
+                Some(_) => format!("after {when}: in time {then}"),
+                None => format!("whenever {when}: {then}"),
+            },
+            when: Some(text(when)),
+            then: within.is_none().then(|| text(then)),
+            leads_to: within.map(|_| text(then)),
+            within: within.map(|cycles| Spanned::new(0..0, Scalar::Int(cycles))),
+            note: String::new(),
+            req: Vec::new(),
+            topic: None,
+            always: None,
+            never: None,
+            exactly: None,
+            fastest: None,
+            fair: Vec::new(),
+            assuming: None,
+            holds: None,
+            unless: None,
+            can_always_reach: None,
+            using: None,
+            reachable: None,
+            observe: Vec::new(),
+            of: Vec::new(),
+            while_: None,
+        };
+        if let Some(system) = self.systems.get_mut(system) {
+            system.def.property = vec![property];
+        }
+    }
+
     /// Puts a machine of another file in the place of the one with its name, if there is one. Parameters and inputs that it
     /// leaves out are those of the machine it replaces: it does not use them.
     ///

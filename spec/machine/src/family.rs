@@ -49,6 +49,8 @@ pub(super) struct Family {
     pub logic: IndexMap<String, Slot>,
     /// What its machine files can guarantee.
     pub patterns: IndexMap<String, Pattern>,
+    /// The classes of single faults, of which a guarantee may be asked to hold after any: name, and what fails.
+    pub faults: IndexMap<String, String>,
 }
 
 impl Family {
@@ -363,11 +365,26 @@ pub(super) struct Explore {
     pub cycle: Option<Formula>,
     /// A time that passes before what is explored begins, and that a bound found there does not have.
     pub before: Option<Formula>,
+    /// The greatest speed at which the axis may be monitored before, in base units a minute: a bound at this speed is a way.
+    pub travel: Option<Formula>,
     /// The time from one scan of a program in it to the next, where that is not its cycle.
     pub scan: Option<Formula>,
-    /// The ports of the program that takes a machine's place, each with the parameter that names its signal, and the index there.
-    pub wires: Vec<(String, String, usize)>,
+    /// The ports of the program that takes a machine's place, each with what names its signal.
+    pub wires: Vec<Wire>,
+    /// The classes of single faults that it answers, each where the expression is TRUE.
+    pub covers: Vec<(String, Formula)>,
     pub params: Vec<Binding>,
+}
+
+/// Which signal of a program is connected to a port.
+#[derive(Debug)]
+pub(super) struct Wire {
+    pub port: String,
+    /// The parameter that names the signal, and the index there.
+    pub name: String,
+    pub index: usize,
+    /// Whether it may name none.
+    pub optional: bool,
 }
 
 /// How parameters of a system follow from the values of an axis.

@@ -12,7 +12,7 @@ use super::document::Findings;
 use super::eval;
 use super::family::{
     Binding, Explore, Family, Formula, Function, Known, Limits, Param, Quantity, Rounding, Rule,
-    Scope, Slot,
+    Scope, Slot, Wire,
 };
 use super::guarantee;
 use super::signal::{Bits, Signals};
@@ -133,8 +133,11 @@ pub(super) struct ExploreData {
     cycle: Option<Spanned<String>>,
     before: Option<Spanned<String>>,
     scan: Option<Spanned<String>>,
+    travel: Option<Spanned<String>>,
     #[serde(default)]
     wire: IndexMap<String, Spanned<String>>,
+    #[serde(default)]
+    covers: IndexMap<Spanned<String>, Spanned<String>>,
     #[serde(default)]
     note: String,
 }
@@ -177,11 +180,12 @@ pub(super) fn load(folder: &Path) -> Result<Family> {
     let mut check = Check {
         findings: Findings::new(&file, &source),
         signals: Signals::default(),
+        faults: Vec::new(),
     };
     let Some(mut family) = check.family(folder, &file, &source) else {
         return Err(check.findings.into_diagnostics());
     };
-    family.patterns = guarantee::load(folder, &family.known, &family.group_lets)?;
+    (family.patterns, family.faults) = guarantee::load(folder, &family.known, &family.group_lets)?;
     check.findings.finish(family)
 }
 
@@ -190,6 +194,8 @@ pub(super) struct Check {
     pub findings: Findings,
     /// The numbered signals of the family.
     pub signals: Signals,
+    /// The classes of single faults that an exploration can answer.
+    pub faults: Vec<String>,
 }
 
 impl Check {
@@ -286,6 +292,7 @@ impl Check {
             known,
             logic: data.logic,
             patterns: IndexMap::new(),
+            faults: IndexMap::new(),
         })
     }
 
@@ -475,22 +482,40 @@ impl Check {
         let cycle = optional(data.cycle)?;
         let before = optional(data.before)?;
         let scan = optional(data.scan)?;
+        let travel = optional(data.travel)?;
         let mut wires = Vec::new();
         for (port, text) in data.wire {
             let written = text.get_ref();
+            let (written, optional) = match written.strip_suffix('?') {
+                Some(name) => (name, true),
+                None => (written.as_str(), false),
+            };
             let (name, index) = match written.strip_suffix(']').and_then(|t| t.split_once('[')) {
                 Some((name, index)) => (name, index.parse().ok()),
-                None => (written.as_str(), Some(0)),
+                None => (written, Some(0)),
             };
             match index.filter(|_| known.iter().any(|k| k == name)) {
-                Some(index) => wires.push((port, name.to_owned(), index)),
+                Some(index) => wires.push(Wire {
+                    port,
+                    name: name.to_owned(),
+                    index,
+                    optional,
+                }),
                 None => {
-                    let help =
-                        "name a parameter that is a signal, with [0] for the first of a list";
+                    let help = "name a parameter that is a signal, with [0] for the first of a list, and ? where it may be none";
                     let message = format!("'{written}' is no parameter here");
                     self.findings.add(text.span(), message, "", help);
                 }
             }
+        }
+        let mut covers = Vec::new();
+        for (name, text) in data.covers {
+            if !self.faults.contains(name.get_ref()) {
+                let message = format!("there is no fault '{}'", name.get_ref());
+                let help = format!("faults of this file: {}", self.faults.join(", "));
+                self.findings.add(name.span(), message, "", help);
+            }
+            covers.push((name.into_inner(), self.formula(text, known)?));
         }
         let mut params = Vec::new();
         for (name, text) in data.param {
@@ -547,7 +572,9 @@ impl Check {
             cycle,
             before,
             scan,
+            travel,
             wires,
+            covers,
             params,
         })
     }

@@ -55,6 +55,7 @@ impl DataFile {
         Check {
             findings: Findings::new(&self.file, &self.source),
             signals: Signals::default(),
+            faults: Vec::new(),
         }
     }
 }

@@ -14,6 +14,7 @@ use super::eval::Values;
 use super::family::{Explore, Family, Formula, Known, Param, Quantity};
 use super::family_file::{Check, ExploreData, ParamData};
 use super::ground::{About as Subjects, DataFile, grounds};
+use super::own::Own;
 use super::plausible::{Judged, evaluate, insert};
 use super::runs::Parts;
 use super::template::filled;
@@ -23,6 +24,12 @@ use stillpoint_lang::diag::Result;
 
 /// The file of the patterns in the folder of a family.
 pub(super) const FILE: &str = "guarantees.toml";
+
+/// The argument that tells what may have failed before; 0 is nothing.
+const AFTER: &str = "after";
+
+/// The argument with the time of a property of the machine file.
+pub(super) const WITHIN: &str = "within";
 
 /// In the expressions of patterns: whether the machine file has a program whose signals its values connect.
 const PROGRAMMED: &str = "programmed";
@@ -38,6 +45,8 @@ pub struct Guarantee {
     pub door: Option<String>,
     /// The axes that it is about, all of one kind.
     pub axes: Vec<Spanned<String>>,
+    /// What it asks of the safe logic in words of its own.
+    pub own: Option<Own>,
     /// A value for every argument of the pattern.
     pub values: Settings,
     /// What is guaranteed, with these values.
@@ -59,6 +68,10 @@ pub(super) struct Pattern {
     pub arguments: IndexMap<String, Param>,
     /// The arguments without a default.
     pub required: Vec<String>,
+    /// Whether it is about a program of the machine file.
+    pub needs_program: bool,
+    /// Parameters that count only after a fault.
+    pub of_faults: Vec<String>,
     pub explore: Vec<Explore>,
 }
 
@@ -70,15 +83,31 @@ pub(super) enum About {
     Axis,
     /// A door, and axes behind it: all of them, where it names none.
     Door,
+    /// The safe logic alone: the file says what is looked at and what must be true.
+    Logic,
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct File {
     #[serde(default)]
+    fault: IndexMap<String, FaultData>,
+    /// Parameters that count only after a fault.
+    #[serde(default)]
+    of_faults: Vec<String>,
+    #[serde(default)]
     argument: IndexMap<Spanned<String>, ParamData>,
     #[serde(default)]
     pattern: IndexMap<String, PatternData>,
+}
+
+/// A class of single faults.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct FaultData {
+    text: String,
+    #[allow(dead_code)] // where it comes from, for readers of the data
+    id: Vec<String>,
 }
 
 #[derive(Deserialize)]
@@ -89,8 +118,13 @@ struct PatternData {
     source: String,
     #[serde(default)]
     required: Vec<Spanned<String>>,
+    #[serde(default)]
+    needs_program: bool,
     explore: Vec<ExploreData>,
 }
+
+/// The patterns of a family, and its classes of single faults in words.
+type Patterns = (IndexMap<String, Pattern>, IndexMap<String, String>);
 
 /// Reads the patterns of a family; a family without the file has none.
 ///
@@ -100,14 +134,15 @@ pub(super) fn load(
     folder: &Path,
     known: &Known,
     group_lets: &[(String, Formula)],
-) -> Result<IndexMap<String, Pattern>> {
+) -> Result<Patterns> {
     if !stillpoint_lang::files::is_file(&folder.join(FILE)) {
-        return Ok(IndexMap::new());
+        return Ok(Patterns::default());
     }
     let file = DataFile::read(folder, FILE, "guarantees")?;
     let data: File = file.parse()?;
     let mut check = file.check();
     check.signals = known.signals.clone();
+    check.faults = data.fault.keys().cloned().collect();
     let places: Vec<Place> = data.argument.keys().map(Spanned::span).collect();
     let argument = data.argument.into_iter();
     let argument = argument.map(|(name, data)| (name.into_inner(), data));
@@ -116,6 +151,7 @@ pub(super) fn load(
         arguments: &arguments,
         known,
         group_lets,
+        of_faults: &data.of_faults,
     };
     let mut patterns = IndexMap::new();
     for (name, data) in data.pattern {
@@ -129,7 +165,9 @@ pub(super) fn load(
             check.findings.add(place, message, "", help);
         }
     }
-    check.findings.finish(patterns)
+    let faults = data.fault.into_iter();
+    let faults = faults.map(|(name, fault)| (name, fault.text)).collect();
+    check.findings.finish((patterns, faults))
 }
 
 /// What patterns may name.
@@ -137,13 +175,14 @@ struct Context<'a> {
     arguments: &'a IndexMap<String, Param>,
     known: &'a Known,
     group_lets: &'a [(String, Formula)],
+    of_faults: &'a [String],
 }
 
 impl Context<'_> {
     fn pattern(&self, check: &mut Check, data: PatternData) -> Pattern {
         let arguments = self.told(check, &data.text, data.about);
         let mut names = match data.about {
-            About::Axis => self.known.axis.clone(),
+            About::Axis | About::Logic => self.known.axis.clone(),
             About::Door => self.known.door.clone(),
         };
         names.extend(arguments.keys().cloned());
@@ -173,6 +212,8 @@ impl Context<'_> {
             text: data.text.into_inner(),
             source: data.source,
             required: data.required.into_iter().map(Spanned::into_inner).collect(),
+            needs_program: data.needs_program,
+            of_faults: self.of_faults.to_vec(),
             explore: explore.filter_map(|e| check.explore(e, &known)).collect(),
             arguments,
         }
@@ -191,6 +232,7 @@ impl Context<'_> {
                 Some((name, argument)) => {
                     told.insert(name.clone(), argument.clone());
                 }
+                None if about == About::Logic && (place == "when" || place == "then") => {}
                 None if place == "axes" || (place == "door" && about == About::Door) => {}
                 None => {
                     let known: Vec<&str> = self.arguments.keys().map(String::as_str).collect();
@@ -212,10 +254,18 @@ impl Context<'_> {
 
 impl Pattern {
     /// What is guaranteed, in words.
-    pub fn told(&self, door: Option<&str>, axes: &[Spanned<String>], values: &Settings) -> String {
+    pub fn told(
+        &self,
+        door: Option<&str>,
+        axes: &[Spanned<String>],
+        own: Option<&Own>,
+        values: &Settings,
+    ) -> String {
         let axes: Vec<&str> = axes.iter().map(|a| a.get_ref().as_str()).collect();
         let place = |name: &str| {
             Some(match (name, values.get(name)) {
+                ("when", _) => own.map_or("", |own| &own.when.text).to_owned(),
+                ("then", _) => own.map_or("", |own| &own.then.text).to_owned(),
                 ("axes", _) => axes.join(", "),
                 ("door", _) => door.unwrap_or_default().to_owned(),
                 (_, Some(setting)) => setting.shown.join(", ").replace('"', ""),
@@ -227,6 +277,14 @@ impl Pattern {
     }
 }
 
+impl Guarantee {
+    /// Whether it must hold after a fault too.
+    pub fn after_fault(&self) -> bool {
+        let after = self.values.get(AFTER);
+        after.is_some_and(|setting| setting.cells.iter().any(|cell| *cell != 0))
+    }
+}
+
 impl Machine {
     /// What a guarantee depends on for one of its axes: parameters with their values, functions with whether they are enabled.
     pub fn depends(&self, guarantee: &Guarantee, axis: &str) -> IndexMap<String, String> {
@@ -235,7 +293,7 @@ impl Machine {
             return IndexMap::new();
         };
         let subjects = match pattern.about {
-            About::Axis => Subjects::Axis,
+            About::Axis | About::Logic => Subjects::Axis,
             About::Door => Subjects::DoorAxis,
         };
         let all = grounds(self, subjects);
@@ -257,7 +315,8 @@ impl Machine {
             .iter()
             .find(|g| g.group.map(|g| &g.name) == ground.group.map(|g| &g.name));
         let value = |name: String| {
-            if guarantee.values.contains_key(&name) {
+            let counts = guarantee.after_fault() || !pattern.of_faults.contains(&name);
+            if guarantee.values.contains_key(&name) || !counts {
                 return None;
             }
             let function = family.functions.iter().find(|f| f.variable == name);
@@ -305,8 +364,11 @@ pub(super) fn asked<'a>(
         let Some(pattern) = family.patterns.get(&guarantee.pattern) else {
             continue;
         };
-        for axis in &guarantee.axes {
-            let axis = axis.get_ref().as_str();
+        // What is asked of the logic has the values of the control, which each axis has.
+        let any = parts.axes.first().map(|axis| axis.name.as_str());
+        let of_logic = any.filter(|_| pattern.about == About::Logic);
+        let named = guarantee.axes.iter().map(|axis| axis.get_ref().as_str());
+        for axis in named.chain(of_logic) {
             let Some(values) = values.get(axis) else {
                 continue;
             };

@@ -28,6 +28,7 @@ mod ground;
 pub mod guarantee;
 pub mod knob;
 mod logic;
+pub mod own;
 mod place;
 mod plausible;
 pub mod reaction;
@@ -54,6 +55,7 @@ use document::Findings;
 use family::{Family, Param};
 use guarantee::Guarantee;
 use logic::Logic;
+use own::Asks;
 use plausible::Judged;
 use runs::Parts;
 use stillpoint_lang::diag::{Result, nearest};
@@ -185,6 +187,10 @@ pub struct Run {
     pub axes: Vec<String>,
     /// The guarantee that it decides; none: what is true of every machine of the family is shown for this one.
     pub guarantee: Option<String>,
+    /// What the machine file asks of the system in words of its own, in place of the properties of the family.
+    pub asks: Option<Asks>,
+    /// The classes of single faults that it answers, in words, where the guarantee must hold after any of them.
+    pub faults: Vec<String>,
     /// The specification file.
     pub file: PathBuf,
     /// The system in that file.
@@ -193,6 +199,8 @@ pub struct Run {
     pub cycle: i64,
     /// A time in microseconds that passes before what it explores begins.
     pub before: i64,
+    /// The speed, in base units a minute, at which a bound is told as a way too; 0: at none.
+    pub travel: i64,
     /// The signals that a program of the machine file has at the ports of the machine it stands for, `OUTSI[3]` or `NOT INSE[1]`.
     pub wiring: Wiring,
     /// Values of the system's parameters; one cell for a scalar. Times in cycles, or in steps.

@@ -2,6 +2,7 @@
 //! Structured Text beside the machine file. It takes the place of the machine of that name in the tables of the family, which must be
 //! one that the family lets go.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -16,8 +17,9 @@ use toml::de::{DeTable, DeValue, Deserializer};
 
 use super::document::Findings;
 use super::family::{Family, Language, Slot};
+use super::own::Own;
 use super::wired::Wired;
-use super::{Basis, Machine, Place, Run, Wiring};
+use super::{Basis, Machine, Place, Run, Wiring, own};
 
 /// The machines of a machine file, in its order.
 #[derive(Clone, Default)]
@@ -256,6 +258,69 @@ impl Logic {
         Ok(all)
     }
 
+    /// The signals of a question in words of the file, at the ports of the machine that a program in numbered signals stands for.
+    ///
+    /// # Errors
+    /// More signals than ports.
+    pub fn shown(&self, own: &Own, place: &Place) -> Result<Wiring> {
+        let Some(wired) = self.wired.first() else {
+            return Ok(Wiring::new());
+        };
+        let used = own::used(own, &wired.signals());
+        wired.shown(&used).ok_or_else(|| {
+            let message = format!(
+                "guarantee {}: {} signals are too many for one question",
+                own.name,
+                used.len()
+            );
+            let found = self
+                .fault(Some(place.clone()), message)
+                .label("this guarantee");
+            found
+                .help("ask two questions, or let the program give a marker of some of them")
+                .into()
+        })
+    }
+
+    /// What the signals of the logic are called in a system: those of a program as it names them, else the inputs, outputs and
+    /// states of the machine of the tables.
+    fn names(
+        &self,
+        spec: &Spec,
+        system: &str,
+        wiring: &Wiring,
+        slots: &[&str],
+    ) -> BTreeMap<String, String> {
+        let outline = spec.outline();
+        let parts = outline.systems.iter().find(|s| s.name == system);
+        let parts = parts.map_or(&[][..], |s| &s.instances);
+        let mut names = BTreeMap::new();
+        for (instance, machine) in parts.iter().filter(|(_, m)| slots.contains(&m.as_str())) {
+            let mut add =
+                |name: String, port: &str| names.insert(name, format!("{instance}.{port}"));
+            let wired = self.wired.iter().find(|w| w.name.get_ref() == machine);
+            match (wired, outline.machines.iter().find(|m| m.name == *machine)) {
+                (Some(wired), _) => {
+                    for (name, (variable, _)) in wired.signals() {
+                        let port = wiring.iter().find(|(_, signal)| **signal == variable);
+                        if let Some((port, _)) = port {
+                            add(name, port);
+                        }
+                    }
+                }
+                (None, Some(machine)) => {
+                    let ports = machine.inputs.iter().chain(&machine.states);
+                    let outputs = machine.outputs.iter().map(|output| &output.name);
+                    for name in ports.map(|port| &port.name).chain(outputs) {
+                        add(name.clone(), name);
+                    }
+                }
+                (None, None) => {}
+            }
+        }
+        names
+    }
+
     /// A fault of the machine file.
     pub fn fault(&self, place: Option<Place>, message: String) -> Diagnostic {
         Diagnostic::new(&self.file, &self.source, place, message)
@@ -293,7 +358,14 @@ impl Machine {
     /// # Errors
     /// The file cannot be read, or a program cannot be explored.
     pub fn spec(&self, run: &Run) -> Result<Spec> {
-        self.basis.logic.spec(&run.file, &run.wiring)
+        let Basis { family, logic, .. } = &*self.basis;
+        let mut spec = logic.spec(&run.file, &run.wiring)?;
+        if let Some(asks) = &run.asks {
+            let slots: Vec<&str> = family.logic.keys().map(String::as_str).collect();
+            let names = logic.names(&spec, &run.system, &run.wiring, &slots);
+            own::ask(&mut spec, &run.system, asks, &names, logic)?;
+        }
+        Ok(spec)
     }
 
     /// The times that programs of the machine have as parameters of the systems they take part in: name, and length in microseconds.

@@ -4,8 +4,9 @@ use std::collections::BTreeMap;
 
 use super::eval::Values;
 use super::family::{Binding, Explore, Family, Rounding, Scope};
-use super::guarantee::{Guarantee, asked};
+use super::guarantee::{Asked, Guarantee, WITHIN, asked};
 use super::logic::Logic;
+use super::own::{Asks, Own};
 use super::plausible::{Judged, evaluate};
 use super::wired::wiring;
 use super::{Axis, Door, Group, Run, Wiring};
@@ -78,6 +79,17 @@ pub(super) fn guaranteed(
     let mut planned: Vec<Planned> = Vec::new();
     let mut files = BTreeMap::new();
     for asked in asked(family, guarantees, parts, judged, logic.is_programmed())? {
+        let (name, axis) = (&asked.guarantee.name, asked.axis);
+        if asked.pattern.needs_program && !logic.is_programmed() {
+            let message = format!(
+                "guarantee {name} is about the program of the safe logic, and the file has none"
+            );
+            let place = Some(asked.guarantee.place.clone());
+            let found = logic.fault(place, message).label("this guarantee");
+            let help = "add [logic.NAME] with source = \"...\", a program beside the machine file";
+            return Err(found.help(help).into());
+        }
+        let mut answered: Vec<&str> = Vec::new();
         let mut decided = false;
         for explore in &asked.pattern.explore {
             if evaluate(family, &explore.when, &asked.values, judged.cycle)? == 0 {
@@ -93,6 +105,10 @@ pub(super) fn guaranteed(
                 true => wiring(family, explore, &asked, logic)?,
                 false => Wiring::new(),
             };
+            let wiring = match &asked.guarantee.own {
+                Some(own) => logic.shown(own, &asked.guarantee.place)?,
+                None => wiring,
+            };
             let mut system = system;
             if let Some(scan) = explore.scan.as_ref().filter(|_| !wiring.is_empty()) {
                 let scan = evaluate(family, scan, &asked.values, judged.cycle)?.max(1);
@@ -102,17 +118,53 @@ pub(super) fn guaranteed(
             let mut run = bind(family, explore, &system, judged.cycle, &subject, 0)?;
             run.run.wiring = wiring;
             run.run.guarantee = Some(asked.guarantee.name.clone());
+            if let Some(own) = &asked.guarantee.own {
+                // It is about the logic, whatever axis there is.
+                run.each = Scope::Machine;
+                run.run.axes.clear();
+                run.run.asks = Some(asks(own, &asked, run.run.cycle, logic)?);
+            }
+            for (fault, when) in &explore.covers {
+                let counts = asked.guarantee.after_fault()
+                    && evaluate(family, when, &asked.values, judged.cycle)? != 0;
+                if let Some(text) = family.faults.get(fault).filter(|_| counts) {
+                    answered.push(fault);
+                    run.run.faults.push(text.clone());
+                }
+            }
             merge(&mut planned, run);
         }
-        if !decided {
-            let (name, axis) = (&asked.guarantee.name, asked.axis);
-            let message = format!("nothing decides the guarantee {name} for the axis {axis}");
+        let open = family.faults.keys();
+        let mut open = open.filter(|fault| !answered.contains(&fault.as_str()));
+        let open = open.next().filter(|_| asked.guarantee.after_fault());
+        if !decided || open.is_some() {
+            let after = open.map_or(String::new(), |fault| format!(" after the fault '{fault}'"));
+            let message =
+                format!("nothing decides the guarantee {name} for the axis {axis}{after}");
             let fault = Diagnostic::new(&family.file, &family.source, None, message);
             let help = "this is an error of the family's data, not of the machine file: an entry of its pattern must apply";
             return Err(fault.help(help).into());
         }
     }
     Ok(planned.into_iter().map(Planned::titled).collect())
+}
+
+/// The question of a machine file, with its time in cycles: what is asked for begins at any moment between two of them.
+fn asks(own: &Own, asked: &Asked<'_>, cycle: i64, logic: &Logic) -> Result<Asks> {
+    let within = asked.values.get(WITHIN).and_then(|cells| cells.first());
+    let within = within.copied().unwrap_or(0);
+    if within > 0 && within < cycle {
+        let cycle = super::units::Dimension::Time.show(cycle);
+        let message = format!("guarantee {}: the logic runs once in {cycle}", own.name);
+        let found = logic.fault(Some(asked.guarantee.place.clone()), message);
+        let help =
+            format!("write within = \"{cycle}\" or more, or leave it out: then in the same cycle");
+        return Err(found.label("this guarantee").help(help).into());
+    }
+    Ok(Asks {
+        own: own.clone(),
+        within: (within > 0).then(|| within / cycle.max(1) - 1),
+    })
 }
 
 /// An exploration, and what it stands for.
@@ -332,10 +384,13 @@ fn bind(
         title: explore.text.clone(),
         axes: subject.axes.clone(),
         guarantee: None,
+        asks: None,
+        faults: Vec::new(),
         file: family.folder.join(&explore.file),
         system: explore.system.clone(),
         cycle,
         before: 0,
+        travel: 0,
         wiring: Wiring::new(),
         params: BTreeMap::new(),
         sources: BTreeMap::new(),
@@ -357,6 +412,9 @@ fn bind(
     run.cycle = cycle;
     if let Some(formula) = &explore.before {
         run.before = evaluate(family, formula, values, cycle)?;
+    }
+    if let Some(formula) = &explore.travel {
+        run.travel = evaluate(family, formula, values, cycle)?;
     }
     if !explore.note.is_empty() {
         run.abstractions.push(explore.note.clone());
@@ -470,6 +528,7 @@ fn merge(list: &mut Vec<Planned>, new: Planned) {
         let (a, b) = (&known.run, &new.run);
         (&a.file, &a.system, a.cycle, a.before, &a.params, &a.wiring)
             == (&b.file, &b.system, b.cycle, b.before, &b.params, &b.wiring)
+            && (&a.asks, a.travel) == (&b.asks, b.travel)
             && a.guarantee == b.guarantee
             && (known.each, known.of_member) == (new.each, new.of_member)
             && (!new.of_member || known.names == new.names)
@@ -487,5 +546,6 @@ fn merge(list: &mut Vec<Planned>, new: Planned) {
     };
     add(&mut known.names, new.names);
     add(&mut known.run.axes, new.run.axes);
+    add(&mut known.run.faults, new.run.faults);
     add(&mut known.run.abstractions, new.run.abstractions);
 }

@@ -72,14 +72,14 @@ fn functions(family: &Family, name: &str) -> Result<Vec<String>> {
 
 /// The signals that a program in an explored system is connected to.
 pub(super) fn of_wires(explore: &Explore) -> impl Iterator<Item = String> + '_ {
-    explore.wires.iter().map(|(_, name, _)| name.clone())
+    explore.wires.iter().map(|wire| wire.name.clone())
 }
 
 /// The names that an explored system reads.
 pub(super) fn of_system(explore: &Explore) -> Vec<String> {
     let mut names = read_names(&explore.when.expr);
     let times = explore.cycle.iter().chain(&explore.before);
-    let times = times.chain(&explore.scan);
+    let times = times.chain(&explore.scan).chain(&explore.travel);
     names.extend(times.flat_map(|f| read_names(&f.expr)));
     for binding in &explore.params {
         match binding {

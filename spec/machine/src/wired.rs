@@ -1,5 +1,6 @@
 //! Programs with numbered signals, SAFE.SPF: what they are connected to follows from the values of the machine file, axis by axis.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use stillpoint_lang::Spec;
@@ -28,6 +29,9 @@ pub(super) struct Wired {
     /// The interface of that machine, and its inputs by name.
     signature: Signature,
     inputs: Vec<String>,
+    outputs: Vec<String>,
+    /// The inputs of type BOOL.
+    bools: Vec<String>,
 }
 
 impl Wired {
@@ -43,11 +47,14 @@ impl Wired {
     ) -> Result<Self> {
         let mut machines = spec.outline().machines.into_iter();
         let machine = machines.find(|m| m.name == *name.get_ref());
-        let inputs = machine.into_iter().flat_map(|m| m.inputs);
+        let (inputs, outputs) = machine.map_or_else(Default::default, |m| (m.inputs, m.outputs));
+        let bools = inputs.iter().filter(|port| port.ty == "BOOL");
         Ok(Self {
             program: spf::parse(&file, &source, Mode::Strict)?,
             signature: Signature::of(spec, name.get_ref())?,
-            inputs: inputs.map(|port| port.name).collect(),
+            bools: bools.map(|port| port.name.clone()).collect(),
+            inputs: inputs.into_iter().map(|port| port.name).collect(),
+            outputs: outputs.into_iter().map(|port| port.name).collect(),
             name,
             file,
             source,
@@ -64,6 +71,44 @@ impl Wired {
     /// # Errors
     /// It cannot be explored.
     pub fn compiled(&self, wiring: &Wiring) -> Result<Compiled> {
+        self.program.compile(&self.interface(wiring))
+    }
+
+    /// Its signals by all their names, `INSE[3]` and those that it defines: the variable, and whether the program gives it.
+    pub fn signals(&self) -> BTreeMap<String, (String, bool)> {
+        let mut all = BTreeMap::new();
+        for used in self.program.variables() {
+            let variable = used.variable.to_string();
+            for name in used.names.iter().chain([&variable]) {
+                all.insert(name.clone(), (variable.clone(), used.writes));
+            }
+        }
+        all
+    }
+
+    fn is_bool(&self, input: &str) -> bool {
+        self.bools.iter().any(|port| port == input)
+    }
+
+    /// The signals at the ports of the machine that it stands for, where nothing but these signals is looked at: what the program
+    /// gives at its outputs, what it is told at its inputs. None: there are more of them than ports.
+    pub fn shown(&self, signals: &[(String, bool)]) -> Option<Wiring> {
+        let mut wiring = Wiring::new();
+        let (inputs, mut outputs) = (self.inputs.iter(), self.outputs.iter());
+        // Signals are of type BOOL; the scan is told by another port.
+        let mut inputs = inputs.filter(|port| *port != SCAN && self.is_bool(port));
+        for (variable, given) in signals {
+            let port = match given {
+                true => outputs.next()?,
+                false => inputs.next()?,
+            };
+            wiring.insert(port.clone(), variable.clone());
+        }
+        wiring.extend(outputs.map(|port| (port.clone(), "TRUE".to_owned())));
+        Some(wiring)
+    }
+
+    fn interface(&self, wiring: &Wiring) -> Interface {
         let mut interface = Interface {
             signature: self.signature.clone(),
             inputs: Vec::new(),
@@ -89,7 +134,7 @@ impl Wired {
                 }
             }
         }
-        self.program.compile(&interface)
+        interface
     }
 }
 
@@ -104,9 +149,13 @@ pub(super) fn wiring(
     logic: &Logic,
 ) -> Result<Wiring> {
     let mut wiring = Wiring::new();
-    for (port, name, index) in &explore.wires {
+    for wire in &explore.wires {
+        let (port, name) = (&wire.port, &wire.name);
         let cells = asked.values.get(name).map_or(&[][..], Vec::as_slice);
-        let code = cells.get(*index).copied().unwrap_or(0);
+        let code = cells.get(wire.index).copied().unwrap_or(0);
+        if code == 0 && wire.optional {
+            continue;
+        }
         if code == 0 && logic.is_told(port) {
             let guarantee = asked.guarantee;
             let message = format!(

@@ -292,3 +292,84 @@ fn a_parameter_that_no_test_reads_is_a_fault_of_the_catalogue() {
         "{says}"
     );
 }
+
+const INTERLOCK: &str = "tests/machines/interlock-840d";
+
+/// The protocol carries the guarantees: with their verdicts, bounds and values where they are asked for.
+#[test]
+fn the_protocol_tells_what_the_machine_guarantees() {
+    let file = format!("{INTERLOCK}.toml");
+    let json = json(&[&file, "--guarantees"]);
+    let list = json["guarantees"].as_array().expect("guarantees");
+    assert_eq!(list.len(), 5);
+    assert!(list.iter().all(|g| g["verdict"] == "holds"), "{list:#?}");
+    let hold = &list[0]["runs"][0];
+    assert!(hold["bound_us"].as_u64().is_some_and(|us| us < 200_000));
+    let values = hold["values"].as_array().expect("values");
+    assert!(values.iter().any(|v| v["name"] == "STANDSTILL_TOL"));
+    let page = stdout(&stillpoint(&["acceptance", &file, "--markdown"]));
+    assert!(page.contains("What this machine guarantees") && page.contains("hold_to_run"));
+}
+
+/// A broken guarantee: the fault, the lines of the program and the values that decide it are in the JSON, and the protocol ends with status 1.
+#[test]
+fn what_breaks_a_guarantee_is_told_to_programs() {
+    let folder = std::path::PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("broken-interlock");
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let text = |end: &str| {
+        let path = stillpoint_tests::root().join(format!("{INTERLOCK}.{end}"));
+        std::fs::read_to_string(path).expect("readable")
+    };
+    let program = text("spf").replace("ACK_KEY AND KEY_WAS_UP", "ACK_KEY");
+    std::fs::write(folder.join("interlock-840d.spf"), program).expect("written");
+    let slow = text("toml")
+        .replace("contacts      = 2", "contacts      = 1")
+        .replace(
+            "PULSE_DISABLE_DELAY = \"24 ms\"",
+            "PULSE_DISABLE_DELAY = \"240 ms\"",
+        );
+    let path = folder.join("interlock-840d.toml");
+    std::fs::write(&path, slow).expect("written");
+    let file = path.display().to_string();
+    let families = stillpoint_tests::root().join("spec/families");
+    let families = families.display().to_string();
+    let output = stillpoint(&["--family-data", &families, "check", &file, "--json"]);
+    assert_eq!(output.status.code(), Some(1));
+    let json: Value = serde_json::from_str(&stdout(&output)).expect("JSON");
+    let runs = json["runs"].as_array().expect("runs");
+    let broken = |title: &str| {
+        let run = runs
+            .iter()
+            .find(|r| r["title"].as_str().is_some_and(|t| t.starts_with(title)));
+        let properties = run.expect("a run")["properties"]
+            .as_array()
+            .expect("properties");
+        let broken = properties.iter().find(|p| p["verdict"] == "violated");
+        broken
+            .unwrap_or_else(|| panic!("{title}: {properties:#?}"))
+            .clone()
+    };
+    let lines = &broken("what the safe logic wants before it takes a stop back")["lines"];
+    assert!(
+        lines.to_string().contains("RELEASED = ESTOP_FREE"),
+        "{lines}"
+    );
+    let by = &broken("an axis whose enabling device is released")["decided_by"];
+    assert!(by.to_string().contains("PULSE_DISABLE_DELAY"), "{by}");
+    let list = json["guarantees"].as_array().expect("guarantees");
+    let start = list
+        .iter()
+        .find(|g| g["name"] == "no_start")
+        .expect("asked");
+    let stuck = start["runs"].as_array().expect("runs").iter();
+    let stuck = stuck.filter(|r| r["faults"].to_string().contains("stuck at 0 or 1"));
+    assert!(stuck.clone().count() == 1 && stuck.clone().all(|r| r["verdict"] == "violated"));
+    let status = stillpoint(&[
+        "--family-data",
+        &families,
+        "acceptance",
+        &file,
+        "--guarantees",
+    ]);
+    assert_eq!(status.status.code(), Some(1));
+}

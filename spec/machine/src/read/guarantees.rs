@@ -5,6 +5,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::{Owner, Reader};
 use crate::guarantee::{About, Guarantee, Pattern};
+use crate::own::{Own, Stated};
 use crate::{Axis, AxisKind, Door, Place};
 use stillpoint_lang::diag::nearest;
 
@@ -73,7 +74,7 @@ impl<'f> Reader<'f> {
         doors: &[Door],
     ) -> Option<Guarantee> {
         let door = match data.about {
-            About::Axis => None,
+            About::Axis | About::Logic => None,
             About::Door => Some(self.door_of(name, at.clone(), table, doors)?),
         };
         let mut named = match table.get("axes") {
@@ -97,13 +98,20 @@ impl<'f> Reader<'f> {
         if named.is_empty() {
             named = behind.to_vec();
         }
-        if named.is_empty() {
+        let own = match data.about {
+            About::Logic => Some(self.own(name, at.clone(), table)?),
+            _ => None,
+        };
+        if named.is_empty() && own.is_none() {
             let message = format!("guarantee {name} names no axes");
             let help = "add a line such as axes = [\"X\", \"Y\"]";
             self.findings.add(at, message, "this guarantee", help);
             return None;
         }
-        let kind = self.kind_of(name, &at, &named, axes)?;
+        let kind = match own {
+            Some(_) => AxisKind::Linear,
+            None => self.kind_of(name, &at, &named, axes)?,
+        };
         for required in &data.required {
             if !table.contains_key(required.as_str()) {
                 let about = data.arguments.get(required).map_or("", |a| a.text.as_str());
@@ -120,6 +128,7 @@ impl<'f> Reader<'f> {
             structural: match data.about {
                 About::Axis => &["pattern", "axes"],
                 About::Door => &["pattern", "door", "axes"],
+                About::Logic => &["pattern", "when", "then"],
             },
             ..Owner::of(&place)
         };
@@ -129,11 +138,34 @@ impl<'f> Reader<'f> {
             name: name.to_owned(),
             pattern: pattern.to_owned(),
             source: data.source.clone(),
-            text: data.told(door.as_deref(), &named, &values),
+            text: data.told(door.as_deref(), &named, own.as_ref(), &values),
+            own,
             door,
             axes: named,
             values,
             place: at,
+        })
+    }
+
+    /// The expressions of a guarantee in words of the file.
+    fn own(&mut self, name: &str, at: Place, table: &DeTable<'_>) -> Option<Own> {
+        let mut stated = |key: &str| {
+            let Some(value) = table.get(key) else {
+                let message = format!("guarantee {name} does not say '{key}'");
+                let help = "write when = \"NOT INSE[1]\", then = \"NOT OUTSI[3]\" or the like, over the signals of the safe logic";
+                self.findings
+                    .add(at.clone(), message, "this guarantee", help);
+                return None;
+            };
+            let text = self.findings.text(key, value)?;
+            let place = value.span();
+            Some(Stated { text, place })
+        };
+        let (when, then) = (stated("when"), stated("then"));
+        Some(Own {
+            name: name.to_owned(),
+            when: when?,
+            then: then?,
         })
     }
 
