@@ -1,9 +1,11 @@
 //! A system together with the duty of a weak until: a product with the automaton of its obligation.
 
 use crate::choices::Odometer;
-use crate::process::{Any, AnyProcess, Origin, Process};
+use crate::parts::Component;
+use crate::process::{Any, AnyProcess, Origin, Process, Source};
 use crate::property::{Eval, Form};
 use crate::report::Trace;
+use crate::stages::{Condition, Stages};
 use crate::system::{Choices, Domain, Fault};
 
 /// The input that decides whether the duty of this `when` is the one followed.
@@ -46,16 +48,14 @@ pub(crate) struct DutyProcess<'a> {
     saved: bool,
 }
 
-impl<'a> Origin for &'a Duty<'a> {
-    type Process = DutyProcess<'a>;
-
-    fn process(&self) -> DutyProcess<'a> {
-        DutyProcess {
+impl Source for Duty<'_> {
+    fn process(&self) -> AnyProcess<'_> {
+        Box::new(DutyProcess {
             inner: self.system.process(),
             form: self.form,
             violated: false,
             saved: false,
-        }
+        })
     }
 
     fn domains(&self) -> &[Domain] {
@@ -68,6 +68,18 @@ impl<'a> Origin for &'a Duty<'a> {
 
     fn rules(&self) -> usize {
         0
+    }
+
+    fn components(&self) -> Vec<Component<'_>> {
+        Vec::new()
+    }
+
+    fn timer(&self) -> Option<usize> {
+        None
+    }
+
+    fn stages(&self, _: &[Condition]) -> Option<Box<dyn Stages + '_>> {
+        None
     }
 }
 

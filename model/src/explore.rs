@@ -53,20 +53,20 @@ pub(crate) fn on_store<O: Origin, J: Job<O>>(
         let domain = origin.domains().get(timer).copied();
         let size = domain.map_or(1, |d| u32::try_from(d.size()).unwrap_or(u32::MAX));
         let packer = Packer::with_least(origin.domains(), Some(timer))?;
-        let model = Model::with(origin, packer, crew, watch);
+        let model = Model::with(origin, packer, crew, watch, options.way);
         return job.run(&model, Ticked::new(size), Storage::Intervals);
     }
     match (bitmap_fits(space, options), small) {
         (Some(small), _) => {
-            let model = Model::new(origin, crew, watch)?;
+            let model = Model::new(origin, crew, watch, options.way)?;
             job.run(&model, Dense::new(small, crew.size()), Storage::Bitmap)
         }
         (None, Ok(_)) => {
-            let model = Model::new(origin, crew, watch)?;
+            let model = Model::new(origin, crew, watch, options.way)?;
             job.run(&model, Hashed::<Plain>::new(), Storage::Hash64)
         }
         (None, Err(_)) => {
-            let model = Model::new(origin, crew, watch)?;
+            let model = Model::new(origin, crew, watch, options.way)?;
             job.run(&model, Hashed::<Halves>::new(), Storage::Hash128)
         }
     }
@@ -104,6 +104,17 @@ pub fn explore<S: System>(
     options: &Options,
     progress: &mut dyn Progress,
 ) -> Result<Report, Error> {
+    explored(Any::new(system), properties, options, progress)
+}
+
+/// The same for any system, so that it is compiled once and not for each of them.
+#[inline(never)]
+fn explored(
+    system: Any,
+    properties: &[Property],
+    options: &Options,
+    progress: &mut dyn Progress,
+) -> Result<Report, Error> {
     validate(properties)?;
     let watch = Watch::new(options);
     let crew = crew(options)?;
@@ -112,7 +123,7 @@ pub fn explore<S: System>(
         options,
         progress,
     };
-    on_store(Any::new(system), options, &crew, &watch, job)
+    on_store(system, options, &crew, &watch, job)
 }
 
 struct Explore<'a> {

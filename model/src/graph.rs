@@ -6,12 +6,21 @@ use crate::distinct::Distinct;
 use crate::model::Model;
 use crate::pack::Key;
 use crate::process::{Any, Process};
+use crate::stages::Condition;
 use crate::store::PIECE;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 /// Says what a cycle to the given state is.
 pub(crate) type Rule<'a, K> = dyn Fn(&mut dyn Process, &mut Odometer, K) -> Mark + Sync + 'a;
+
+/// The same in two forms, for cycles one by one and in stages.
+pub(crate) struct Rules<'a, K> {
+    pub(crate) rule: &'a Rule<'a, K>,
+    pub(crate) conditions: Vec<Condition>,
+    /// What a cycle is in which these conditions hold, one bit for each.
+    pub(crate) mark: &'a (dyn Fn(u128) -> Mark + Sync),
+}
 
 /// What a cycle is to a graph.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -66,7 +75,7 @@ impl<K: Key> Graph<K> {
     pub(crate) fn build(
         model: &Model<Any, K>,
         seeds: &[K],
-        rule: &Rule<K>,
+        rules: &Rules<K>,
         held: u64,
     ) -> Option<Self> {
         let mut graph = Graph {
@@ -82,7 +91,10 @@ impl<K: Key> Graph<K> {
         }
         graph.seeds = u32::try_from(graph.keys.len()).ok()?;
         let mut workers: Vec<_> = (0..model.crew.size())
-            .map(|_| (model.cursor(), Vec::<Piece<K>>::new()))
+            .map(|_| {
+                let staged = model.quicker(&rules.conditions);
+                (model.cursor(), staged, Vec::<Piece<K>>::new())
+            })
             .collect();
         let mut done = 0;
         while done < graph.keys.len() {
@@ -91,12 +103,12 @@ impl<K: Key> Graph<K> {
             }
             // What the pieces of this block hold, and whether it is too much.
             let (found, broken) = (AtomicU64::new(0), AtomicBool::new(false));
-            let before = held + graph.bytes();
+            let before = held + graph.bytes() + model.known();
             let block = &graph.keys[done..graph.keys.len().min(done + 1024 * PIECE)];
             model.crew.share(
                 &mut workers,
                 block.len().div_ceil(PIECE),
-                |(cursor, pieces), number| {
+                |(cursor, staged, pieces), number| {
                     if broken.load(Ordering::Relaxed) {
                         return;
                     }
@@ -109,21 +121,39 @@ impl<K: Key> Graph<K> {
                     let (first, last) = (number * PIECE, block.len().min((number + 1) * PIECE));
                     for (node, key) in (first..).zip(&block[first..last]) {
                         let mut ends = Distinct::new();
-                        let whole =
-                            cursor.leaves(&model.packer, *key, |process, odometer, leaf| {
-                                if let Leaf::To(after) = leaf {
-                                    match rule(&mut **process, odometer, after) {
+                        let mut exits = false;
+                        let whole = match staged.as_mut().and_then(|s| s.made(*key)) {
+                            Some(staged) => {
+                                for (after, marks) in staged.ends() {
+                                    match (rules.mark)(marks) {
                                         Mark::Edge(label) => ends.push((after, label)),
-                                        Mark::Exit => piece.exit = piece.exit.or(Some(done + node)),
+                                        Mark::Exit => exits = true,
                                         Mark::Outside => (),
                                     }
                                 }
                                 let own = found.load(Ordering::Relaxed) + ends.bytes();
-                                match model.watch.too_much(before + own) {
-                                    true => ControlFlow::Break(()),
-                                    false => ControlFlow::Continue(()),
-                                }
-                            });
+                                !model.watch.too_much(before + own) && !model.watch.ended()
+                            }
+                            None => {
+                                cursor.leaves(&model.packer, *key, |process, odometer, leaf| {
+                                    if let Leaf::To(after) = leaf {
+                                        match (rules.rule)(&mut **process, odometer, after) {
+                                            Mark::Edge(label) => ends.push((after, label)),
+                                            Mark::Exit => exits = true,
+                                            Mark::Outside => (),
+                                        }
+                                    }
+                                    let own = found.load(Ordering::Relaxed) + ends.bytes();
+                                    match model.watch.too_much(before + own) {
+                                        true => ControlFlow::Break(()),
+                                        false => ControlFlow::Continue(()),
+                                    }
+                                })
+                            }
+                        };
+                        if exits {
+                            piece.exit = piece.exit.or(Some(done + node));
+                        }
                         if !whole {
                             broken.store(true, Ordering::Relaxed);
                             return;
@@ -143,7 +173,7 @@ impl<K: Key> Graph<K> {
             done += block.len();
             let mut pieces: Vec<Piece<K>> = workers
                 .iter_mut()
-                .flat_map(|(_, pieces)| pieces.drain(..))
+                .flat_map(|(_, _, pieces)| pieces.drain(..))
                 .collect();
             pieces.sort_unstable_by_key(|piece| piece.number);
             for piece in pieces {

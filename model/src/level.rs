@@ -8,16 +8,18 @@ use crate::process::{Origin, Process, beyond};
 use crate::property::{Eval, Property};
 use crate::report::Options;
 use crate::set::{Batch, Set};
+use crate::stages::{self, Pace, Staged, Watched};
 use crate::store::Store;
 use crate::system::Fault;
 use crate::tally::Found;
 use crate::watch::Watch;
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
+use std::time::Instant;
 
 // The alignment keeps the counters of two threads out of one cache line.
 #[repr(align(128))]
-pub(crate) struct Worker<P, K, L> {
+pub(crate) struct Worker<'m, P, K, L> {
     cursor: Cursor<P>,
     pub(crate) local: L,
     transitions: u128,
@@ -32,6 +34,11 @@ pub(crate) struct Worker<P, K, L> {
     absorbing: u64,
     examples: Vec<K>,
     pub(crate) joined: Option<Joined>,
+    /// Where the cycles of a state are made in stages.
+    pub(crate) staged: Option<Staged<'m, K>>,
+    /// What the pieces of this level took.
+    pub(crate) pace: Pace,
+    vectors: u64,
     /// Cycles put together from tables since the last look at the limits.
     unwatched: u32,
     /// A limit is reached: nothing more is begun.
@@ -41,7 +48,7 @@ pub(crate) struct Worker<P, K, L> {
 /// Cycles of one worker between two looks at the memory held.
 pub(crate) const UNWATCHED: u32 = 4096;
 
-impl<P: Process, K: Key, L> Worker<P, K, L> {
+impl<P: Process, K: Key, L> Worker<'_, P, K, L> {
     pub(crate) fn new(
         origin: &impl Origin<Process = P>,
         watch: &Watch,
@@ -64,6 +71,9 @@ impl<P: Process, K: Key, L> Worker<P, K, L> {
             absorbing: 0,
             examples: Vec::new(),
             joined: parts.map(Tables::worker),
+            staged: None,
+            pace: Pace::default(),
+            vectors: 0,
             unwatched: 0,
             broken: false,
         }
@@ -91,11 +101,17 @@ pub(crate) struct Level<'a, O, T: Store> {
     pub(crate) pending: &'a [Set<T::Key>],
     pub(crate) options: &'a Options,
     pub(crate) parts: Option<&'a Tables<T::Key>>,
+    /// What the stages of the workers tell.
+    pub(crate) watched: &'a Watched,
 }
 
 impl<O: Origin, T: Store> Level<'_, O, T> {
     /// Makes them, unless a limit is reached.
-    pub(crate) fn explore(&self, worker: &mut Worker<O::Process, T::Key, T::Local>, piece: usize) {
+    pub(crate) fn explore(
+        &self,
+        worker: &mut Worker<'_, O::Process, T::Key, T::Local>,
+        piece: usize,
+    ) {
         if !self.over() {
             self.piece(worker, piece);
         }
@@ -106,11 +122,16 @@ impl<O: Origin, T: Store> Level<'_, O, T> {
         let tables = self.parts.map_or(0, Tables::bytes);
         self.model
             .watch
-            .over(bytes(self.store, self.pending) + tables)
+            .over(bytes(self.store, self.pending) + tables + self.model.known())
     }
 
     /// Makes the cycles from the states of one piece of the frontier.
-    pub(crate) fn piece(&self, worker: &mut Worker<O::Process, T::Key, T::Local>, piece: usize) {
+    pub(crate) fn piece(
+        &self,
+        worker: &mut Worker<'_, O::Process, T::Key, T::Local>,
+        piece: usize,
+    ) {
+        let (start, explored, vectors) = (Instant::now(), worker.explored, worker.vectors);
         self.store.each(piece, |key| {
             if worker.broken {
                 return;
@@ -118,10 +139,78 @@ impl<O: Origin, T: Store> Level<'_, O, T> {
             let joined = self
                 .parts
                 .is_some_and(|parts| self.joined(parts, worker, key));
-            if !joined {
+            if !joined && !self.staged(worker, key) {
                 self.state(worker, key);
             }
         });
+        let (time, states) = (start.elapsed(), worker.explored - explored);
+        let vectors = worker.vectors - vectors;
+        match worker.staged {
+            Some(_) => worker.pace.staged(time, states),
+            None => worker.pace.plain(time, states, vectors),
+        }
+    }
+
+    /// One state whose cycles are made in stages; false if there are none, or a cycle meets a fault.
+    #[inline]
+    fn staged(&self, worker: &mut Worker<'_, O::Process, T::Key, T::Local>, key: T::Key) -> bool {
+        let Worker {
+            staged: Some(staged),
+            local,
+            first,
+            bad,
+            met,
+            pending,
+            unwatched,
+            broken,
+            ..
+        } = worker
+        else {
+            return false;
+        };
+        if !staged.cycles(key) {
+            return false;
+        }
+        let (mut stays, mut shown, mut last) = (true, 0, key);
+        let ends = staged.ends();
+        *unwatched += ends.len() as u32;
+        for (after, marks) in ends {
+            stays &= after == key;
+            if after != last {
+                self.store.visit(local, after);
+                last = after;
+            }
+            shown |= marks;
+            let mut duties = marks & self.watched.pending;
+            while duties != 0 {
+                let (property, _) = self.watched.events[duties.trailing_zeros() as usize];
+                self.pending[property].insert(&mut pending[property], after);
+                duties &= duties - 1;
+            }
+        }
+        shown &= !self.watched.pending;
+        while shown != 0 {
+            let (property, event) = self.watched.events[shown.trailing_zeros() as usize];
+            match event {
+                stages::Event::First => lower(&mut first[property], key),
+                stages::Event::Bad => lower(&mut bad[property], key),
+                stages::Event::Met => met[property] = true,
+                stages::Event::Pending => {}
+            }
+            shown &= shown - 1;
+        }
+        if *unwatched >= UNWATCHED {
+            *unwatched = 0;
+            *broken = self.over();
+        }
+        let weight = staged.weight();
+        worker.explored += 1;
+        worker.weights = worker.weights.wrapping_add(weight);
+        worker.transitions = worker.transitions.saturating_add(weight);
+        if stays {
+            self.absorbing(worker, key);
+        }
+        true
     }
 
     /// One state of a system that falls into parts; false if its cycles are not in their tables.
@@ -129,7 +218,7 @@ impl<O: Origin, T: Store> Level<'_, O, T> {
     fn joined(
         &self,
         parts: &Tables<T::Key>,
-        worker: &mut Worker<O::Process, T::Key, T::Local>,
+        worker: &mut Worker<'_, O::Process, T::Key, T::Local>,
         key: T::Key,
     ) -> bool {
         let Worker {
@@ -179,7 +268,7 @@ impl<O: Origin, T: Store> Level<'_, O, T> {
         known
     }
 
-    fn absorbing(&self, worker: &mut Worker<O::Process, T::Key, T::Local>, key: T::Key) {
+    fn absorbing(&self, worker: &mut Worker<'_, O::Process, T::Key, T::Local>, key: T::Key) {
         worker.absorbing += 1;
         worker.examples.push(key);
         if worker.examples.len() > 2 * self.options.examples + 64 {
@@ -188,7 +277,7 @@ impl<O: Origin, T: Store> Level<'_, O, T> {
     }
 
     #[inline]
-    fn state(&self, worker: &mut Worker<O::Process, T::Key, T::Local>, key: T::Key) {
+    fn state(&self, worker: &mut Worker<'_, O::Process, T::Key, T::Local>, key: T::Key) {
         let Worker {
             cursor,
             local,
@@ -200,6 +289,7 @@ impl<O: Origin, T: Store> Level<'_, O, T> {
             coverage,
             unwatched,
             broken,
+            vectors,
             ..
         } = worker;
         let mut last = key;
@@ -251,6 +341,7 @@ impl<O: Origin, T: Store> Level<'_, O, T> {
                 Leaf::Discarded => discarded = discarded.wrapping_add(odometer.weight()),
             }
             weights = weights.wrapping_add(odometer.weight());
+            *vectors += 1;
             *unwatched += 1;
             if *unwatched == UNWATCHED {
                 *unwatched = 0;
@@ -288,12 +379,16 @@ pub(crate) fn least<K: Ord>(keys: &mut Vec<K>, most: usize) {
 /// Takes over what a worker found in the level just explored (at depth `tally.depth`).
 pub(crate) fn gather<P, K: Key, L>(
     found: &mut Found<K>,
-    worker: &mut Worker<P, K, L>,
+    worker: &mut Worker<'_, P, K, L>,
     parts: Option<&Tables<K>>,
+    counted: bool,
     examples: usize,
 ) {
     if let (Some(parts), Some(joined)) = (parts, &mut worker.joined) {
         parts.count(joined, &mut worker.coverage);
+    }
+    if let Some(staged) = worker.staged.as_mut().filter(|_| counted) {
+        staged.count(&mut worker.coverage);
     }
     let tally = &mut found.tally;
     let depth = tally.depth;

@@ -12,6 +12,7 @@
 //! * `pack`, `bitmap`, `store`, `set`, `hashed`: a state is a number in mixed radix. The states found are a bitmap over all
 //!   numbers where that fits the memory (at most two bits an index), else an exact hash set.
 //! * `parts`: systems that fall into parts with nothing in common but inputs; their cycles are put together from tables.
+//! * `stages`: cycles that come about in stages; what a stage makes of what it looks at is found once.
 //! * `ticks`: the values of a timer as intervals. `checkpoint`: an exploration between two levels, in a file.
 //! * `crew`, `search`: one breadth-first search, level by level, on some threads. It tells for each property the first
 //!   place, in the order (depth, state), where something showed: so the report does not depend on the threads.
@@ -55,6 +56,7 @@ mod report;
 mod response;
 mod search;
 mod set;
+mod stages;
 mod store;
 mod symmetry;
 mod system;
@@ -75,8 +77,9 @@ pub use property::{Form, Property};
 pub use reachable::reachable;
 pub use report::{
     Checkpoint, Error, FaultReport, Interrupt, Judgement, Limits, Options, Progress, Report, Step,
-    Storage, Trace, Verdict,
+    Storage, Trace, Verdict, Way,
 };
+pub use stages::{Condition, Outcome, Stages};
 pub use symmetry::{Group, Permutation, Symmetric, SymmetricWork};
 pub use system::{Choices, Domain, Fault, System};
 pub use twin::{Twin, TwinWork};

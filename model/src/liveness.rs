@@ -4,7 +4,7 @@ use crate::choices::Odometer;
 use crate::cursor::Leaf;
 use crate::distinct::Distinct;
 use crate::explore::{Decision, Evidence, Tail, sign_test};
-use crate::graph::{Components, Edge, Graph, Mark};
+use crate::graph::{Components, Edge, Graph, Mark, Rules};
 use crate::model::Model;
 use crate::pack::Key;
 use crate::process::{Any, Process, beyond};
@@ -12,6 +12,7 @@ use crate::property::Form;
 use crate::report::{Error, Verdict};
 use crate::response::Response;
 use crate::set::Set;
+use crate::stages::Condition;
 use crate::trace::Request;
 use std::collections::{HashMap, VecDeque};
 use std::ops::ControlFlow;
@@ -50,7 +51,18 @@ pub(crate) fn fair<'a, K: Key>(
             mask | u32::from(eval.atom(*atom)) << bit
         }))
     };
-    let Some(graph) = Graph::build(model, &pending.sorted(), &label, held) else {
+    let waits = assuming.iter().map(|atom| (*atom, true));
+    let waits: Condition = waits.chain([(goal, false)]).collect();
+    let met = fair.iter().map(|atom| vec![(*atom, true)]);
+    let rules = Rules {
+        rule: &label,
+        conditions: [waits].into_iter().chain(met).collect(),
+        mark: &|marks| match marks & 1 {
+            0 => Mark::Outside,
+            _ => Mark::Edge((marks >> 1) as u32),
+        },
+    };
+    let Some(graph) = Graph::build(model, &pending.sorted(), &rules, held) else {
         return Verdict::Inconclusive.into();
     };
     let all = (1u32 << fair.len()) - 1;
@@ -251,7 +263,17 @@ pub(crate) fn recoverable<'a, K: Key>(
             }
             Mark::Edge(mask)
         };
-        let Some(graph) = Graph::build(model, &initial, &label, held).map(Arc::new) else {
+        let conditions = goals.iter().flat_map(|(goal, using)| {
+            let used: Condition = using.iter().map(|atom| (*atom, true)).collect();
+            let reached = used.iter().copied().chain([(*goal, true)]).collect();
+            [used, reached]
+        });
+        let rules = Rules {
+            rule: &label,
+            conditions: conditions.collect(),
+            mark: &|marks| Mark::Edge(marks as u32),
+        };
+        let Some(graph) = Graph::build(model, &initial, &rules, held).map(Arc::new) else {
             verdicts.extend(goals.iter().map(|_| None));
             continue;
         };

@@ -3,6 +3,7 @@
 
 use crate::choices::Odometer;
 use crate::parts::Component;
+use crate::stages::{Condition, Stages};
 use crate::system::{Domain, Fault, System};
 
 /// A system and a work area. The methods are those of [`System`] with the choices of an odometer.
@@ -57,6 +58,9 @@ pub(crate) trait Origin: Sync {
         Vec::new()
     }
     fn timer(&self) -> Option<usize> {
+        None
+    }
+    fn stages(&self, _: &[Condition]) -> Option<Box<dyn Stages + '_>> {
         None
     }
 }
@@ -162,6 +166,7 @@ pub(crate) trait Source: Sync {
     fn rules(&self) -> usize;
     fn components(&self) -> Vec<Component<'_>>;
     fn timer(&self) -> Option<usize>;
+    fn stages(&self, conditions: &[Condition]) -> Option<Box<dyn Stages + '_>>;
 }
 
 impl<S: System> Source for S {
@@ -191,6 +196,10 @@ impl<S: System> Source for S {
 
     fn timer(&self) -> Option<usize> {
         System::timer(self)
+    }
+
+    fn stages(&self, conditions: &[Condition]) -> Option<Box<dyn Stages + '_>> {
+        System::stages(self, conditions)
     }
 }
 
@@ -233,5 +242,9 @@ impl<'s> Origin for Any<'s> {
 
     fn timer(&self) -> Option<usize> {
         self.0.timer()
+    }
+
+    fn stages(&self, conditions: &[Condition]) -> Option<Box<dyn Stages + '_>> {
+        self.0.stages(conditions)
     }
 }

@@ -22,14 +22,14 @@ pub fn reachable<S: System>(
     options: &Options,
     each: &mut dyn FnMut(&[i32]),
 ) -> Result<bool, Error> {
+    visit(Any::new(system), options, each)
+}
+
+/// The same for any system, so that it is compiled once.
+#[inline(never)]
+fn visit(system: Any, options: &Options, each: &mut dyn FnMut(&[i32])) -> Result<bool, Error> {
     let watch = Watch::new(options);
-    on_store(
-        Any::new(system),
-        options,
-        &crew(options)?,
-        &watch,
-        Visit { each },
-    )
+    on_store(system, options, &crew(options)?, &watch, Visit { each })
 }
 
 struct Visit<'a> {

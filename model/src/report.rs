@@ -78,6 +78,20 @@ pub struct Options {
     pub intervals: bool,
     /// Where to keep the exploration; none to keep it nowhere.
     pub checkpoint: Option<Checkpoint>,
+    /// How the cycles of a state are made; the report is the same.
+    pub way: Way,
+}
+
+/// How the cycles of a state are made, where a system has stages ([`crate::System::stages`]).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Way {
+    /// In the way that turns out to be the quicker one.
+    #[default]
+    Quicker,
+    /// One by one.
+    Single,
+    /// In stages wherever it can be.
+    Staged,
 }
 
 impl Default for Options {
@@ -90,6 +104,7 @@ impl Default for Options {
             examples: 8,
             intervals: false,
             checkpoint: None,
+            way: Way::default(),
         }
     }
 }

@@ -4,7 +4,7 @@ use crate::crew::Crew;
 use crate::cursor::Leaf;
 use crate::duty::Duty;
 use crate::explore::{Decision, Evidence, Job, Tail, on_store, seen, sign_test};
-use crate::graph::{Graph, Mark};
+use crate::graph::{Graph, Mark, Rules};
 use crate::model::Model;
 use crate::pack::Key;
 use crate::process::{Any, Process};
@@ -12,6 +12,7 @@ use crate::property::{Form, Property};
 use crate::report::{Error, Options, Storage, Trace, Verdict};
 use crate::search::search;
 use crate::set::Set;
+use crate::stages::Condition;
 use crate::store::Store;
 use crate::tally::Signs;
 use crate::trace::{Request, runs};
@@ -56,7 +57,18 @@ pub(crate) fn bounded<'a, K: Key>(
             (_, false) => Mark::Outside,
         }
     };
-    let Some(graph) = Graph::build(model, &pending.sorted(), &edge, held) else {
+    let given: Condition = assuming.iter().map(|atom| (*atom, true)).collect();
+    let with = |value| given.iter().copied().chain([(goal, value)]).collect();
+    let rules = Rules {
+        rule: &edge,
+        conditions: vec![with(false), with(true)],
+        mark: &|marks| match marks & 3 {
+            0 => Mark::Outside,
+            1 => Mark::Edge(0),
+            _ => Mark::Exit,
+        },
+    };
+    let Some(graph) = Graph::build(model, &pending.sorted(), &rules, held) else {
         return Verdict::Inconclusive.into();
     };
     let heights = graph.components(|_| true).heights(&graph);
@@ -141,7 +153,23 @@ pub(crate) fn until<'a, K: Key>(
                 false => Mark::Outside,
             }
         };
-        if Graph::build(model, &pending.sorted(), &rule, held).is_none()
+        let rules = Rules {
+            rule: &rule,
+            conditions: vec![
+                vec![(unless, false), (holds, true)],
+                vec![(unless, false), (holds, false)],
+            ],
+            mark: &|marks| {
+                if marks & 2 != 0 {
+                    violated.store(true, Ordering::Relaxed);
+                }
+                match marks & 1 {
+                    0 => Mark::Outside,
+                    _ => Mark::Edge(0),
+                }
+            },
+        };
+        if Graph::build(model, &pending.sorted(), &rules, held).is_none()
             && !violated.load(Ordering::Relaxed)
         {
             return Ok(Verdict::Inconclusive.into());
@@ -185,7 +213,7 @@ fn shortest(
         ..options.clone()
     };
     let trace = on_store(
-        &duty,
+        Any::of(&duty),
         &options,
         crew,
         watch,
@@ -199,12 +227,12 @@ struct Counterexample<'a> {
     options: &'a Options,
 }
 
-impl Job<&Duty<'_>> for Counterexample<'_> {
+impl Job<Any<'_>> for Counterexample<'_> {
     type Output = Option<Trace>;
 
     fn run<T: Store>(
         self,
-        model: &Model<&Duty, T::Key>,
+        model: &Model<Any, T::Key>,
         mut store: T,
         _: Storage,
     ) -> Result<Self::Output, Error> {

@@ -4,15 +4,18 @@ use crate::checkpoint::Keeper;
 use crate::cursor::Cursor;
 use crate::level::{Level, UNWATCHED, Worker, bytes, gather};
 use crate::model::Model;
+use crate::pack::Key;
 use crate::parts::Tables;
 use crate::process::Origin;
 use crate::property::Property;
-use crate::report::{Error, Options, Progress};
+use crate::report::{Error, Options, Progress, Way};
 use crate::set::Set;
+use crate::stages::{Pace, Watched};
 use crate::store::Store;
 use crate::tally::{Found, Tally};
 use crate::watch::Watch;
 use std::ops::ControlFlow;
+use std::sync::atomic::Ordering;
 
 /// Explores level by level. The answer does not depend on the number of threads as long as no limit is reached.
 pub(crate) fn search<O: Origin, T: Store>(
@@ -69,6 +72,7 @@ pub(crate) fn search<O: Origin, T: Store>(
         } = found.tally;
         progress.on_level(depth, states, transitions, store.size());
     }
+    let mut staging = Staging::new(options.way, parts.is_some());
     while !found.tally.complete {
         let open: Vec<usize> = (0..properties.len())
             .filter(|p| {
@@ -78,6 +82,7 @@ pub(crate) fn search<O: Origin, T: Store>(
                     .settled(signs.first.is_some(), signs.bad.is_some())
             })
             .collect();
+        staging.prepare(model, properties, &open, &mut found.tally, &mut workers);
         let level = Level {
             model,
             store: &*store,
@@ -86,6 +91,7 @@ pub(crate) fn search<O: Origin, T: Store>(
             pending: &found.pending,
             options,
             parts: parts.as_ref(),
+            watched: &staging.watched,
         };
         model
             .crew
@@ -98,7 +104,14 @@ pub(crate) fn search<O: Origin, T: Store>(
         // A checkpoint needs the counts of the level; else it is enough to add them up once.
         let counted = parts.as_ref().filter(|_| keeper.is_some());
         for worker in &mut workers {
-            gather(&mut found, worker, counted, options.examples);
+            gather(
+                &mut found,
+                worker,
+                counted,
+                keeper.is_some(),
+                options.examples,
+            );
+            staging.pace.take(&mut worker.pace);
         }
         found.bytes = found.bytes.max(bytes(store, &found.pending));
         found.tally.stored = store.bytes();
@@ -140,6 +153,9 @@ pub(crate) fn search<O: Origin, T: Store>(
             parts.count(joined, &mut found.tally.coverage);
         }
     }
+    for staged in workers.iter_mut().filter_map(|w| w.staged.as_mut()) {
+        staged.count(&mut found.tally.coverage);
+    }
     let Tally {
         weights, explored, ..
     } = found.tally;
@@ -149,6 +165,91 @@ pub(crate) fn search<O: Origin, T: Store>(
         });
     }
     Ok(found)
+}
+
+/// Decides between levels how the cycles of their states are made.
+struct Staging {
+    way: Way,
+    pace: Pace,
+    watched: Watched,
+    /// The stages are in the workers.
+    active: bool,
+    /// They are not tried again.
+    over: bool,
+    /// The states explored when they were last prepared.
+    since: u64,
+}
+
+/// States after which it may pay to watch less, though all that is known of the stages is forgotten by that.
+const ANEW: u64 = 1 << 15;
+
+impl Staging {
+    fn new(way: Way, parts: bool) -> Self {
+        Staging {
+            way,
+            pace: Pace::default(),
+            watched: Watched::default(),
+            active: false,
+            over: parts || way == Way::Single,
+            since: 0,
+        }
+    }
+
+    /// Gives the workers the stages of the system, takes them away, or leaves all as it is.
+    fn prepare<'m, O: Origin, K: Key, L>(
+        &mut self,
+        model: &'m Model<'_, O, K>,
+        properties: &[Property],
+        open: &[usize],
+        tally: &mut Tally<K>,
+        workers: &mut [Worker<'m, O::Process, K, L>],
+    ) {
+        if self.over {
+            return;
+        }
+        if self.active && self.way == Way::Quicker && self.pace.gives_up() {
+            self.end(tally, workers);
+            model.pays.store(false, Ordering::Relaxed);
+            return;
+        }
+        let begins = !self.active && (self.way == Way::Staged || self.pace.tries());
+        let anew = self.active && tally.explored - self.since >= ANEW;
+        if !begins && !anew {
+            return;
+        }
+        let shown = |p: usize| (tally.signs[p].first.is_some(), tally.signs[p].met);
+        let watched = Watched::new(properties, open, shown);
+        let Some(watched) = watched else {
+            self.end(tally, workers);
+            return;
+        };
+        self.since = tally.explored;
+        let fewer = watched.events.len() * 4 <= self.watched.events.len() * 3;
+        if self.active && !fewer {
+            return;
+        }
+        self.end(tally, workers);
+        for worker in workers.iter_mut() {
+            worker.staged = model.staged(&watched.conditions);
+        }
+        if workers.iter().all(|worker| worker.staged.is_some()) {
+            self.over = false;
+            self.active = true;
+            self.watched = watched;
+            model.pays.store(true, Ordering::Relaxed);
+        }
+    }
+
+    /// Takes the stages away for good.
+    fn end<K: Key, P, L>(&mut self, tally: &mut Tally<K>, workers: &mut [Worker<'_, P, K, L>]) {
+        for worker in workers {
+            if let Some(mut staged) = worker.staged.take() {
+                staged.count(&mut tally.coverage);
+            }
+        }
+        self.active = false;
+        self.over = true;
+    }
 }
 
 /// Writes a checkpoint; true if it is there.

@@ -1,6 +1,7 @@
 //! What can be explored: a finite system of states that makes one step a cycle.
 
 use crate::parts::Component;
+use crate::stages::{Condition, Stages};
 
 /// The environment of one cycle: it answers each input the system asks for.
 ///
@@ -123,6 +124,13 @@ pub trait System: Sync {
     /// variable, and a cycle of the system is a cycle of each of them under the same inputs. None is discarded.
     fn components(&self) -> Vec<Component<'_>> {
         Vec::new()
+    }
+
+    /// The cycles of the system in stages, if it has such: the explorer takes them where a state has many input combinations. Which
+    /// of the conditions hold is told with the end of each cycle.
+    fn stages(&self, conditions: &[Condition]) -> Option<Box<dyn Stages + '_>> {
+        let _ = conditions;
+        None
     }
 
     /// Whether the answers of the cycle just made by `next` are no input at all, so that the cycle does not exist.

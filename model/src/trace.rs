@@ -87,7 +87,11 @@ fn forward<O: Origin, T: Store>(
     let mut levels: Vec<Vec<T::Key>> = Vec::new();
     let mut held = 0;
     let mut workers: Vec<_> = (0..model.crew.size())
-        .map(|_| (model.retracing(), store.local(), vec![None; requests.len()]))
+        .map(|_| {
+            let staged = model.quicker(&[]);
+            let hits = vec![None; requests.len()];
+            (model.retracing(), staged, store.local(), hits)
+        })
         .collect();
     let (_, mut all) = initial(model, store, model.retracing(), model.afterwards())?;
     while all {
@@ -122,11 +126,16 @@ fn forward<O: Origin, T: Store>(
         model.crew.share(
             &mut workers,
             now.pieces(),
-            |(cursor, local, hits), piece| {
+            |(cursor, staged, local, hits), piece| {
                 if model.afterwards().ended() {
                     return;
                 }
                 now.each(piece, |key| {
+                    let known = staged.as_mut().filter(|_| open.is_empty());
+                    if let Some(staged) = known.and_then(|s| s.made(key)) {
+                        staged.ends().for_each(|(after, _)| now.visit(local, after));
+                        return;
+                    }
                     cursor.leaves(&model.packer, key, |process, odometer, leaf| {
                         if !open.is_empty() {
                             process.save();
@@ -151,7 +160,7 @@ fn forward<O: Origin, T: Store>(
         for request in open.iter().copied().filter(|_| all) {
             let hit = workers
                 .iter_mut()
-                .filter_map(|(_, _, hits)| hits[request].take())
+                .filter_map(|(_, _, _, hits)| hits[request].take())
                 .min();
             goals[request] = hit.map(|key| Goal {
                 depth,
@@ -159,7 +168,7 @@ fn forward<O: Origin, T: Store>(
                 no_cycle: false,
             });
         }
-        store.advance(workers.iter_mut().map(|(_, local, _)| local).collect());
+        store.advance(workers.iter_mut().map(|(_, _, local, _)| local).collect());
     }
     // Without the level of its last state a run cannot be told.
     for goal in &mut goals {
@@ -179,7 +188,7 @@ fn backward<O: Origin, K: Key>(
         .map(|g| g.map(|g| g.key).into_iter().collect())
         .collect();
     let mut cursors: Vec<_> = (0..model.crew.size())
-        .map(|_| (model.retracing(), Vec::new()))
+        .map(|_| (model.retracing(), model.quicker(&[]), Vec::new()))
         .collect();
     while levels.len() > 1 {
         levels.truncate(levels.len() - 1);
@@ -200,26 +209,39 @@ fn backward<O: Origin, K: Key>(
             if parents.iter().all(Option::is_some) {
                 break;
             }
-            for (_, found) in &mut cursors {
+            for (_, _, found) in &mut cursors {
                 *found = vec![None; wanted.len()];
             }
             let pieces = block.len().div_ceil(PIECE);
             model
                 .crew
-                .share(&mut cursors, pieces, |(cursor, found), piece| {
+                .share(&mut cursors, pieces, |(cursor, staged, found), piece| {
+                    if model.afterwards().ended() {
+                        return;
+                    }
                     for key in &block[piece * PIECE..block.len().min((piece + 1) * PIECE)] {
+                        let mut note = |after: K| {
+                            if let Ok(place) = wanted.binary_search(&after) {
+                                lower(&mut found[place], *key);
+                            }
+                        };
+                        if let Some(staged) = staged.as_mut().and_then(|s| s.made(*key)) {
+                            staged.ends().for_each(|(after, _)| note(after));
+                            continue;
+                        }
                         cursor.leaves(&model.packer, *key, |_, _, leaf| {
                             if let Leaf::To(after) = leaf {
-                                if let Ok(place) = wanted.binary_search(&after) {
-                                    lower(&mut found[place], *key);
-                                }
+                                note(after);
                             }
                             ControlFlow::Continue(())
                         });
                     }
                 });
             for (place, parent) in parents.iter_mut().enumerate().filter(|(_, p)| p.is_none()) {
-                *parent = cursors.iter().filter_map(|(_, found)| found[place]).min();
+                *parent = cursors
+                    .iter()
+                    .filter_map(|(_, _, found)| found[place])
+                    .min();
             }
         }
         for goal in involved {

@@ -7,18 +7,29 @@ use stillpoint_tests::fuzz::{TARGETS, altered};
 use stillpoint_tests::random::Random;
 use stillpoint_tests::{files, root};
 
-/// Inputs for each target.
-const INPUTS: usize = 4_000;
+/// Inputs for each target, in the daily run and in a deep one. The first ones are the same in both.
+const INPUTS: usize = 800;
+const DEEP: usize = 20_000;
 
 #[test]
 fn no_altered_input_breaks_a_property() {
+    tried(INPUTS);
+}
+
+#[test]
+#[ignore = "deep: minutes"]
+fn none_of_many_altered_inputs_breaks_a_property() {
+    tried(DEEP);
+}
+
+fn tried(inputs: usize) {
     for (number, target) in TARGETS.iter().enumerate() {
         let seeds = (target.seeds)();
         let accepted = seeds.iter().filter(|seed| (target.run)(seed)).count();
         assert!(accepted > 0, "{}: no seed is accepted", target.name);
         let mut random = Random::new(number as u64);
         let mut refused = 0;
-        for _ in 0..INPUTS {
+        for _ in 0..inputs {
             let input = altered(&mut random, &seeds);
             let judged = std::panic::catch_unwind(|| (target.run)(&input));
             let accepted = judged.unwrap_or_else(|_| {
@@ -27,7 +38,7 @@ fn no_altered_input_breaks_a_property() {
             refused += usize::from(!accepted);
         }
         println!(
-            "{}: {refused} of {INPUTS} altered inputs refused",
+            "{}: {refused} of {inputs} altered inputs refused",
             target.name
         );
         // Any bytes are a run of the monitors.

@@ -11,4 +11,5 @@ mod pair;
 mod reductions;
 mod rumur;
 mod spin;
+mod stages;
 mod yardstick;

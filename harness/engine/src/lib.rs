@@ -12,6 +12,7 @@ pub mod lines;
 mod outcome;
 pub mod readings;
 pub mod reduce;
+mod staged;
 mod stated;
 pub mod subject;
 pub mod table;

@@ -5,8 +5,12 @@ use std::sync::OnceLock;
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::eval;
 use stillpoint_lang::ir;
-use stillpoint_model::{Choices, Component, Domain, Fault, Form, Property, System};
+use stillpoint_model::{
+    Choices, Component, Condition, Domain, Fault, Form, Property, Stages, System,
+};
 use stillpoint_native::{Family, Table};
+
+use crate::staged;
 
 static FAMILIES: OnceLock<&'static [Family]> = OnceLock::new();
 
@@ -182,6 +186,14 @@ impl System for Interpreted<'_> {
         timer(self.bound)
     }
 
+    fn stages(&self, conditions: &[Condition]) -> Option<Box<dyn Stages + '_>> {
+        // A part of a system is explored by itself.
+        let whole = self.instances.len() == self.bound.system.instances.len();
+        whole
+            .then(|| staged::stages(self.bound, conditions))
+            .flatten()
+    }
+
     fn observe<C: Choices>(
         &self,
         work: &mut Self::Work,
@@ -297,6 +309,10 @@ impl System for Generated<'_> {
 
     fn timer(&self) -> Option<usize> {
         timer(self.bound)
+    }
+
+    fn stages(&self, conditions: &[Condition]) -> Option<Box<dyn Stages + '_>> {
+        staged::stages(self.bound, conditions)
     }
 
     fn observe<C: Choices>(

@@ -29,7 +29,7 @@ use crate::pack::{Packer, Wide, space};
 use crate::parts::Tables;
 use crate::process::{Any, Origin};
 use crate::property::{Property, validate};
-use crate::report::{Error, Judgement, Limits, Options, Progress, Report, Storage, Verdict};
+use crate::report::{Error, Judgement, Limits, Options, Progress, Report, Storage, Verdict, Way};
 use crate::store::Dense;
 use crate::system::System;
 use crate::tally::Found;
@@ -60,10 +60,20 @@ pub fn explore_together<S: System>(
     progress: &mut dyn Progress,
     cluster: &Cluster,
 ) -> Result<Report, Error> {
+    explored(Any::new(system), properties, options, progress, cluster)
+}
+
+/// The same for any system, so that it is compiled once and not for each of them.
+#[inline(never)]
+fn explored(
+    any: Any,
+    properties: &[Property],
+    options: &Options,
+    progress: &mut dyn Progress,
+    cluster: &Cluster,
+) -> Result<Report, Error> {
     validate(properties)?;
     let watch = Watch::new(options);
-    // Behind a pointer, so that a new system costs no compile time here.
-    let any = Any::new(system);
     if u64::try_from(space(any.domains())?).is_ok() {
         let parts = Tables::new(&any, &Packer::new(any.domains())?, properties, &watch);
         run::<Plain>(any, parts, properties, options, progress, cluster)
@@ -120,7 +130,7 @@ fn run<C: Ending>(
     let watch = Watch::with(limits, options.interrupt.clone());
     let crew = crew(options)?;
     let task = Task {
-        model: Model::new(origin, &crew, &watch)?,
+        model: Model::new(origin, &crew, &watch, Way::Single)?,
         properties,
         options,
         parts,

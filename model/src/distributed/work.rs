@@ -10,6 +10,7 @@ use crate::process::{Any, AnyProcess, Origin};
 use crate::property::Property;
 use crate::report::{Error, Options, Progress};
 use crate::set::{Batch, Set};
+use crate::stages::Watched;
 use crate::store::Store;
 use crate::tally::{Found, Signs, Tally};
 use serde::{Deserialize, Serialize};
@@ -89,7 +90,7 @@ impl From<Lost> for Broken {
     }
 }
 
-type Own<'a, C> = Worker<AnyProcess<'a>, <C as Code>::Key, ShareLocal<C>>;
+type Own<'a, C> = Worker<'a, AnyProcess<'a>, <C as Code>::Key, ShareLocal<C>>;
 
 impl<'a, K: Wire> Task<'a, K> {
     /// Makes the search as worker `number` of this process. Worker 0 of process 0 gets what all have found.
@@ -139,7 +140,7 @@ impl<'a, K: Wire> Task<'a, K> {
             if !stop {
                 self.level(number, &mut post, &share, &mut worker, &found, &signs)?;
                 let parts = self.parts.as_ref();
-                gather(&mut found, &mut worker, parts, self.options.examples);
+                gather(&mut found, &mut worker, parts, true, self.options.examples);
             }
             found.bytes = found.bytes.max(bytes(&share, &found.pending));
             found.tally.stored = share.bytes();
@@ -208,6 +209,7 @@ impl<'a, K: Wire> Task<'a, K> {
             pending: &found.pending,
             options: self.options,
             parts: self.parts.as_ref(),
+            watched: &Watched::default(),
         };
         for piece in 0..share.pieces() {
             self.held[number].store(bytes(share, &found.pending), Ordering::Relaxed);

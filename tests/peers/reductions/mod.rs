@@ -10,10 +10,10 @@ use stillpoint_lang::Spec;
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::eval::Frame;
 use stillpoint_lang::ir::Form;
-use stillpoint_model::{Options, Verdict};
+use stillpoint_model::{Options, Verdict, Way};
 
 mod random;
-mod shipped;
+pub(crate) mod shipped;
 mod small;
 mod timers;
 
@@ -58,6 +58,7 @@ pub(crate) fn of(spec: &Spec) -> Vec<Bound> {
 pub(crate) fn options() -> Options {
     let mut options = Options {
         witnesses: false,
+        way: Way::Single,
         ..Options::default()
     };
     options.limits.threads = 1;

@@ -5,6 +5,7 @@ use std::fmt::Write;
 use stillpoint_engine::Reductions;
 
 use super::{SLICE, SYMMETRY, compare, full, reduced, systems};
+use crate::stages::{has_stages, same, staged};
 
 /// Systems compared.
 const SYSTEMS: u64 = 600;
@@ -230,6 +231,12 @@ fn random_systems_have_the_same_verdicts() {
             systems_seen += 1;
             let whole = full(&bound, true);
             faulty += u64::from(!whole.report.faults.is_empty());
+            assert!(has_stages(&bound), "seed {seed}");
+            same(
+                &whole,
+                &staged(&bound, false),
+                &format!("stages, seed {seed}:\n{text}"),
+            );
             for (slot, how) in told.iter_mut().zip([SLICE, SYMMETRY, Reductions::ALL]) {
                 let part = reduced(&bound, true, how);
                 compare(

@@ -1,0 +1,80 @@
+//! Whether stages are quicker than the cycles one by one.
+
+use std::time::Duration;
+
+/// States made one by one before stages are tried, or input vectors, and the input vectors of each state that are worth it.
+const TRIED: u64 = 512;
+const MANY: u64 = 1 << 18;
+const WORTH: u64 = 12;
+/// States in stages before they are judged, or nanoseconds.
+const JUDGED: u64 = 8192;
+const LONG: u64 = 2_000_000_000;
+
+/// What some states took.
+#[derive(Clone, Copy, Debug, Default)]
+struct Spent {
+    nanoseconds: u64,
+    states: u64,
+}
+
+impl Spent {
+    fn add(&mut self, time: Duration, states: u64) {
+        self.nanoseconds += time.as_nanos() as u64;
+        self.states += states;
+    }
+
+    /// Nanoseconds a state.
+    fn rate(self) -> u64 {
+        self.nanoseconds / self.states.max(1)
+    }
+}
+
+/// What both ways have taken. It decides how long an exploration takes, and nothing else.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Pace {
+    plain: Spent,
+    vectors: u64,
+    staged: Spent,
+    /// How often in a row stages were the slower way.
+    slower: u32,
+}
+
+impl Pace {
+    /// States that were made one by one, with so many input vectors.
+    pub(crate) fn plain(&mut self, time: Duration, states: u64, vectors: u64) {
+        self.plain.add(time, states);
+        self.vectors += vectors;
+    }
+
+    /// States that were made in stages.
+    pub(crate) fn staged(&mut self, time: Duration, states: u64) {
+        self.staged.add(time, states);
+    }
+
+    /// Takes over what another thread has measured.
+    pub(crate) fn take(&mut self, other: &mut Pace) {
+        let other = std::mem::take(other);
+        self.plain.nanoseconds += other.plain.nanoseconds;
+        self.plain.states += other.plain.states;
+        self.vectors += other.vectors;
+        self.staged.nanoseconds += other.staged.nanoseconds;
+        self.staged.states += other.staged.states;
+    }
+
+    /// Whether stages are worth a trial.
+    pub(crate) fn tries(&self) -> bool {
+        let states = self.plain.states.max(1);
+        (states >= TRIED || self.vectors >= MANY) && self.vectors / states >= WORTH
+    }
+
+    /// Whether stages turn out to be the slower way. What is learned in the first states pays later: so twice in a row.
+    pub(crate) fn gives_up(&mut self) -> bool {
+        if self.staged.states < JUDGED && self.staged.nanoseconds < LONG {
+            return false;
+        }
+        let slower = self.staged.rate() > self.plain.rate();
+        self.staged = Spent::default();
+        self.slower = if slower { self.slower + 1 } else { 0 };
+        self.slower >= 2
+    }
+}

@@ -1,0 +1,98 @@
+//! What the search has to be told about the cycles of a state, as conditions.
+
+use super::{Condition, MOST_CONDITIONS};
+use crate::property::{Form, Property};
+
+/// What a condition that holds in a cycle means to a property: the fields of [`crate::property::Sign`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Event {
+    First,
+    Bad,
+    Pending,
+    Met,
+}
+
+/// Conditions, and what each of them means to which property.
+#[derive(Default)]
+pub(crate) struct Watched {
+    pub(crate) conditions: Vec<Condition>,
+    pub(crate) events: Vec<(usize, Event)>,
+    /// The bits of those that make a duty pending.
+    pub(crate) pending: u128,
+}
+
+impl Watched {
+    /// Those of the open properties. Of a property whose `first` or `met` (`shown`) is known these are told no more: they show in
+    /// a level that is over. None if they are too many.
+    pub(crate) fn new(
+        properties: &[Property],
+        open: &[usize],
+        shown: impl Fn(usize) -> (bool, bool),
+    ) -> Option<Self> {
+        let mut all = Watched::default();
+        for property in open.iter().copied() {
+            let (first, met) = shown(property);
+            for (event, condition) in events(&properties[property].form) {
+                let known = match event {
+                    Event::First => first,
+                    Event::Met => met,
+                    Event::Bad | Event::Pending => false,
+                };
+                if known {
+                    continue;
+                }
+                if event == Event::Pending {
+                    all.pending |= 1u128.checked_shl(all.events.len() as u32)?;
+                }
+                all.events.push((property, event));
+                all.conditions.push(condition);
+            }
+        }
+        (all.events.len() <= MOST_CONDITIONS).then_some(all)
+    }
+}
+
+/// What [`crate::property::Eval::sign`] tells, as conditions.
+fn events(form: &Form) -> Vec<(Event, Condition)> {
+    let given = |atom: &Option<usize>| -> Condition { atom.iter().map(|a| (*a, true)).collect() };
+    let and = |condition: &Condition, more: &[(usize, bool)]| {
+        let mut condition = condition.clone();
+        condition.extend(more);
+        condition
+    };
+    match form {
+        Form::Always { when, then } => {
+            let when = given(when);
+            let bad = and(&when, &[(*then, false)]);
+            vec![(Event::First, when), (Event::Bad, bad)]
+        }
+        Form::LeadsTo { when, goal, .. } => {
+            let when = vec![(*when, true)];
+            let met = and(&when, &[(*goal, true)]);
+            let pending = and(&when, &[(*goal, false)]);
+            vec![
+                (Event::First, when),
+                (Event::Met, met),
+                (Event::Pending, pending),
+            ]
+        }
+        Form::Unless {
+            when,
+            holds,
+            unless,
+        } => {
+            let when = vec![(*when, true)];
+            let bad = and(&when, &[(*unless, false), (*holds, false)]);
+            let pending = and(&when, &[(*unless, false), (*holds, true)]);
+            vec![
+                (Event::First, when),
+                (Event::Bad, bad),
+                (Event::Pending, pending),
+            ]
+        }
+        Form::CanAlwaysReach { goal, using } => {
+            vec![(Event::First, and(&given(using), &[(*goal, true)]))]
+        }
+        Form::Reachable { goal } => vec![(Event::First, vec![(*goal, true)])],
+    }
+}
