@@ -19,13 +19,6 @@ fn main() -> ExitCode {
         eprintln!("usage: inventory [FILE]");
         return ExitCode::from(2);
     }
-    let kani = match Results::read() {
-        Ok(kani) => kani,
-        Err(error) => {
-            eprintln!("{error}");
-            return ExitCode::from(2);
-        }
-    };
     let results = page::results();
     for (entry, count) in &results {
         let state = if count.proves() {
@@ -35,6 +28,14 @@ fn main() -> ExitCode {
         };
         println!("{:24} {state:10} {:>12} cases", entry.id, count.cases);
     }
+    // Read last: the enumerations take minutes, in which a run of Kani may have ended.
+    let kani = match Results::read() {
+        Ok(kani) => kani,
+        Err(error) => {
+            eprintln!("{error}");
+            return ExitCode::from(2);
+        }
+    };
     if let Err(error) = std::fs::write(&path, page::render(&results, &kani)) {
         eprintln!("cannot write {}: {error}", path.display());
         return ExitCode::from(2);

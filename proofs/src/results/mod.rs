@@ -17,6 +17,9 @@ pub const FILE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/kani.toml");
 /// The time that a harness has.
 pub const LIMIT_SECONDS: u32 = 60;
 
+/// Where a Kani that was not installed by `cargo install` is looked for last, in the home folder: `cargo-kani`, `cbmc`, `kissat`.
+pub const HOME_FOLDER: &str = ".local/share/kani-tools/bin";
+
 /// What Kani answered for one harness.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Answer {

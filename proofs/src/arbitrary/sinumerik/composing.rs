@@ -1,6 +1,6 @@
 //! The channel: the state of every monitor at once.
 //!
-//! The whole product of all states, parameters and inputs is what Kani takes and what random tests draw from. It is too
+//! The whole product of all states, parameters and inputs is what random tests draw from, and Kani but for the override. It is too
 //! large to enumerate; the enumeration takes parts of it, each free in what one group of laws is about.
 
 use stillpoint_monitors::kernel::{Cycles, Distance, Position, Speed};
@@ -12,12 +12,16 @@ use stillpoint_monitors::sinumerik::{
     stop, test_stop, threshold,
 };
 
+use crate::draw::any;
 use crate::source::Source;
 
 type Step = (channel::State, channel::Config, channel::Inputs);
 
 /// Any step of a channel.
 pub fn channel<S: Source>(source: &mut S) -> Option<Step> {
+    if source.leaves_out() {
+        return without_override(source);
+    }
     match source.any_part(5) {
         1 => stops(source),
         2 => selected(source),
@@ -29,11 +33,11 @@ pub fn channel<S: Source>(source: &mut S) -> Option<Step> {
 }
 
 fn velocity<S: Source>(source: &mut S) -> Speed {
-    Speed(source.any_cut(3, u32::MAX, 12))
+    Speed(source.any_u32(3, u32::MAX))
 }
 
 fn position<S: Source>(source: &mut S) -> Position {
-    Position(source.any_cut_i32(3, 12))
+    Position(source.any_i32(3))
 }
 
 /// Two ends in order; none when they are equal.
@@ -49,7 +53,7 @@ fn config<S: Source>(source: &mut S, t_f: Cycles) -> Option<channel::Config> {
     let (enable_ext, enable_e) = (source.any_bool(), source.any_bool());
     let spl_stop_e = source.any_bool() && enable_ext && enable_e;
     let velo_x = velocity(source);
-    let ramp_tol = Speed(source.any_cut(3, u32::MAX - velo_x.0, 12));
+    let ramp_tol = Speed(source.any_u32(3, u32::MAX - velo_x.0));
     let internal = source.any_bool();
     let external_path = internal || source.any_bool();
     let mode = source.any_of(&[5, 0, 1, 2, 3, 4, 10, 11, 12, 13, 14]);
@@ -64,12 +68,10 @@ fn config<S: Source>(source: &mut S, t_f: Cycles) -> Option<channel::Config> {
     Some(channel::Config {
         external: external::Config::new(enable_ext, enable_e, spl_stop_e).ok()?,
         test: test_stop::Config::new(t_chk).ok()?,
-        selection: super::selection_config_with(source, !source.leaves_out())?.0,
-        standstill: standstill::Config::new(Distance(source.any_cut(
-            3,
-            standstill::Config::LARGEST.0,
-            12,
-        )))
+        selection: super::selection_config(source)?.0,
+        standstill: standstill::Config::new(Distance(
+            source.any_u32(3, standstill::Config::LARGEST.0),
+        ))
         .ok()?,
         speed: speed::Config::new(mode, reactions, encoder_max).ok()?,
         limit_switch: limit_switch::Config::new(
@@ -192,6 +194,18 @@ fn motion_state<S: Source>(source: &mut S) -> motion::State {
         known,
         speed: if known { velocity(source) } else { Speed(0) },
     }
+}
+
+/// Everything free, number by number, but for the override. Not by the draws above: what they look up in lists alone takes
+/// Kani longer than it has.
+fn without_override<S: Source>(source: &mut S) -> Option<Step> {
+    let mut config: channel::Config = any(source);
+    config.selection = super::selection_config_with(source, false)?.0;
+    if !config.accepted() {
+        return None;
+    }
+    let state = any(source);
+    consistent((state, config, any(source)))
 }
 
 /// Everything free.

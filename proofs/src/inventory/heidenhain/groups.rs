@@ -16,7 +16,7 @@ inventory! {
         tries: "",
         caveat: "one pair of groups; that a group takes the highest of all others is outside",
     }]
-    [contract hfs_global_sto_contract on heidenhain::global_sto {
+    [contract [parts(2: first = 1, second = 2)] hfs_global_sto_contract on heidenhain::global_sto {
         property: "every clause of the contract of -STO.A.G after an SS0: end of the others, latest time, main switch",
         tries: "t_off: 1 2 4; timer: 0..4",
         caveat: "longer times only under Kani and in samples",

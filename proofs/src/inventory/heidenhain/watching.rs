@@ -29,7 +29,7 @@ inventory! {
         tries: "path: 0..2 max; begin: -2..2 ends; position: -4..4 ends",
         caveat: "none",
     }]
-    [contract hfs_position_limit_contract on heidenhain::position_limit {
+    [contract [parts(3: first = 1, second = 2, third = 3)] hfs_position_limit_contract on heidenhain::position_limit {
         property: "every clause of the limited position's contract: SS1 beyond it, way back, lock until the limits are changed",
         tries: "minus plus: -1..1 ends; last position: -3..3 ends",
         caveat: "whether the position is right is the referencing's business",
@@ -45,7 +45,7 @@ inventory! {
         domain_text: "windows of 1 and 3 cycles, 0, 99 and 100 percent, deviations and speeds near 0 and the ends of 32 bits; every state",
         caveat: "reading AMB-17/18 TABLE; the intended following error is taken off outside; Kani takes speeds of 12 bits",
     }]
-    [contract hfs_deceleration_contract on heidenhain::deceleration {
+    [contract [parts(3: first = 1, second = 2, third = 3)] hfs_deceleration_contract on heidenhain::deceleration {
         property: "every clause of the dv/dt monitoring's contract: waiting time, axes, spindles, coasting",
         tries: "wait: 0 1 3; timer: 0..3; last: 0..2 max; speed: 0..3 max",
         caveat: "the waiting time of spindles is not published",

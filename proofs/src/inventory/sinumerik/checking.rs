@@ -25,7 +25,7 @@ inventory! {
         domain_text: "t_chg 0, 1 or 2 cycles; lists of 1, 6 and 84 items; every consistent state; every input",
         caveat: "what differs comes from outside, see compare_tolerance",
     }]
-    [contract [kani(solver(kissat))] slip_contract on sinumerik::slip {
+    [contract [kani(solver(kissat)) parts(3: first = 1, second = 2, third = 3)] slip_contract on sinumerik::slip {
         property: "every clause of the synchronisation's contract: half of the difference, dead band, tolerance, never past",
         tries: "dead tol: 0..3 max; offset: -4294967295..-4294967293 -2147483650..-2147483645 -2..2 2147483645..2147483650 4294967293..4294967295; own other: -3..3 ends",
         caveat: "none",
@@ -108,14 +108,14 @@ inventory! {
         bound: "none",
         caveat: "the comparison of each parameter is a test against the manual's table of codes",
     }]
-    [run(5) [kani(solver(kissat))] slip_meets on sinumerik::"slip, two channels" by checking::synchronised_channels_meet {
+    [run(5) [kani(solver(kissat)) parts(2: together = 1, alone = 2)] slip_meets on sinumerik::"slip, two channels" by checking::synchronised_channels_meet {
         property: "both channels meet in one comparison up to one increment; one alone comes closer each time; never past each other",
         requirements: ["S840D-SLIP-502", "S840D-SLIP-503"],
         covers: ["the channels meet", "within the dead band from the beginning", "one channel is alone"],
         domain: NARROW,
         domain_text: "positions -9 to 9 and both ends in each channel; dead band and tolerance 0 to 3 and the greatest",
         bound: "three comparisons at standstill, exchange in one cycle",
-        caveat: "a moving axis shows its feed as a difference unless both positions are of one instant",
+        caveat: "a moving axis shows its feed as a difference unless both positions are of one instant; Kani takes one comparison from any corrections, these and the positions of 12 bits",
     }]
     [run(4) history_moved on sinumerik::"history" by checking::moved_while_off_is_seen {
         property: "the history is accepted exactly if the axis was moved no further than the tolerance while it was off",

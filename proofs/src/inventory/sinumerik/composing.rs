@@ -3,10 +3,10 @@
 use crate::enumeration::Domain;
 
 inventory! {
-    [contract [kani(stub(stillpoint_monitors::kernel::Speed::reduced, crate::kani_source::reduced_small)) parts(5: first = 1, second = 2, third = 3, fourth = 4, fifth = 5)] channel_contract on sinumerik::channel {
+    [contract [kani(stub(stillpoint_monitors::kernel::Speed::reduced, crate::kani_source::reduced_small)) parts(6: first = 1, second = 2, third = 3, fourth = 4, fifth = 5, sixth = 6)] channel_contract on sinumerik::channel {
         property: "every law of the channel: what a monitor requires is latched and acts in the same cycle, whatever else happens",
         domain: Domain { delays: &[0, 2], highest_speed: 0 },
         domain_text: "five parts: stops and faults; selection; ramp; tests and pulses; limit switches. Times 0 or 2 cycles, two positions; the states and inputs of the part in every combination, the others quiet",
-        caveat: "the enumeration is complete within each part only; the whole product is drawn at random and is what Kani takes, but for the override (selection_contract), with measured positions, speeds, tolerances and switch positions of 12 bits",
+        caveat: "the enumeration is complete within each part only; the whole product is drawn at random and is what Kani takes, but for the override (selection_override, units_factor) and for limits above 15 below a setpoint factor (speed_contract)",
     }]
 }

@@ -59,7 +59,7 @@ inventory! {
         bound: "none",
         caveat: "none",
     }]
-    [run(6) ramp_braking on sinumerik::"ramp, stop" by watching::braking_ramp {
+    [run(6) [kani(solver(kissat)) parts(5: first = 1, second = 2, third = 3, fourth = 4, never = 5)] ramp_braking on sinumerik::"ramp, stop" by watching::braking_ramp {
         property: "in one braking the limit never rises, stays once frozen, and a faster axis has its pulses cancelled at once",
         requirements: ["S840D-P-10", "S840D-P-11", "S840D-SBR-001", "S840D-SBR-002", "S840D-SBR-003", "S840D-SBR-009",
             "S840D-SBR-010"],
@@ -121,7 +121,7 @@ inventory! {
         domain: NARROW,
         domain_text: "both kinds of axis; 0 to 40 mm/min or rev/min in steps of 0.2, and 4 million; cycles 24.988 to 25 ms and 1 us",
         bound: "none",
-        caveat: "none",
+        caveat: "Kani takes speeds of 13 bits of a linear axis and of 9 bits of a rotary one, in steps of 0.2, and every cycle",
     }]
     [run(4) [kani(solver(kissat)) parts(2: linear = 1, rotary = 2)] speed_movement on sinumerik::"units, motion, speed" by units::movement_is_compared_exactly {
         property: "a movement in one cycle violates the stage exactly if it is more than the exact limit times the cycle",
@@ -130,7 +130,7 @@ inventory! {
         domain: NARROW,
         domain_text: "0 to 24 mm/min or rev/min, and 60000; cycles 24.992 to 25 ms and 1 us; movements around the limit and large ones",
         bound: "none",
-        caveat: "whole increments: the encoder rounds to less than one",
+        caveat: "whole increments: the encoder rounds to less than one; Kani takes limits of 11 bits of a linear axis and of 6 bits of a rotary one, with every cycle and every movement",
     }]
     [run(4) [kani(solver(kissat))] units_factor on sinumerik::"units, selection" by units::factor_rounds_down {
         property: "an override or setpoint factor rounds a limit down",
@@ -159,22 +159,22 @@ inventory! {
         bound: "none",
         caveat: "Kani takes range and position of 8 bits",
     }]
-    [run(9) [kani(solver(kissat))] encoder_position on sinumerik::"encoder" by units::encoder_position_rounds_down {
+    [run(4) [kani(solver(kissat), stub(stillpoint_monitors::sinumerik::encoder::greatest_common_divisor, crate::properties::sinumerik::units::no_common_divisor))] encoder_position on sinumerik::"encoder" by units::encoder_position_rounds_down {
         property: "the position of a rotary encoder is the exact one rounded down, in both directions",
         requirements: ["S840D-ENC-006", "S840D-ARCH-503/b"],
         covers: ["reversed, below zero, rounded"],
         domain: NARROW,
         domain_text: "small pulses, gear ratios and pitches, and the largest; counts -6 to 6 and the ends of 32 bits",
         bound: "ratios of 32 bits in lowest terms; others are refused",
-        caveat: "Kani would have to divide by products of three variables and to unwind Euclid's algorithm: no answer",
+        caveat: "Kani decides no division by a product of wide variables: it takes encoders, gears and pitches of 2 to 4 bits and counts of 8, and leaves out the reduction to lowest terms",
     }]
-    [run(9) [kani(solver(kissat))] encoder_speed on sinumerik::"encoder" by units::encoder_speed_rounds_down {
+    [run(4) [kani(solver(kissat), stub(stillpoint_monitors::sinumerik::encoder::greatest_common_divisor, crate::properties::sinumerik::units::no_common_divisor))] encoder_speed on sinumerik::"encoder" by units::encoder_speed_rounds_down {
         property: "the highest speed under the encoder limit frequency is the exact one rounded down, at load and encoder",
         requirements: ["S840D-FREQ-001", "S840D-FREQ-002", "S840D-FREQ-003"],
         covers: ["an extended limit frequency"],
         domain: NARROW,
         domain_text: "300 kHz to 300.003 kHz and 420 kHz; cycles 24.998 to 25 ms and 1 us; small encoders and gears, and the largest",
         bound: "results of 32 bits; others are refused",
-        caveat: "Kani would have to divide by products of three variables and to unwind Euclid's algorithm: no answer",
+        caveat: "Kani decides no division by a product of wide variables: it takes encoders, gears and pitches of 2 or 3 bits, cycles to 32 us and 300 to 300.255 kHz, and leaves out the reduction to lowest terms",
     }]
 }

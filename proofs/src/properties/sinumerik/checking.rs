@@ -303,16 +303,25 @@ pub fn synchronised_channels_meet<S: Source>(source: &mut S, subject: &Subject) 
     let Some(config) = arbitrary::slip_config(source) else {
         return Verdict::Discarded;
     };
-    let own = [
-        arbitrary::position_near(source, 9),
-        arbitrary::position_near(source, 9),
-    ];
-    let alone = source.any_bool();
+    let own = [(); 2].map(|()| Position(source.any_cut_i32(9, 12)));
+    let alone = match source.any_part(2) {
+        0 => source.any_bool(),
+        part => part == 2,
+    };
     let mut states = [slip::State::INITIAL; 2];
-    let mut shown = own;
+    let comparisons = if source.leaves_out() {
+        // One comparison from any corrections: of any sequence each one is such a comparison.
+        states = states.map(|_| slip::State {
+            offset: i64::from(source.any_cut_i32(0, 12)),
+        });
+        1
+    } else {
+        3
+    };
+    let mut shown = [0, 1].map(|channel: usize| states[channel].correct(own[channel]));
     let apart = |shown: [Position; 2]| i64::from(shown[0].0) - i64::from(shown[1].0);
     let first = apart(shown);
-    for _ in 0..3 {
+    for _ in 0..comparisons {
         let before = apart(shown);
         let sent = shown;
         for (channel, other) in [(0, 1), (1, 0)] {

@@ -13,9 +13,16 @@ use stillpoint_monitors::units::{
 use super::Subject;
 use crate::source::{Source, Verdict};
 
-/// Any number that is not 0.
-fn positive<S: Source>(source: &mut S, reach: u32, highest: u32) -> Option<NonZeroU32> {
-    NonZeroU32::new(source.any_u32(reach, highest - 1) + 1)
+/// Any number that is not 0; Kani takes those of a few bits.
+fn positive<S: Source>(source: &mut S, reach: u32, highest: u32, bits: u32) -> Option<NonZeroU32> {
+    NonZeroU32::new(source.any_cut(reach, highest - 1, bits) + 1)
+}
+
+/// In the place of the encoder's greatest common divisor, for Kani: ratios are not brought into lowest terms. A division of
+/// 128 bits by a divisor that is found in a loop is too much for it.
+#[cfg(kani)]
+pub(crate) fn no_common_divisor(_: u128, _: u128) -> u128 {
+    1
 }
 
 /// Either kind of axis, a part of the domain each.
@@ -40,6 +47,26 @@ const fn increments(axis: Axis) -> u64 {
     }
 }
 
+/// Increments per cycle are thousandths of mm/min or rev/min, times the microseconds of a cycle, times this fraction: a
+/// thousandth of the increments of the unit, over the microseconds of a minute times a thousand. In lowest terms, so that
+/// the numbers stay small.
+const fn per_cycle(axis: Axis) -> (u64, u64) {
+    let (mut numerator, mut denominator) = (increments(axis), 60_000_000 * 1_000);
+    let mut prime = 2;
+    while prime <= 5 {
+        while numerator % prime == 0 && denominator % prime == 0 {
+            numerator /= prime;
+            denominator /= prime;
+        }
+        prime += 1;
+    }
+    (numerator, denominator)
+}
+
+/// The fractions of both axes, calculated by the compiler.
+const LINEAR: (u64, u64) = per_cycle(Axis::Linear);
+const ROTARY: (u64, u64) = per_cycle(Axis::Rotary);
+
 /// Whether `converted` is `numerator / denominator` rounded down; the denominator has at most 31 bits.
 fn rounded_down(converted: u32, numerator: u64, denominator: u64) -> bool {
     let scaled = u64::from(converted) * denominator;
@@ -58,29 +85,34 @@ fn rounded_down_wide(converted: u32, numerator: u128, denominator: u128) -> bool
 pub fn speed_rounds_down<S: Source>(source: &mut S, _subject: &Subject) -> Verdict {
     // One after the other, so that Kani divides by constants.
     match any_axis(source) {
-        Axis::Linear => speed_of_axis_rounds_down(source, Axis::Linear),
-        Axis::Rotary => speed_of_axis_rounds_down(source, Axis::Rotary),
+        Axis::Linear => speed_of_axis_rounds_down(source, Axis::Linear, LINEAR, 13),
+        Axis::Rotary => speed_of_axis_rounds_down(source, Axis::Rotary, ROTARY, 9),
     }
 }
 
-fn speed_of_axis_rounds_down<S: Source>(source: &mut S, axis: Axis) -> Verdict {
+fn speed_of_axis_rounds_down<S: Source>(
+    source: &mut S,
+    axis: Axis,
+    (numerator, denominator): (u64, u64),
+    bits: u32,
+) -> Verdict {
     let Some(cycle_us) = cycle(source, 12) else {
         return Verdict::Discarded;
     };
     // Thousandths, in steps of 200 in the enumeration: speeds of 0 to 40.
-    let value = u64::from(source.any_u32(200, 20_000_000)) * 200;
+    let value = u64::from(source.any_cut(200, 20_000_000, bits)) * 200;
     let Ok(scale) = Scale::new(axis, cycle_us) else {
         return Verdict::Broken("permitted_cycle_is_accepted");
     };
     let Ok(converted) = scale.speed_from_thousandths(value) else {
         return Verdict::Discarded;
     };
-    // In thousandths of an increment: numbers of 32, 9 and 15 bits; a minute has 60 million microseconds.
-    let exact = value * (increments(axis) / 1_000 * u64::from(cycle_us.get()));
-    let inexact = u64::from(converted.0) * 60_000_000 != exact;
+    // Numbers of 32, 15 and 2 bits.
+    let exact = value * (u64::from(cycle_us.get()) * numerator);
+    let inexact = u64::from(converted.0) * denominator != exact;
     source.cover(0, inexact);
     source.cover(1, !inexact && exact > 0);
-    if rounded_down(converted.0, exact, 60_000_000) {
+    if rounded_down(converted.0, exact, denominator) {
         Verdict::Held
     } else {
         Verdict::Broken("speed_rounds_down")
@@ -93,8 +125,12 @@ fn speed_of_axis_rounds_down<S: Source>(source: &mut S, axis: Axis) -> Verdict {
 /// Cover 0: a violation, cover 1: the largest movement that is none.
 pub fn movement_is_compared_exactly<S: Source>(source: &mut S, subject: &Subject) -> Verdict {
     match any_axis(source) {
-        Axis::Linear => movement_of_axis_is_compared_exactly(source, subject, Axis::Linear),
-        Axis::Rotary => movement_of_axis_is_compared_exactly(source, subject, Axis::Rotary),
+        Axis::Linear => {
+            movement_of_axis_is_compared_exactly(source, subject, Axis::Linear, LINEAR, 11)
+        }
+        Axis::Rotary => {
+            movement_of_axis_is_compared_exactly(source, subject, Axis::Rotary, ROTARY, 6)
+        }
     }
 }
 
@@ -102,8 +138,10 @@ fn movement_of_axis_is_compared_exactly<S: Source>(
     source: &mut S,
     subject: &Subject,
     axis: Axis,
+    (numerator, denominator): (u64, u64),
+    bits: u32,
 ) -> Verdict {
-    let per_minute = source.any_u32(24, 60_000);
+    let per_minute = source.any_cut(24, 60_000, bits);
     let Some(cycle_us) = cycle(source, 8) else {
         return Verdict::Discarded;
     };
@@ -146,9 +184,9 @@ fn movement_of_axis_is_compared_exactly<S: Source>(
         encoder_speed: Speed(0),
     };
     let (_, outputs) = (subject.speed)(speed::State, &config, &inputs);
-    // Numbers of 16, 19 and 15 bits, and of 32 and 26.
-    let permitted = u64::from(per_minute) * increments(axis) * u64::from(cycle_us.get());
-    let beyond = u64::from(from.0.abs_diff(to)) * 60_000_000 > permitted;
+    // Numbers of 26, 15 and 2 bits, and of 32 and 26.
+    let permitted = u64::from(per_minute) * 1_000 * (u64::from(cycle_us.get()) * numerator);
+    let beyond = u64::from(from.0.abs_diff(to)) * denominator > permitted;
     source.cover(0, beyond);
     source.cover(1, actual.speed == limit && limit > Speed(0));
     if outputs.violated == beyond {
@@ -234,11 +272,11 @@ pub fn folding_keeps_the_position<S: Source>(source: &mut S, _subject: &Subject)
 /// Cover 0: reversed, below zero and rounded.
 pub fn encoder_position_rounds_down<S: Source>(source: &mut S, _subject: &Subject) -> Verdict {
     let (Some(pulses), Some(denom), Some(numera), Some(load), Some(subdivision)) = (
-        positive(source, 2, 100_000),
-        positive(source, 2, 8_388_607),
-        positive(source, 1, 8_388_607),
-        positive(source, 3, 10_000_000),
-        positive(source, 0, 16_384),
+        positive(source, 2, 100_000, 4),
+        positive(source, 2, 8_388_607, 3),
+        positive(source, 1, 8_388_607, 3),
+        positive(source, 3, 10_000_000, 4),
+        positive(source, 0, 16_384, 2),
     ) else {
         return Verdict::Discarded;
     };
@@ -249,7 +287,7 @@ pub fn encoder_position_rounds_down<S: Source>(source: &mut S, _subject: &Subjec
         load,
     };
     let reversed = source.any_bool();
-    let count = source.any_i32(6);
+    let count = source.any_cut_i32(6, 8);
     let Ok(encoder) = Encoder::new(mounting, subdivision, reversed) else {
         return Verdict::Discarded;
     };
@@ -278,17 +316,23 @@ pub fn encoder_position_rounds_down<S: Source>(source: &mut S, _subject: &Subjec
 ///
 /// Cover 0: an extended limit frequency.
 pub fn encoder_speed_rounds_down<S: Source>(source: &mut S, _subject: &Subject) -> Verdict {
-    let hz = 300_000 + source.any_u32(3, 120_000);
+    let hz = 300_000 + source.any_cut(3, 120_000, 8);
     let Ok(frequency) = LimitFrequency::new(hz, true) else {
         return Verdict::Broken("permitted_frequency_is_accepted");
     };
+    let cycle_us = if source.leaves_out() {
+        // The short ones, so that the numbers stay small.
+        positive(source, 0, LONGEST_CYCLE_US, 5)
+    } else {
+        cycle(source, 2)
+    };
     let (Some(cycle_us), Some(pulses), Some(denom), Some(numera), Some(load), Some(subdivision)) = (
-        cycle(source, 2),
-        positive(source, 2, 100_000),
-        positive(source, 1, 8_388_607),
-        positive(source, 2, 8_388_607),
-        positive(source, 2, 10_000_000),
-        positive(source, 1, 16_384),
+        cycle_us,
+        positive(source, 2, 100_000, 3),
+        positive(source, 1, 8_388_607, 2),
+        positive(source, 2, 8_388_607, 2),
+        positive(source, 2, 10_000_000, 3),
+        positive(source, 1, 16_384, 2),
     ) else {
         return Verdict::Discarded;
     };

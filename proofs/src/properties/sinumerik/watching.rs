@@ -55,7 +55,11 @@ pub fn braking_ramp<S: Source>(source: &mut S, subject: &Subject) -> Verdict {
     };
     let start = Speed(source.any_u32(3, u32::MAX));
     let first = source.any_of(&[InternalStop::C, InternalStop::B]);
-    let becomes_b = source.any_in(0, 4);
+    // The cycle in which STOP B is demanded; with 4 it never is.
+    let becomes_b = match source.any_part(5) {
+        0 => source.any_in(0, 4),
+        part => part - 1,
+    };
     // The cycle in which the stop becomes effective.
     let off = ramp::Inputs {
         speed: start,
