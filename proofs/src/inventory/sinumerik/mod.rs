@@ -8,7 +8,7 @@ mod profisafe;
 mod watching;
 
 /// The lists of this family.
-pub(super) static ENTRIES: [&[super::Entry]; 5] = [
+pub(super) static ENTRIES: [&[super::Entry]; 6] = [
     base::ENTRIES,
     checking::ENTRIES,
     spl::ENTRIES,
