@@ -9,6 +9,7 @@ mod guarantees;
 mod interface;
 mod machines;
 mod manuals;
+mod messages;
 mod parameters;
 mod programs;
 mod reaction_times;

@@ -4,6 +4,7 @@ mod axis;
 mod checking;
 mod composing;
 mod pair;
+mod service;
 mod stops;
 mod watching;
 
@@ -11,6 +12,7 @@ pub use axis::*;
 pub use checking::*;
 pub use composing::*;
 pub use pair::*;
+pub use service::*;
 pub use stops::*;
 pub use watching::*;
 

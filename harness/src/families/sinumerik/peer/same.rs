@@ -51,6 +51,11 @@ fn clear_of_the_bound(p: &Params) -> i32 {
     p.value("off_max").saturating_sub(p.value("pos_max"))
 }
 
+/// The greatest of these parameters.
+fn longest(p: &Params, names: &[&str]) -> i32 {
+    names.iter().map(|name| p.value(name)).fold(0, i32::max)
+}
+
 peers! { sinumerik |p|
     // Stops.
     "external" => external;
@@ -112,4 +117,22 @@ peers! { sinumerik |p|
         .named(&[("tm1", "window"), ("ti_1", "delay_1"), ("ti_2", "delay_2"), ("ti_3", "delay_3")])
         .cell("left", upto(p.value("tm1")))
         .cell("least", upto(p.value("tm1")));
+
+    // Diagnosis. Of the acceptance test mode the table counts what is left of its times, the monitor what has passed.
+    "acceptance_mode" => acceptance_mode
+        .hidden(&["outputs.differs"])
+        .told("code", |_, out| if out.differs { 1011 } else { 0 })
+        .cell("lasted", upto(p.value("t_test")))
+        .cell("differed", upto(p.value("t_differ")));
+    "acceptance_alarm" => acceptance_alarm;
+    "alarm_life" => alarm_life;
+    "alarm_display" => alarm_display;
+    "sge_difference" => sge_difference.cell("lasted", upto(p.value("t_chg")));
+
+    // Service. The table counts what is left of the time of a step of the brake test, the monitor what has passed of it.
+    "brake_test" => brake_test.cell("waited", upto(longest(p, &["tv_active", "tv_close", "tv_command", "tv_reached", "tv_hold"])));
+    "brake_torque" => brake_torque;
+    "brake_load" => brake_load;
+    "brake_control" => brake_control;
+    "esr_trigger" => esr_trigger;
 }
