@@ -161,7 +161,7 @@ macro_rules! integers {
     )+};
 }
 
-integers! { u8 u16 u32 i8 i32 i64 }
+integers! { u8 u16 u32 i8 i16 i32 i64 }
 
 impl Fields for bool {
     const ANY: Self = false;

@@ -139,7 +139,7 @@ fn the_stop_alarms_are_titled_by_their_stop() {
     }
 }
 
-/// S840D-KDV-510 among them: the signals that are compared do not contain the selection of the gear ratio.
+/// S840D-KDV-708, S840D-KDV-729/a. S840D-KDV-510 among them: the signals that are compared do not contain the selection of the gear ratio.
 #[test]
 fn every_code_is_a_listed_one_and_its_item_of_the_listed_kind() {
     let listed = table("stop-f-codes.toml", "code", "code");
@@ -354,7 +354,7 @@ const ALTERATIONS: &[Alteration] = &[
     ("SAFE_ENC_FREQ_LIMIT", |p| p.enc_freq_limit = 1),
 ];
 
-/// S840D-PARAM-001, S840D-MDBUS-005, S840D-MDCHK-032/b, S840D-KDV-511 among them: the encoder limit frequency is compared.
+/// S840D-PARAM-001, S840D-MDBUS-005, S840D-MDCHK-032/b, S840D-KDV-707, S840D-KDV-729/a. S840D-KDV-511 among them: the encoder limit frequency is compared.
 #[test]
 fn an_altered_machine_datum_is_seen_under_the_codes_that_name_it() {
     let listed = table("stop-f-codes.toml", "code", "code");

@@ -10,6 +10,7 @@ mod guarantees;
 mod interface;
 mod machines;
 mod manuals;
+mod messages;
 mod parameters;
 mod profisafe_example;
 mod programs;

@@ -210,7 +210,8 @@ monitor! { sinumerik::agreement;
 
     /// Without agreement the limit switches raise nothing; with it they act where they are enabled.
     limit_switches_need_the_agreement ["S840D-P-12", "S840D-UA-002/a", "S840D-UA-008", "S840D-SE-010", "S840D-MDCOM-001",
-        "S840D-RETRACT-702"]:
+        "S840D-RETRACT-702",
+        "S840D-ALARM-719", "S840D-ACCEPT-706/b"]:
         when |s| !s.outputs.se_active || s.after.agreed
             => s.outputs.se_active == (s.after.agreed && s.config.se_sn_enabled);
 

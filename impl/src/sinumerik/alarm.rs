@@ -95,15 +95,21 @@ pub enum Response {
     Configured,
 }
 
-/// How a message is acknowledged.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Class {
-    /// It goes away with its cause.
-    SelfClearing,
-    /// By RESET.
-    Reset,
-    /// By power-on.
-    PowerOn,
+fields! {
+    /// How a message is acknowledged (S840D-ALARM-711).
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+    pub enum Class {
+        /// It goes away with its cause.
+        SelfClearing,
+        /// By RESET.
+        Reset,
+        /// By power-on.
+        PowerOn,
+        /// By the cancel key, or NC-START.
+        Cancel,
+        /// By the cancel key of the NCK.
+        NckKey,
+    }
 }
 
 impl Class {
@@ -113,6 +119,8 @@ impl Class {
             Self::SelfClearing => "self-clearing",
             Self::Reset => "reset",
             Self::PowerOn => "power-on",
+            Self::Cancel => "cancel-key-or-nc-start",
+            Self::NckKey => "nck-key",
         }
     }
 }

@@ -109,7 +109,8 @@ fields! {
 monitor! { sinumerik::fault;
     /// A discrepancy with an active function and no STOP C, D or E before starts the full delay, or STOP B if it is 0.
     active_function_leads_to_stop_b ["S840D-P-21", "S840D-STOP-061", "S840D-STOP-063", "S840D-SIGNAL-019",
-        "S840D-MDTIM-013"]:
+        "S840D-MDTIM-013",
+        "S840D-ALARM-713", "S840D-ALARM-735"]:
         when |s| s.before.fault == FaultState::None && s.inputs.discrepancy && s.inputs.monitoring
             && !s.inputs.cde_before && !s.inputs.ab_before
             => s.outputs.alarm && s.after.timer == s.config.t_f
@@ -132,17 +133,18 @@ monitor! { sinumerik::fault;
 
     /// A latched fault brakes nothing.
     latched_fault_does_not_brake ["S840D-P-22", "S840D-STOP-060", "S840D-STOP-062", "S840D-STOP-067", "S840D-SIGNAL-019",
-        "S840D-SIGNAL-021", "S840D-SERVICE-701/a"]:
+        "S840D-SIGNAL-021", "S840D-SERVICE-701/a",
+        "S840D-ALARM-713", "S840D-ALARM-735"]:
         when |s| s.after.fault == FaultState::Latched || s.after.fault == FaultState::None
             => !s.outputs.stop_b && !s.outputs.bit1;
 
     /// While a fault is present the start is interlocked.
-    fault_interlocks_the_start ["S840D-P-22", "S840D-P-43", "S840D-STOP-060", "S840D-STOP-083"]:
+    fault_interlocks_the_start ["S840D-P-22", "S840D-P-43", "S840D-STOP-060", "S840D-STOP-083", "S840D-ALARM-713"]:
         when |s| s.after.fault != FaultState::None
             => s.outputs.interlock;
 
     /// Under a STOP C, D or E a discrepancy is only latched, and stays so while that stop lasts.
-    fault_under_cde_is_only_latched ["S840D-P-23", "S840D-STOP-062"]:
+    fault_under_cde_is_only_latched ["S840D-P-23", "S840D-STOP-062", "S840D-ALARM-735"]:
         when |s| s.inputs.cde_before && !s.inputs.power_on
             && ((s.before.fault == FaultState::None && s.inputs.discrepancy && !s.inputs.ab_before)
                 || (s.before.fault == FaultState::Latched && !s.inputs.reset))
@@ -167,7 +169,7 @@ monitor! { sinumerik::fault;
             => s.after.fault != FaultState::None;
 
     /// Under a latched STOP B or A no fault is raised.
-    no_alarm_under_b_and_a ["S840D-ALARM-708"]:
+    no_alarm_under_b_and_a ["S840D-ALARM-708", "S840D-ALARM-735"]:
         when |s| s.before.fault == FaultState::None && s.inputs.ab_before
             => s.after.fault == FaultState::None && !s.outputs.alarm;
 
@@ -188,7 +190,7 @@ monitor! { sinumerik::fault;
             => s.inputs.discrepancy || (s.inputs.rx_fault && !s.inputs.power_on);
 
     /// The step keeps the invariant and shows its state.
-    state_stays_consistent ["S840D-STOP-065", "S840D-SIGNAL-021", "S840D-SIGNAL-020/b"]:
+    state_stays_consistent ["S840D-STOP-065", "S840D-SIGNAL-021", "S840D-SIGNAL-020/b", "S840D-KDV-730"]:
         when |s| s.before.invariant(&s.config)
             => s.after.invariant(&s.config) && s.outputs.fault == s.after.fault
                 && s.outputs.stop_b == (s.after.fault == FaultState::Expired)

@@ -116,19 +116,20 @@ fields! {
 monitor! { sinumerik::limit_switch;
     /// Beyond an end of the selected pair the configured stop is demanded in the same cycle.
     beyond_an_end_demands_the_stop ["S840D-P-49", "S840D-SE-001", "S840D-SE-004", "S840D-TIMING-507", "S840D-PARAM-013",
-        "S840D-PARAM-026", "S840D-SIGNAL-006", "S840D-RETRACT-702"]:
+        "S840D-PARAM-026", "S840D-SIGNAL-006", "S840D-RETRACT-702", "S840D-ALARM-715"]:
         when |s| s.config.enabled && s.inputs.active
             && (s.inputs.position > s.config.plus(s.inputs.select) || s.inputs.position < s.config.minus(s.inputs.select))
             => s.outputs.demand == s.config.stop && s.outputs.demand.level().ends_in_standstill();
 
     /// Between the ends of the selected pair, or on one of them, nothing is demanded: the way out of the other pair.
     between_the_ends_is_no_violation ["S840D-SE-001", "S840D-SE-002", "S840D-SE-005", "S840D-ARCH-509",
-        "S840D-SIGNAL-006", "S840D-RETRACT-702", "S840D-RETRACT-705"]:
+        "S840D-SIGNAL-006", "S840D-RETRACT-702", "S840D-RETRACT-705",
+        "S840D-ALARM-715"]:
         when |s| s.inputs.position <= s.config.plus(s.inputs.select) && s.inputs.position >= s.config.minus(s.inputs.select)
             => s.outputs.demand == InternalStop::None && !s.outputs.upper && !s.outputs.lower;
 
     /// Without enable or without agreement no position raises a stop.
-    needs_enable_and_agreement ["S840D-P-12", "S840D-SE-003", "S840D-SE-005"]:
+    needs_enable_and_agreement ["S840D-P-12", "S840D-SE-003", "S840D-SE-005", "S840D-ALARM-715"]:
         when |s| !s.config.enabled || !s.inputs.active
             => s.outputs == Outputs::default();
 

@@ -51,8 +51,18 @@
 //! | [`f_setup`], [`net_data`] | run-up checks of the F master; which bit of an F module is which variable: no step | `f_master`, `f_module` |
 //! | [`f_times`] | response times of the F master: no step | - |
 //! | [`assignment`], [`db18`] | where signals and variables lie: no step | - |
+//! | [`acceptance_mode`] | acceptance test mode of an axis | - |
+//! | [`acceptance_alarm`] | RESET for a tested STOP B or A | `acceptance_mode`, `stop` of the cycle before |
+//! | [`alarm_life`] | one alarm and its acknowledgement | what raises it |
+//! | [`alarm_display`] | suppression and priorities of its display | `alarm_life` |
+//! | [`brake_test`] | sequence of the brake test in the PLC (FB11) | `brake_load` of the cycle before |
+//! | [`brake_torque`] | torque limits of the brake test | `brake_test` |
+//! | [`brake_load`] | brake test in the NC: position window, fixed stop | `brake_torque` |
+//! | [`brake_control`] | two-channel control of a holding brake | `stop` of both channels |
+//! | [`sge_difference`] | alarm 27004: an input that the channels see differently | - |
+//! | [`esr_trigger`] | trigger of the extended stop and retract | `stop`, `fault` of every axis |
 //! | [`level`] | stops in their priority: no step | - |
-//! | [`code`], [`alarm`] | codes of STOP F and alarms: no step | - |
+//! | [`code`], [`alarm`], [`message`] | codes of STOP F and alarms: no step | - |
 //!
 //! Conventions common to the modules of this family:
 //!
@@ -71,21 +81,32 @@ macro_rules! sinumerik_monitors {
     ($callback:ident $($more:tt)*) => { $callback! { sinumerik [$($more)*]
         stop external fault group bus_failure selection reference agreement gear test_stop shutdown_test pulses compare slip history
         forced_check relay spl_protection spl_signal spl_comparison spl_link
-        spl_start spl_file spl_access spl_output_test spl_stop_test f_master f_module motion standstill speed setpoint limit_switch ramp threshold cam results channel
+        spl_start spl_file spl_access spl_output_test spl_stop_test f_master f_module acceptance_mode acceptance_alarm alarm_life alarm_display
+        brake_test brake_torque brake_load brake_control sge_difference esr_trigger
+        motion standstill speed setpoint limit_switch ramp threshold cam results channel
     } };
 }
 
+pub mod acceptance_alarm;
+pub mod acceptance_mode;
 pub mod agreement;
 pub mod alarm;
 pub mod assignment;
+pub mod alarm_display;
+pub mod alarm_life;
 pub mod axis;
 pub mod bus_failure;
+pub mod brake_control;
+pub mod brake_load;
+pub mod brake_test;
+pub mod brake_torque;
 pub mod cam;
 pub mod channel;
 pub mod code;
 pub mod compare;
 pub mod db18;
 pub mod encoder;
+pub mod esr_trigger;
 pub mod external;
 pub mod f_master;
 pub mod f_module;
@@ -99,6 +120,7 @@ pub mod history;
 pub mod interface;
 pub mod level;
 pub mod limit_switch;
+pub mod message;
 pub mod motion;
 #[cfg(feature = "mutants")]
 pub mod mutant;
@@ -113,6 +135,7 @@ pub mod relay;
 pub mod results;
 pub mod selection;
 pub mod setpoint;
+pub mod sge_difference;
 pub mod shutdown_group;
 pub mod shutdown_test;
 pub mod slip;

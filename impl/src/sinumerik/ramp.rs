@@ -102,7 +102,8 @@ fields! {
 
 monitor! { sinumerik::ramp;
     /// Faster than the limit of the cycle before: STOP A is demanded in the same cycle.
-    faster_than_the_ramp_demands_stop_a ["S840D-P-11", "S840D-SBR-002", "S840D-SBR-003", "S840D-PARAM-018"]:
+    faster_than_the_ramp_demands_stop_a ["S840D-P-11", "S840D-SBR-002", "S840D-SBR-003", "S840D-PARAM-018",
+        "S840D-ALARM-717"]:
         when |s| s.inputs.on && !s.inputs.power_on && s.inputs.speed > s.before.limit(&s.config)
             => s.outputs.violated && s.outputs.demand == InternalStop::A;
 
@@ -117,7 +118,7 @@ monitor! { sinumerik::ramp;
             => !s.outputs.violated && !s.outputs.frozen && s.outputs.demand == InternalStop::None;
 
     /// While the ramp is on its limit never rises, a change from STOP C to STOP B included.
-    limit_never_rises ["S840D-P-10", "S840D-SBR-002", "S840D-SBR-009"]:
+    limit_never_rises ["S840D-P-10", "S840D-SBR-002", "S840D-SBR-009", "S840D-ALARM-717"]:
         when |s| s.inputs.on && !s.inputs.power_on
             => s.outputs.limit <= s.before.limit(&s.config) && s.after.limit(&s.config) == s.outputs.limit;
 

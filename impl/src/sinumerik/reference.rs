@@ -109,7 +109,7 @@ fields! {
 
 monitor! { sinumerik::reference;
     /// "Safely referenced" only with the agreements of both channels, in the same cycle.
-    safely_referenced_needs_both ["S840D-P-13", "S840D-P-14", "S840D-REF-005", "S840D-REF-006/a"]:
+    safely_referenced_needs_both ["S840D-P-13", "S840D-P-14", "S840D-REF-005", "S840D-REF-006/a", "S840D-ALARM-719"]:
         when |s| s.outputs.safely_referenced || s.after.axis == AxisState::SafeRef
             => s.inputs.agreed_1 && s.inputs.agreed_2 && s.after.axis == AxisState::SafeRef && s.outputs.safely_referenced;
 
@@ -161,7 +161,7 @@ monitor! { sinumerik::reference;
                 && (s.after.axis == AxisState::Ref || s.after.axis == AxisState::SafeRef);
 
     /// The missing safe reference is reported where position monitors need it, and only there.
-    missing_reference_is_reported ["S840D-REF-011", "S840D-REF-013", "S840D-UA-002/b", "S840D-INTERACT-719"]:
+    missing_reference_is_reported ["S840D-REF-011", "S840D-REF-013", "S840D-UA-002/b", "S840D-INTERACT-719", "S840D-ALARM-720"]:
         when |s| s.config.se_sn_enabled || s.outputs.message
             => s.config.se_sn_enabled && s.outputs.message != s.outputs.safely_referenced;
 

@@ -107,7 +107,7 @@ fields! {
 monitor! { sinumerik::speed;
     /// Faster than the limit in force: the stop of the stage is demanded in the same cycle.
     faster_than_the_limit_demands_the_stop ["S840D-P-49", "S840D-SG-001", "S840D-SG-006", "S840D-TIMING-506",
-        "S840D-TIMING-512", "S840D-PARAM-010", "S840D-ALARM-734"]:
+        "S840D-TIMING-512", "S840D-PARAM-010", "S840D-ALARM-734", "S840D-ACCEPT-734"]:
         when |s| s.inputs.monitored == Monitored::Speed && s.inputs.speed > s.inputs.limit
             => s.outputs.violated && s.outputs.demand == s.config.stop(s.inputs.stage)
                 && s.outputs.demand != InternalStop::None;

@@ -69,7 +69,7 @@ fields! {
 monitor! { sinumerik::standstill;
     /// Outside the window STOP B is demanded in the same cycle.
     leaving_the_window_demands_stop_b ["S840D-P-04", "S840D-SBH-001", "S840D-SBH-005", "S840D-SBH-012", "S840D-TIMING-505",
-        "S840D-PARAM-009"]:
+        "S840D-PARAM-009", "S840D-ALARM-716", "S840D-ALARM-731", "S840D-ACCEPT-735"]:
         when |s| s.inputs.monitored == Monitored::Standstill
             && s.inputs.position.distance(s.inputs.reference) > s.config.tol
             => s.outputs.violated && s.outputs.demand == InternalStop::B;

@@ -245,8 +245,8 @@ monitor! { sinumerik::stop;
             => s.inputs.power_on || s.inputs.reset || s.before.level > s.before.internal.level();
 
     /// Every request of the cycle is met: the latch rises at least to each internal request.
-    every_internal_request_is_latched ["S840D-P-20", "S840D-STOP-007", "S840D-STOP-097", "S840D-STOP-025",
-        "S840D-EXT-009", "S840D-SIGNAL-011"]:
+    every_internal_request_is_latched ["S840D-P-20", "S840D-STOP-007", "S840D-STOP-097", "S840D-STOP-025", "S840D-EXT-009",
+        "S840D-SIGNAL-011", "S840D-ALARM-730", "S840D-ALARM-731"]:
         when |s| s.inputs.demand != InternalStop::None || s.inputs.f_stop_b
             || s.inputs.rx_internal >= InternalStop::B
             => s.after.internal >= s.inputs.demand
@@ -298,13 +298,15 @@ monitor! { sinumerik::stop;
 
     /// STOP B ends: each cycle it is still braking its timer is lower; it began with at most t_B. So A follows within t_B.
     stop_b_ends_in_time ["S840D-STOP-013/c", "S840D-P-05", "S840D-STOP-021", "S840D-STOP-022", "S840D-STOP-023",
-        "S840D-MDTIM-014/a"]:
+        "S840D-MDTIM-014/a",
+        "S840D-ALARM-716", "S840D-ALARM-730"]:
         when |s| s.before.phase == Phase::BBraking && !s.inputs.power_on
             => s.after.level == Level::A
                 || (s.after.phase == Phase::BBraking && s.after.timer < s.before.timer && !s.inputs.standstill);
 
     /// On an axis that stands STOP B is STOP A at once, also in the cycle in which it becomes effective.
-    standing_axis_loses_its_pulses_at_once ["S840D-STOP-021", "S840D-STOP-023", "S840D-P-05", "S840D-MDTIM-014/a"]:
+    standing_axis_loses_its_pulses_at_once ["S840D-STOP-021", "S840D-STOP-023", "S840D-P-05", "S840D-MDTIM-014/a",
+        "S840D-ALARM-716", "S840D-ALARM-730"]:
         when |s| s.inputs.standstill && s.after.internal >= InternalStop::B
             => s.after.internal == InternalStop::A
                 || (s.after.level == Level::A && s.outputs.cancel_pulses);
@@ -338,7 +340,7 @@ monitor! { sinumerik::stop;
             => s.after.timer == s.config.time(s.after.level);
 
     /// The internal operating stop stays while a STOP E, D or C lasts, also when a higher one of them comes.
-    operating_stop_is_kept ["S840D-P-46", "S840D-STOP-080", "S840D-STOP-092"]:
+    operating_stop_is_kept ["S840D-P-46", "S840D-STOP-080", "S840D-STOP-092", "S840D-ALARM-732"]:
         when |s| s.before.phase == Phase::SbhInt && s.after.level.ends_in_standstill() && !s.inputs.power_on
             => s.after.phase == Phase::SbhInt && s.outputs.sbh_internal;
 
@@ -357,7 +359,7 @@ monitor! { sinumerik::stop;
 
     /// Setpoint 0 while STOP B or C brakes; the braking ramp is watched in STOP B and as long as STOP C lasts.
     current_limit_braking_and_its_ramp ["S840D-STOP-020", "S840D-STOP-030", "S840D-EXT-010", "S840D-EXT-011",
-        "S840D-SBR-005", "S840D-SIGNAL-012"]:
+        "S840D-SBR-005", "S840D-SIGNAL-012", "S840D-ALARM-716"]:
         when |s| s.outputs.n_set_zero || s.outputs.sbr_on || s.after.level == Level::B || s.after.level == Level::C
             => s.outputs.sbr_on == matches!(s.after.level, Level::B | Level::C)
                 && s.outputs.n_set_zero == (s.outputs.sbr_on && s.after.phase != Phase::SbhInt);

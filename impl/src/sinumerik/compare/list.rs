@@ -89,7 +89,7 @@ const fn items<const N: usize>(ranges: &[(u16, u16)]) -> [Item; N] {
     list
 }
 
-/// The whole list, in the order of the codes.
+/// The whole list, in the order of the codes (S840D-KDV-729/a).
 pub static ITEMS: [Item; 84] = items(&[(1, 3), (5, 42), (44, 85), (89, 89)]);
 
 /// One item of each class: both result lists, position, parameters, limits, external stop. The short list of models.
@@ -351,6 +351,7 @@ mod tests {
         }
     }
 
+    /// S840D-KDV-713, S840D-KDV-714.
     #[test]
     fn operating_values_are_seen_under_their_codes() {
         let own = Snapshot::default();

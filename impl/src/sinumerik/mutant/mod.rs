@@ -6,6 +6,7 @@ mod composing;
 mod pair;
 mod spl;
 mod profisafe;
+mod service;
 mod stops;
 mod watching;
 
@@ -15,6 +16,7 @@ pub use composing::*;
 pub use pair::*;
 pub use spl::*;
 pub use profisafe::*;
+pub use service::*;
 pub use stops::*;
 pub use watching::*;
 

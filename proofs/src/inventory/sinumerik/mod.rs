@@ -5,14 +5,16 @@ mod checking;
 mod composing;
 mod spl;
 mod profisafe;
+mod service;
 mod watching;
 
 /// The lists of this family.
-pub(super) static ENTRIES: [&[super::Entry]; 6] = [
+pub(super) static ENTRIES: [&[super::Entry]; 7] = [
     base::ENTRIES,
     checking::ENTRIES,
     spl::ENTRIES,
     watching::ENTRIES,
     composing::ENTRIES,
     profisafe::ENTRIES,
+    service::ENTRIES,
 ];

@@ -67,6 +67,11 @@ fn first_found(ports: &[i32]) -> i64 {
     found.map_or(0, |(number, _)| number)
 }
 
+/// The greatest of these parameters.
+fn longest(p: &Params, names: &[&str]) -> i32 {
+    names.iter().map(|name| p.value(name)).fold(0, i32::max)
+}
+
 peers! { sinumerik |p|
     // Stops.
     "external" => external;
@@ -194,4 +199,22 @@ peers! { sinumerik |p|
         .named(&[("cleared", "blocked")])
         .constants(&[("bits", 2)])
         .cell("shown", upto(3));
+
+    // Diagnosis. Of the acceptance test mode the table counts what is left of its times, the monitor what has passed.
+    "acceptance_mode" => acceptance_mode
+        .hidden(&["outputs.differs"])
+        .told("code", |_, out| if out.differs { 1011 } else { 0 })
+        .cell("lasted", upto(p.value("t_test")))
+        .cell("differed", upto(p.value("t_differ")));
+    "acceptance_alarm" => acceptance_alarm;
+    "alarm_life" => alarm_life;
+    "alarm_display" => alarm_display;
+    "sge_difference" => sge_difference.cell("lasted", upto(p.value("t_chg")));
+
+    // Service. The table counts what is left of the time of a step of the brake test, the monitor what has passed of it.
+    "brake_test" => brake_test.cell("waited", upto(longest(p, &["tv_active", "tv_close", "tv_command", "tv_reached", "tv_hold"])));
+    "brake_torque" => brake_torque;
+    "brake_load" => brake_load;
+    "brake_control" => brake_control;
+    "esr_trigger" => esr_trigger;
 }
