@@ -4,9 +4,9 @@ mod axis;
 mod checking;
 mod composing;
 mod pair;
-mod spl;
 mod profisafe;
 mod service;
+mod spl;
 mod stops;
 mod watching;
 
@@ -14,9 +14,9 @@ pub use axis::*;
 pub use checking::*;
 pub use composing::*;
 pub use pair::*;
-pub use spl::*;
 pub use profisafe::*;
 pub use service::*;
+pub use spl::*;
 pub use stops::*;
 pub use watching::*;
 

@@ -3,9 +3,9 @@
 mod base;
 mod checking;
 mod composing;
-mod spl;
 mod profisafe;
 mod service;
+mod spl;
 mod watching;
 
 /// The lists of this family.
