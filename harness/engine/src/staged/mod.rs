@@ -16,6 +16,9 @@ use stillpoint_model::{Condition, Fault, Outcome, Stages};
 use desk::Desk;
 use plan::{Mark, Plan};
 
+/// The most input vectors of one step of an instance: so many are made without a look at the limits.
+const MOST_VECTORS: u32 = 1 << 16;
+
 /// The stages of a system; none if it has fewer than two instances, or one reads a name before what it names is known.
 pub(crate) fn stages(bound: &Bound, conditions: &[Condition]) -> Option<Box<dyn Stages>> {
     let plan = Plan::new(bound, conditions)?;
@@ -90,7 +93,13 @@ impl Stages for Staged {
         let own = &plan.stages[stage];
         let values = classes[stage].values[class as usize].clone();
         desk.begin();
+        let mut vectors = 0;
         loop {
+            vectors += 1;
+            if vectors > MOST_VECTORS {
+                // The states that need it are made one by one.
+                return Err(Fault::OUT_OF_DOMAIN);
+            }
             desk.start(before, own, &plan.boundaries[stage], &values);
             let step = plan.bound.step_over(stage, desk);
             step.map_err(|code| Fault { code })?;
