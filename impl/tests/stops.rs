@@ -215,7 +215,7 @@ fn a_stop_e_of_any_axis_shows_in_the_channel() {
 /// S840D-ARCH-508: two axes each just at its limit move on the path at 1.4 times of it; no monitor says anything.
 #[test]
 fn the_speed_of_a_path_is_not_monitored() {
-    let config = speed::Config::new(0, [0; 4], None, 0).expect("plausible");
+    let config = speed::Config::new(0, [0; 4], None).expect("plausible");
     let mut axes = [speed::Monitor::new(config); 2];
     let inputs = |speed| speed::Inputs {
         monitored: Monitored::Speed,

@@ -182,7 +182,6 @@ fn task(spec: &Spec, bound: Bound, title: String) -> Task {
         title,
         axes: Vec::new(),
         guarantee: None,
-        asks: None,
         faults: Vec::new(),
         travel: 0,
         before: 0,
