@@ -20,8 +20,17 @@ use stillpoint_tests::{exceptions, root};
 
 /// The tables compared: those of a machine, or with the parameters of their systems. What several files use is compared with
 /// the parameters of the first one, so the file of a machine's own table stands before those that put it together with others.
-const FILES: [&str; 24] = [
+const FILES: [&str; 33] = [
     "spec/families/sinumerik-840d/axis.toml",
+    "spec/families/sinumerik-840d/bus.toml",
+    "spec/families/sinumerik-840d/setpoint.toml",
+    "spec/families/sinumerik-840d/profisafe.toml",
+    "spec/families/sinumerik-840d/brake-test.toml",
+    "spec/families/sinumerik-840d/brake-control.toml",
+    "spec/families/sinumerik-840d/acceptance-mode.toml",
+    "spec/families/sinumerik-840d/alarm-display.toml",
+    "spec/families/sinumerik-840d/comparison-signals.toml",
+    "spec/families/sinumerik-840d/esr.toml",
     "spec/machines/milling-840d.toml",
     "spec/families/sinumerik-840d/relay.toml",
     "spec/families/sinumerik-840d/spl.toml",

@@ -155,7 +155,7 @@ monitor! { sinumerik::spl_stop_test;
     /// One channel is tested at a time, with one signal.
     one_after_the_other ["S840D-SPLTEST-006"]:
         when |s| s.before.invariant(&s.config)
-            => !(s.outputs.nck && s.outputs.drive) && !(s.outputs.path && s.outputs.stop != ExternalStop::None)
+            => (!s.outputs.nck || !s.outputs.drive) && (!s.outputs.path || s.outputs.stop == ExternalStop::None)
                 && (s.outputs.nck || s.outputs.drive) == (s.after.item != Item::None);
 
     /// A step ends with an edge of its answer, or it fails.

@@ -34,7 +34,9 @@ struct Event<'a> {
     value: Option<&'a str>,
 }
 
-/// An output that recordings do not have.
+/// Its name, and where both channels have it together.
+type Joint = (&'static str, fn(&Outputs) -> Seen);
+/// Its name, and where one channel has it.
 type Extra = (&'static str, fn(&axis::Outputs) -> Seen);
 
 /// Outputs that recordings do not have.
@@ -51,7 +53,7 @@ const EXTRAS: [Extra; 5] = [
 ];
 
 /// Outputs of both channels together; either may be asked.
-const JOINT: [(&str, fn(&Outputs) -> Seen); 2] = [
+const JOINT: [Joint; 2] = [
     ("setpoint_limited", |o| Seen::Bool(o.setpoint.limited)),
     ("setpoint_limit", |o| {
         Seen::Int(i64::from(o.setpoint.limit.0))

@@ -159,7 +159,7 @@ peers! { sinumerik |p|
     "spl_start" => spl_start
         .named(&[("phase", "stage")])
         .hidden(&["outputs.status"])
-        .told("bit_0", |_, out| (out.status >> 0 & 1).into())
+        .told("bit_0", |_, out| (out.status & 1).into())
         .told("bit_1", |_, out| (out.status >> 1 & 1).into())
         .told("bit_2", |_, out| (out.status >> 2 & 1).into())
         .told("bit_3", |_, out| (out.status >> 3 & 1).into())
