@@ -77,7 +77,7 @@ pub use property::{Form, Property};
 pub use reachable::reachable;
 pub use report::{
     Checkpoint, Error, FaultReport, Interrupt, Judgement, Limits, Options, Progress, Report, Step,
-    Storage, Trace, Verdict, Way,
+    Storage, Trace, Until, Verdict, Way,
 };
 pub use stages::{Condition, Outcome, Stages};
 pub use symmetry::{Group, Permutation, Symmetric, SymmetricWork};

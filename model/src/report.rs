@@ -1,5 +1,6 @@
 //! What an exploration is asked and what it answers.
 
+use crate::property::Property;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -68,8 +69,8 @@ pub struct Options {
     pub interrupt: Option<Interrupt>,
     /// Whether properties that hold get a witness trace; without it they get its length alone.
     pub witnesses: bool,
-    /// Whether the search stops when it has decided every property (`complete` is then false if states were left).
-    pub stop_when_decided: bool,
+    /// When the search ends (`complete` is then false if states were left).
+    pub until: Until,
     /// The most absorbing states listed.
     pub examples: usize,
     /// Whether the values of a timer ([`crate::System::timer`]) are stored as intervals where an index of the state fits
@@ -80,6 +81,36 @@ pub struct Options {
     pub checkpoint: Option<Checkpoint>,
     /// How the cycles of a state are made; the report is the same.
     pub way: Way,
+}
+
+/// When a search ends. What it has found until then are shortest runs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Until {
+    /// With the last state.
+    #[default]
+    Complete,
+    /// When every property is decided.
+    Decided,
+    /// When a property is seen to be violated.
+    Violated,
+}
+
+impl Until {
+    /// Whether a search ends when of each property a first cycle, and a violation, have been seen or not.
+    pub(crate) fn is_met(
+        self,
+        properties: &[Property],
+        seen: impl Iterator<Item = (bool, bool)>,
+    ) -> bool {
+        let mut each = properties.iter().zip(seen);
+        match self {
+            Until::Complete => false,
+            Until::Decided => {
+                each.all(|(property, (first, bad))| property.form.decided_by(first, bad))
+            }
+            Until::Violated => each.any(|(_, (_, bad))| bad),
+        }
+    }
 }
 
 /// How the cycles of a state are made, where a system has stages ([`crate::System::stages`]).
@@ -100,7 +131,7 @@ impl Default for Options {
             limits: Limits::default(),
             interrupt: None,
             witnesses: true,
-            stop_when_decided: false,
+            until: Until::default(),
             examples: 8,
             intervals: false,
             checkpoint: None,

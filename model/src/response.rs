@@ -9,7 +9,7 @@ use crate::model::Model;
 use crate::pack::Key;
 use crate::process::{Any, Process};
 use crate::property::{Form, Property};
-use crate::report::{Error, Options, Storage, Trace, Verdict};
+use crate::report::{Error, Options, Storage, Trace, Until, Verdict};
 use crate::search::search;
 use crate::set::Set;
 use crate::stages::Condition;
@@ -207,7 +207,7 @@ fn shortest(
 ) -> Result<Option<Trace>, Error> {
     let duty = Duty::new(system, form);
     let options = Options {
-        stop_when_decided: true,
+        until: Until::Decided,
         // It is another system, and its search is short beside the one that is kept.
         checkpoint: None,
         ..options.clone()

@@ -134,11 +134,9 @@ pub(crate) fn search<O: Origin, T: Store>(
             progress.on_level(tally.depth, tally.states, tally.transitions, frontier);
         }
         tally.complete = frontier == 0;
-        let decided = options.stop_when_decided
-            && properties
-                .iter()
-                .zip(&tally.signs)
-                .all(|(p, s)| p.form.decided_by(s.first.is_some(), s.bad.is_some()));
+        let seen = tally.signs.iter();
+        let seen = seen.map(|s| (s.first.is_some(), s.bad.is_some()));
+        let decided = options.until.is_met(properties, seen);
         if let Some(keeper) = &mut keeper {
             if tally.complete || decided || keeper.is_due() {
                 found.resumable = keep(keeper, model, store, &found.tally, &found, progress);

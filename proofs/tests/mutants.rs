@@ -1,4 +1,4 @@
-//! Every mutant of the monitors dies: the tables `kills/<family>.txt` say by which harnesses of the inventory, and by which
+//! Every mutant of the monitors dies: the snapshots `kills/<family>.snap` say by which harnesses of the inventory, and by which
 //! law.
 
 use rayon::prelude::*;
@@ -6,17 +6,15 @@ use stillpoint_monitors::mutant::Mutant;
 use stillpoint_proofs::inventory;
 use stillpoint_proofs::properties::{self, Subject};
 
-/// The table has one kill in a line: mutant, harness, broken law; in the order of the mutants and of the inventory.
-fn check(family: &str, mutants: Vec<(Mutant, Subject)>, listed: &str) {
+/// One kill in a line: mutant, harness, broken law; in the order of the mutants and of the inventory.
+fn check(family: &str, mutants: Vec<(Mutant, Subject)>) {
     let kills: Vec<String> = mutants
         .into_par_iter()
         .flat_map_iter(|(mutant, subject)| killed_by(mutant, &subject))
         .collect();
-    assert!(
-        kills == listed.lines().collect::<Vec<_>>(),
-        "kills/{family}.txt must read:\n{}",
-        kills.join("\n")
-    );
+    insta::with_settings!({ snapshot_path => "kills", prepend_module_to_snapshot => false }, {
+        insta::assert_snapshot!(family, kills.join("\n"));
+    });
 }
 
 /// The test of a family, from the list of its monitors.
@@ -30,7 +28,7 @@ macro_rules! family {
                 let $family = properties::$family::Subject { $monitor: wrong.next, ..production };
                 mutants.push((wrong.mutant, Subject { $family, ..Subject::PRODUCTION }));
             })+
-            check(stringify!($family), mutants, include_str!(concat!("kills/", stringify!($family), ".txt")));
+            check(stringify!($family), mutants);
         }
     };
 }

@@ -7,7 +7,7 @@ use stillpoint_engine::check::{Settings, check};
 use stillpoint_engine::subject::{self, Readings};
 use stillpoint_harness::guarantees::answers;
 use stillpoint_machine::{self as machine, Machine, families};
-use stillpoint_model::Verdict;
+use stillpoint_model::{Until, Verdict};
 use stillpoint_tests::peer::each;
 use stillpoint_tests::root;
 
@@ -29,6 +29,7 @@ fn guaranteed(
     file: &str,
     machine: Machine,
     names: &[&str],
+    until: Until,
 ) -> BTreeMap<String, (Verdict, Option<u64>)> {
     let runs: Vec<_> = machine
         .runs
@@ -39,7 +40,13 @@ fn guaranteed(
     let path = root().join(file);
     let subject =
         subject::of_runs(&path, machine, &runs, &Readings::new()).unwrap_or_else(|e| panic!("{e}"));
-    let checked = check(&subject, &Settings::default(), &mut |_| Box::new(()))
+    let settings = Settings {
+        // Where the first violation is enough there are many machines to check, so each has one thread.
+        threads: usize::from(until == Until::Violated),
+        until,
+        ..Settings::default()
+    };
+    let checked = check(&subject, &settings, &mut |_| Box::new(()))
         .unwrap_or_else(|(t, e)| panic!("{t}: {e}"));
     let list = answers(&subject, &checked).into_iter().map(|answer| {
         let bound = answer.runs.iter().filter_map(|run| run.bound).max();
@@ -54,7 +61,7 @@ fn guaranteed(
 #[test]
 fn guarantees_of_the_milling_machine_hold_with_their_bounds() {
     let names = ["table", "tool", "emergency_stop", "emergency_stop_tool"];
-    let found = guaranteed(MILLING, changed(MILLING, "", ""), &names);
+    let found = guaranteed(MILLING, changed(MILLING, "", ""), &names, Until::Complete);
     // The signal and the discrepancy of the contacts, the change-over to SG1, STOP C, STOP B. What the monitors may take on top is at most three cycles each; the
     // contact opens at any moment of a cycle.
     for (name, times) in [
@@ -89,7 +96,7 @@ fn guarantees_of_the_machining_centre_hold_with_their_bounds() {
         "no_start_tool",
         "no_start_magazine",
     ];
-    let found = guaranteed(CENTRE, changed(CENTRE, "", ""), &names);
+    let found = guaranteed(CENTRE, changed(CENTRE, "", ""), &names, Until::Complete);
     assert!(
         found
             .values()
@@ -148,7 +155,7 @@ fn every_dangerous_value_breaks_a_guarantee() {
         let wrong = each(&machine.change, |change| {
             let name = change.breaks.as_str();
             let broken = changed(&machine.file, &change.replace, &change.by);
-            let found = guaranteed(&machine.file, broken, &[name]);
+            let found = guaranteed(&machine.file, broken, &[name], Until::Violated);
             (found[name].0 != Verdict::Violated)
                 .then(|| format!("{}: {:?}", change.text, found[name]))
         });

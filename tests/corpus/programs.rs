@@ -8,7 +8,7 @@ use serde::Deserialize;
 use stillpoint_engine::check::{Checked, Settings, Summary, check, exit_status, summarise};
 use stillpoint_engine::subject::{self, Readings, Subject};
 use stillpoint_machine::{self as machine, Machine};
-use stillpoint_model::Verdict;
+use stillpoint_model::{Until, Verdict};
 use stillpoint_tests::peer::each;
 use stillpoint_tests::root;
 
@@ -121,6 +121,8 @@ pub(super) fn judging(path: &Path, machine: Machine) -> Subject {
 pub(super) fn checked(subject: &Subject) -> Vec<Checked> {
     let settings = Settings {
         threads: 1,
+        // Of a wrong program the shortest run to the one property that is asked for is all there is to know.
+        until: Until::Decided,
         ..Settings::default()
     };
     check(subject, &settings, &mut |_| Box::new(()))

@@ -9,7 +9,7 @@ use stillpoint_engine::lines;
 use stillpoint_engine::subject::{self, Readings};
 use stillpoint_harness::guarantees::answers;
 use stillpoint_machine as machine;
-use stillpoint_model::Verdict;
+use stillpoint_model::{Until, Verdict};
 use stillpoint_tests::peer::each;
 use stillpoint_tests::root;
 
@@ -78,7 +78,7 @@ fn written(k: usize, case: &Case) -> PathBuf {
 }
 
 /// The verdict on a guarantee, and the lines that the report of a broken one names.
-fn judged(path: &std::path::Path, guarantee: &str) -> (Verdict, Vec<String>) {
+fn judged(path: &std::path::Path, guarantee: &str, until: Until) -> (Verdict, Vec<String>) {
     let machine =
         machine::load(path, &root().join("spec/families")).unwrap_or_else(|e| panic!("{e}"));
     let runs: Vec<_> = (machine.runs.iter())
@@ -89,6 +89,7 @@ fn judged(path: &std::path::Path, guarantee: &str) -> (Verdict, Vec<String>) {
         subject::of_runs(path, machine, &runs, &Readings::new()).unwrap_or_else(|e| panic!("{e}"));
     let settings = Settings {
         threads: 1,
+        until,
         ..Settings::default()
     };
     let checked = check(&subject, &settings, &mut |_| Box::new(()))
@@ -118,7 +119,11 @@ fn the_lathe_keeps_what_it_guarantees() {
         "acknowledge",
         "acknowledge_work",
     ] {
-        assert_eq!(judged(&lathe, name).0, Verdict::Holds, "{name}");
+        assert_eq!(
+            judged(&lathe, name, Until::Complete).0,
+            Verdict::Holds,
+            "{name}"
+        );
     }
 }
 
@@ -126,7 +131,11 @@ fn the_lathe_keeps_what_it_guarantees() {
 fn a_door_that_is_confirmed_keeps_what_it_guarantees() {
     let machine = root().join(format!("{INTERLOCK}.toml"));
     for name in ["hold_to_run", "acknowledge", "no_start", "slow", "stops"] {
-        assert_eq!(judged(&machine, name).0, Verdict::Holds, "{name}");
+        assert_eq!(
+            judged(&machine, name, Until::Complete).0,
+            Verdict::Holds,
+            "{name}"
+        );
     }
 }
 
@@ -136,7 +145,7 @@ fn every_mistake_of_the_safe_logic_breaks_a_guarantee() {
     assert!(cases.len() >= 10);
     let wrong = each(&cases, |(k, case)| {
         let name = case.breaks.as_ref().expect("a guarantee");
-        let (verdict, lines) = judged(&written(*k, case), name);
+        let (verdict, lines) = judged(&written(*k, case), name, Until::Violated);
         let line = case.line.as_deref().unwrap_or("");
         let named = line.is_empty() || lines.iter().any(|l| l.contains(line));
         (verdict != Verdict::Violated || !named)
@@ -151,7 +160,7 @@ fn logic_that_is_right_in_another_way_is_not_accused() {
     let cases = cases().right.into_iter().enumerate().collect::<Vec<_>>();
     each(&cases, |(k, case)| {
         let name = case.keeps.as_ref().expect("a guarantee");
-        let (verdict, _) = judged(&written(*k, case), name);
+        let (verdict, _) = judged(&written(*k, case), name, Until::Complete);
         assert_eq!(verdict, Verdict::Holds, "{}", case.text);
     });
 }

@@ -12,7 +12,7 @@ use stillpoint_harness::diff::{
     Compared, Pairing, bytes, exhaustive, pairings, peer, sample, to_json,
 };
 use stillpoint_harness::families;
-use stillpoint_model::Options;
+use stillpoint_model::{Options, Until};
 use stillpoint_monitors::mutant::Mutant;
 use stillpoint_show::diagram::Diagram;
 use stillpoint_tests::peer::each;
@@ -96,7 +96,10 @@ static PIECES: LazyLock<Vec<Pairing>> = LazyLock::new(|| {
 fn explore(piece: &Pairing, mutant: Option<Mutant>) -> Compared {
     let mut options = Options {
         witnesses: false,
-        stop_when_decided: mutant.is_some(),
+        until: match mutant {
+            Some(_) => Until::Decided,
+            None => Until::Complete,
+        },
         ..Options::default()
     };
     options.limits.threads = 1;

@@ -5,7 +5,7 @@ use stillpoint_harness::diff::peer;
 use stillpoint_harness::diff::slices::slices;
 use stillpoint_harness::diff::{Compared, Pairing, exhaustive, pairings};
 use stillpoint_harness::families;
-use stillpoint_model::Options;
+use stillpoint_model::{Options, Until};
 use stillpoint_monitors::mutant::Mutant;
 use stillpoint_tests::root;
 
@@ -32,7 +32,7 @@ fn parts() -> Vec<Pairing> {
 fn compare(part: &Pairing, mutant: Option<Mutant>) -> Compared {
     let options = Options {
         witnesses: false,
-        stop_when_decided: true,
+        until: Until::Decided,
         ..Options::default()
     };
     exhaustive(part, mutant, &options, &mut ()).unwrap_or_else(|e| panic!("{e}"))

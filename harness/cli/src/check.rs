@@ -124,6 +124,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         witnesses: (arguments.markdown || arguments.html.is_some()) && place.cluster.is_none(),
         cluster: place.cluster.clone(),
         interrupt: Some(interrupt.handle()),
+        ..Settings::default()
     };
     let start = Instant::now();
     let fail =

@@ -7,7 +7,9 @@ use std::time::{Duration, Instant};
 use indexmap::IndexMap;
 use indexmap::map::Entry;
 use stillpoint_lang::ir::Property;
-use stillpoint_model::{Cluster, Error, Interrupt, Limits, Options, Progress, Trace, Verdict};
+use stillpoint_model::{
+    Cluster, Error, Interrupt, Limits, Options, Progress, Trace, Until, Verdict,
+};
 
 use crate::excluded::{Decisive, Exclusion, Judge, decisive};
 use crate::explore;
@@ -33,6 +35,8 @@ pub struct Settings {
     pub reductions: Reductions,
     /// Rebuild the runs that show what must be reachable, not only those that break a property.
     pub witnesses: bool,
+    /// When an exploration ends; with [`Until::Violated`] what comes after the one that has found a violation is not explored.
+    pub until: Until,
     /// Look for the parameters that decide a broken guarantee: an exploration for each of them.
     pub decisive: bool,
     /// The processes that explore together; none for this one alone.
@@ -135,6 +139,7 @@ pub fn check(
             interrupt: settings.interrupt.clone(),
             // Most reports tell the length of a witness only; rebuilding their runs takes as long as the search.
             witnesses: settings.witnesses,
+            until: settings.until,
             checkpoint: settings.keep.as_ref().map(|k| k.of(number, &task.bound)),
             ..Options::default()
         };
@@ -178,6 +183,13 @@ pub fn check(
             excluded,
             decisive: decided,
         });
+        let broken = |one: &Checked| {
+            let judged = &one.outcome.report.properties;
+            judged.iter().any(|j| j.verdict == Verdict::Violated)
+        };
+        if settings.until == Until::Violated && out.last().is_some_and(broken) {
+            break;
+        }
     }
     Ok(out)
 }

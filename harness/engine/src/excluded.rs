@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use stillpoint_lang::bind::Bound;
-use stillpoint_model::{Error, Form, Options, Property, Verdict, explore};
+use stillpoint_model::{Error, Form, Options, Property, Until, Verdict, explore};
 
 use crate::outcome::Outcome;
 use crate::subject::Task;
@@ -70,7 +70,7 @@ pub fn decisive(
 ) -> Result<Vec<Decisive>, Error> {
     let options = Options {
         witnesses: false,
-        stop_when_decided: true,
+        until: Until::Decided,
         checkpoint: None,
         ..options.clone()
     };
@@ -130,7 +130,7 @@ impl Judge {
         }
         let options = Options {
             witnesses: false,
-            stop_when_decided: true,
+            until: Until::Decided,
             checkpoint: None,
             ..options.clone()
         };

@@ -4,7 +4,7 @@ use stillpoint_engine::verdict_name;
 use stillpoint_engine::{self as engine, Outcome};
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::ir::Form;
-use stillpoint_model::{Error, Limits, Options, Trace, Verdict};
+use stillpoint_model::{Error, Limits, Options, Trace, Until, Verdict};
 
 use super::Bounds;
 use super::path::{MOST_CYCLES, Path};
@@ -38,7 +38,7 @@ pub fn jump(bound: &Bound, property: usize, bounds: Bounds) -> Result<Jump, Erro
         .take(1)
         .collect();
     let options = Options {
-        stop_when_decided: true,
+        until: Until::Decided,
         ..options(bounds)
     };
     let outcome = engine::run(&alone, &options, false, &mut ())?;

@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 
 use serde_json::{Value, json};
-use stillpoint_model::{Error, Form, Options, Progress, Property, Verdict, explore};
+use stillpoint_model::{Error, Form, Options, Progress, Property, Until, Verdict, explore};
 use stillpoint_show::diagram::Diagram;
 
 use crate::report::{grouped, params};
@@ -89,7 +89,7 @@ pub fn exhaustive(
     }];
     // Once the sides have parted they wander through pairs that mean nothing.
     let options = Options {
-        stop_when_decided: true,
+        until: Until::Decided,
         witnesses: false,
         ..options.clone()
     };

@@ -150,7 +150,7 @@ impl Encoder {
             count as i64
         };
         // At most 2^31 * (2^32 - 1), which fits; the divisor is positive, so the quotient is rounded down.
-        let exact = count * self.numerator as i64;
+        let exact = self.numerator as i64 * count;
         match exact.checked_div_euclid(self.denominator.get() as i64) {
             Some(increments) if increments >= i32::MIN as i64 && increments <= i32::MAX as i64 => {
                 Some(Position(increments as i32))

@@ -177,21 +177,21 @@ monitor! { sinumerik::f_module;
         "S840D-PSAFE-704", "S840D-PSAFE-716", "S840D-P-31", "S840D-DIAG-705"]:
         when |s| (s.inputs.failed || s.inputs.lifeless || s.inputs.bad != 0 || s.inputs.bad_output) && !s.inputs.power_on
             => s.outputs.stop && s.outputs.inhibit
-                && s.after.a_failed >= s.inputs.failed && s.after.a_life >= s.inputs.lifeless
-                && s.after.a_channel >= (s.inputs.bad != 0 || s.inputs.bad_output);
+                && (s.after.a_failed || !s.inputs.failed) && (s.after.a_life || !s.inputs.lifeless)
+                && (s.after.a_channel || (s.inputs.bad == 0 && !s.inputs.bad_output));
 
     /// The stop waits for RESET.
     stop_waits_for_reset ["S840D-PSAFE-018", "S840D-PSAFE-019", "S840D-PSAFE-021", "S840D-PSAFE-704"]:
         when |s| (s.before.a_failed || s.before.a_life || s.before.a_channel) && !s.inputs.reset && !s.inputs.power_on
-            => s.outputs.stop && s.after.a_failed >= s.before.a_failed && s.after.a_life >= s.before.a_life
-                && s.after.a_channel >= s.before.a_channel;
+            => s.outputs.stop && (s.after.a_failed || !s.before.a_failed) && (s.after.a_life || !s.before.a_life)
+                && (s.after.a_channel || !s.before.a_channel);
 
     /// RESET with the fault gone ends it.
     reset_ends_what_has_gone ["S840D-PSAFE-018", "S840D-PSAFE-019", "S840D-PSAFE-021", "S840D-PSAFE-704"]:
         when |s| s.inputs.reset
-            => s.after.a_failed <= s.inputs.failed && s.after.a_life <= s.inputs.lifeless
-                && s.after.a_channel <= (s.inputs.bad != 0 || s.inputs.bad_output)
-                && s.after.a_general <= s.inputs.general && s.after.blocked & !s.inputs.worthless(&s.config) == 0;
+            => (s.inputs.failed || !s.after.a_failed) && (s.inputs.lifeless || !s.after.a_life)
+                && (s.inputs.bad != 0 || s.inputs.bad_output || !s.after.a_channel)
+                && (s.inputs.general || !s.after.a_general) && s.after.blocked & !s.inputs.worthless(&s.config) == 0;
 
     /// A general error stops the program, waits for RESET, and asks for no stop of the axes.
     general_error_stops_the_program ["S840D-PSAFE-022", "S840D-PSAFE-705"]:

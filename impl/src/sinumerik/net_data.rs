@@ -40,15 +40,26 @@ impl Row {
     /// # Errors
     /// [`Unfit::Row`] (S840D-PSAFE-028).
     pub const fn new(datum: u32) -> Result<Self, Unfit> {
-        let (high, low) = (datum / 1000, datum % 1000);
+        Self::between(datum % 1000, datum / 1000)
+    }
+
+    /// The row from the lowest to the highest variable, both included.
+    ///
+    /// # Errors
+    /// [`Unfit::Row`] (S840D-PSAFE-028).
+    pub const fn between(lowest: u32, highest: u32) -> Result<Self, Unfit> {
         let longest = WIDEST as u32;
-        if low == 0 || high > VARIABLES as u32 || high < low || high - low >= longest {
+        if lowest == 0
+            || highest > VARIABLES as u32
+            || highest < lowest
+            || highest - lowest >= longest
+        {
             return Err(Unfit::Row);
         }
         // Both are at most 64.
         Ok(Self {
-            lowest: low as u8,
-            count: (high - low + 1) as u8,
+            lowest: lowest as u8,
+            count: (highest - lowest + 1) as u8,
         })
     }
 
@@ -86,10 +97,17 @@ impl Connection {
     /// # Errors
     /// See [`Unfit`] (S840D-PSAFE-028, S840D-PSAFE-030).
     pub const fn new(filter: u32, datum: u32) -> Result<Self, Unfit> {
-        let row = match Row::new(datum) {
-            Ok(row) => row,
-            Err(unfit) => return Err(unfit),
-        };
+        match Row::new(datum) {
+            Ok(row) => Self::of(filter, row),
+            Err(unfit) => Err(unfit),
+        }
+    }
+
+    /// `filter`: MD13300 or MD13301.
+    ///
+    /// # Errors
+    /// [`Unfit::Number`] (S840D-PSAFE-030).
+    pub const fn of(filter: u32, row: Row) -> Result<Self, Unfit> {
         let bits = if filter == NO_FILTER {
             first(row.count) as u32
         } else {

@@ -45,17 +45,19 @@ fields! {
 }
 
 impl Inputs {
-    /// The channels that select something, each with the speed that it leaves.
-    fn ceilings(&self) -> [Option<Speed>; 2] {
+    /// A channel selects something.
+    fn any_goal(&self) -> bool {
+        self.nck_goal != Monitored::Nothing || self.drive_goal != Monitored::Nothing
+    }
+
+    /// The lower of the speeds that the channels leave; one that selects nothing leaves any.
+    fn lowest(&self) -> Speed {
         let ceiling = |goal, limit| match goal {
-            Monitored::Nothing => None,
-            Monitored::Speed => Some(limit),
-            Monitored::Standstill => Some(Speed(0)),
+            Monitored::Nothing => Speed(u32::MAX),
+            Monitored::Speed => limit,
+            Monitored::Standstill => Speed(0),
         };
-        [
-            ceiling(self.nck_goal, self.nck_limit),
-            ceiling(self.drive_goal, self.drive_limit),
-        ]
+        ceiling(self.nck_goal, self.nck_limit).min(ceiling(self.drive_goal, self.drive_limit))
     }
 }
 
@@ -106,13 +108,13 @@ monitor! { sinumerik::setpoint;
 }
 
 pub(crate) fn transition(_: State, config: &Config, inputs: &Inputs) -> (State, Outputs) {
-    let lowest = inputs.ceilings().into_iter().flatten().min();
-    let outputs = match lowest {
-        Some(speed) if config.percent.get() > 0 => Outputs {
+    let outputs = if config.percent.get() > 0 && inputs.any_goal() {
+        Outputs {
             limited: true,
-            limit: speed.reduced(config.percent),
-        },
-        _ => Outputs::default(),
+            limit: inputs.lowest().reduced(config.percent),
+        }
+    } else {
+        Outputs::default()
     };
     (State, outputs)
 }

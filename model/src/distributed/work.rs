@@ -180,10 +180,8 @@ impl<'a, K: Wire> Task<'a, K> {
                 tally.complete = !stopped && frontier == 0;
                 break;
             }
-            let decided = |(p, s): (&Property, &(bool, bool))| p.form.decided_by(s.0, s.1);
-            stop = stopped
-                || self.options.stop_when_decided
-                    && self.properties.iter().zip(&signs).all(decided);
+            let seen = signs.iter().copied();
+            stop = stopped || self.options.until.is_met(self.properties, seen);
             depth += 1;
         }
         self.together(post, found, worker.local.sent)

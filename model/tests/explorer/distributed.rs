@@ -123,7 +123,7 @@ fn the_report_does_not_depend_on_the_number_of_processes() {
     }
     compare(&tables, &Options::default());
     let decided = Options {
-        stop_when_decided: true,
+        until: stillpoint_model::Until::Decided,
         witnesses: false,
         examples: 2,
         ..Options::default()

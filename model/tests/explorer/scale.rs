@@ -394,7 +394,7 @@ fn stopping_when_decided() {
         form: Form::Reachable { goal: 6 },
     }];
     let options = Options {
-        stop_when_decided: true,
+        until: stillpoint_model::Until::Decided,
         ..options(2)
     };
     let report = explore(&system, &property, &options, &mut ()).unwrap();

@@ -78,8 +78,12 @@ fn answer(block: &str) -> Option<Answer> {
     let seconds = seconds.parse().ok()?;
     let (_, checks) = counts(block, " failed")?;
     let (met, covers) = counts(block, " cover properties satisfied").unwrap_or((0, 0));
+    // Of an operation that CBMC does not know (an order of truth values is one) it takes any result.
+    let ignored = line("warning: ignoring ");
     Some(Answer {
-        verdict: if verdict != "SUCCESSFUL" {
+        verdict: if let Some(operation) = ignored {
+            Verdict::Fails(format!("CBMC ignores {operation}"))
+        } else if verdict != "SUCCESSFUL" {
             let check = line("Failed Checks: ").unwrap_or("no check named");
             Verdict::Fails(check.to_owned())
         } else {
@@ -183,6 +187,17 @@ VERIFICATION RESULT:
 VERIFICATION:- SUCCESSFUL
 Verification Time: 0.5s
 
+Checking harness inventory::a::kani_harnesses::unknown::whole...
+warning: ignoring >=
+
+VERIFICATION RESULT:
+ ** 0 of 7 failed
+
+ ** 2 of 2 cover properties satisfied
+
+VERIFICATION:- SUCCESSFUL
+Verification Time: 0.5s
+
 Checking harness inventory::a::kani_harnesses::broken_off...
 ";
         let answers = answers(log);
@@ -191,13 +206,15 @@ Checking harness inventory::a::kani_harnesses::broken_off...
                 .get(name)
                 .map(|a| (&a.verdict, a.checks, a.met, a.covers))
         };
-        assert_eq!(answers.len(), 4);
+        assert_eq!(answers.len(), 5);
         assert_eq!(seen("good"), Some((&Verdict::Holds, 322, 3, 3)));
         assert_eq!(seen("late"), Some((&Verdict::NoAnswer, 0, 0, 0)));
         assert_eq!(answers["good"].solver, "minisat");
         assert_eq!(answers["late"].solver, "");
         let law = Verdict::Fails("stop_b_ends_in_time".to_owned());
         assert_eq!(seen("bad"), Some((&law, 40, 0, 3)));
+        let ignored = Verdict::Fails("CBMC ignores >=".to_owned());
+        assert_eq!(seen("unknown"), Some((&ignored, 7, 2, 2)));
         assert_eq!(seen("empty"), Some((&Verdict::Vacuous, 7, 1, 2)));
     }
 }

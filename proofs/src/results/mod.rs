@@ -240,7 +240,7 @@ mod tests {
         let of = |id: &str| inventory::all().find(|entry| entry.id == id).map(parts);
         assert_eq!(of("external_contract"), Some(1));
         assert_eq!(of("motion_contract"), Some(1));
-        assert_eq!(of("channel_contract"), Some(6));
+        assert_eq!(of("channel_contract"), Some(15));
         assert_eq!(of("units_speed"), Some(3));
         assert_eq!(of("hfs_units"), Some(12));
     }

@@ -3,6 +3,7 @@
 //! The whole product of all states, parameters and inputs is what random tests draw from, and Kani but for the override. It is too
 //! large to enumerate; the enumeration takes parts of it, each free in what one group of laws is about.
 
+use stillpoint_monitors::fields::{Fields, Kind, Visitor};
 use stillpoint_monitors::kernel::{Cycles, Distance, Position, Speed};
 
 use stillpoint_monitors::sinumerik::level::{ExternalStop, InternalStop, Level};
@@ -12,7 +13,6 @@ use stillpoint_monitors::sinumerik::{
     stop, test_stop, threshold,
 };
 
-use crate::draw::any;
 use crate::source::Source;
 
 type Step = (channel::State, channel::Config, channel::Inputs);
@@ -196,16 +196,44 @@ fn motion_state<S: Source>(source: &mut S) -> motion::State {
     }
 }
 
-/// Everything free, number by number, but for the override. Not by the draws above: what they look up in lists alone takes
-/// Kani longer than it has.
+/// The highest of the numbers that stand for wide ones where the wiring alone is in question.
+const NARROW: u32 = 15;
+
+/// Draws each number that it is shown; those of more than eight bits from [`NARROW`] and one around 0 or the least.
+struct Narrow<'a, S>(&'a mut S);
+
+impl<S: Source> Visitor for Narrow<'_, S> {
+    fn number(&mut self, _: &'static str, kind: Kind, _: i64) -> i64 {
+        match kind {
+            Kind::Truth => i64::from(self.0.any_bool()),
+            Kind::Choice(variants) => self.0.any_choice(variants),
+            Kind::Whole(low, high) if high.saturating_sub(low) > 255 => {
+                let number = i64::from(self.0.any_in(0, NARROW));
+                low.max(-i64::from(NARROW / 2)) + number
+            }
+            Kind::Whole(low, high) => self.0.any_whole(low, high),
+        }
+    }
+}
+
+fn narrow<T: Fields, S: Source>(source: &mut S) -> T {
+    let mut value = T::ANY;
+    value.visit("", &mut Narrow(source));
+    value
+}
+
+/// Everything free, number by number, but for the override, and with few positions, speeds and times. Not by the draws above: what
+/// they look up in lists alone takes Kani longer than it has.
 fn without_override<S: Source>(source: &mut S) -> Option<Step> {
-    let mut config: channel::Config = any(source);
-    config.selection = super::selection_config_with(source, false)?.0;
+    let mut config: channel::Config = narrow(source);
+    let t_vel = Cycles::new(source.any_in(0, NARROW));
+    let limits = [(); 4].map(|()| Speed(source.any_in(0, NARROW)));
+    config.selection = selection::Config::new(source.any_bool(), t_vel, limits).ok()?;
     if !config.accepted() {
         return None;
     }
-    let state = any(source);
-    consistent((state, config, any(source)))
+    let state = narrow(source);
+    consistent((state, config, narrow(source)))
 }
 
 /// Everything free.

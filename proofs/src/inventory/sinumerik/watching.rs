@@ -166,7 +166,7 @@ inventory! {
         domain: NARROW,
         domain_text: "small pulses, gear ratios and pitches, and the largest; counts -6 to 6 and the ends of 32 bits",
         bound: "ratios of 32 bits in lowest terms; others are refused",
-        caveat: "Kani decides no division by a product of wide variables: it takes encoders, gears and pitches of 2 to 4 bits and counts of 8, and leaves out the reduction to lowest terms",
+        caveat: "Kani decides no division by a product of wide variables: it takes encoders, gears and pitches of 2 or 3 bits and counts of 8, and leaves out the reduction to lowest terms",
     }]
     [run(4) [kani(solver(kissat), stub(stillpoint_monitors::sinumerik::encoder::greatest_common_divisor, crate::properties::sinumerik::units::no_common_divisor))] encoder_speed on sinumerik::"encoder" by units::encoder_speed_rounds_down {
         property: "the highest speed under the encoder limit frequency is the exact one rounded down, at load and encoder",

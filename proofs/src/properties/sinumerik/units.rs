@@ -15,7 +15,18 @@ use crate::source::{Source, Verdict};
 
 /// Any number that is not 0; Kani takes those of a few bits.
 fn positive<S: Source>(source: &mut S, reach: u32, highest: u32, bits: u32) -> Option<NonZeroU32> {
-    NonZeroU32::new(source.any_cut(reach, highest - 1, bits) + 1)
+    NonZeroU32::new(cut(source, reach, highest - 1, bits) + 1)
+}
+
+/// A number that is cut to some bits where domains are narrow. For Kani the mask changes nothing but the size of the formula:
+/// bits that are known to be 0 make no divider.
+fn cut<S: Source>(source: &mut S, reach: u32, highest: u32, bits: u32) -> u32 {
+    let number = source.any_cut(reach, highest, bits);
+    if source.leaves_out() {
+        number & ((1 << bits) - 1)
+    } else {
+        number
+    }
 }
 
 /// In the place of the encoder's greatest common divisor, for Kani: ratios are not brought into lowest terms. A division of
@@ -272,10 +283,10 @@ pub fn folding_keeps_the_position<S: Source>(source: &mut S, _subject: &Subject)
 /// Cover 0: reversed, below zero and rounded.
 pub fn encoder_position_rounds_down<S: Source>(source: &mut S, _subject: &Subject) -> Verdict {
     let (Some(pulses), Some(denom), Some(numera), Some(load), Some(subdivision)) = (
-        positive(source, 2, 100_000, 4),
-        positive(source, 2, 8_388_607, 3),
-        positive(source, 1, 8_388_607, 3),
-        positive(source, 3, 10_000_000, 4),
+        positive(source, 2, 100_000, 3),
+        positive(source, 2, 8_388_607, 2),
+        positive(source, 1, 8_388_607, 2),
+        positive(source, 3, 10_000_000, 3),
         positive(source, 0, 16_384, 2),
     ) else {
         return Verdict::Discarded;
@@ -299,10 +310,11 @@ pub fn encoder_position_rounds_down<S: Source>(source: &mut S, _subject: &Subjec
     } else {
         i128::from(count)
     };
-    let exact = signed * i128::from(denom.get()) * i128::from(load.get());
+    // The narrow factor first: Kani adds once for each of its bits.
+    let exact = i128::from(denom.get()) * i128::from(load.get()) * signed;
     let counts =
         i128::from(pulses.get()) * i128::from(numera.get()) * i128::from(subdivision.get());
-    let scaled = i128::from(position.0) * counts;
+    let scaled = counts * i128::from(position.0);
     source.cover(0, reversed && exact < 0 && scaled < exact);
     if scaled <= exact && exact < scaled + counts {
         Verdict::Held
@@ -316,7 +328,7 @@ pub fn encoder_position_rounds_down<S: Source>(source: &mut S, _subject: &Subjec
 ///
 /// Cover 0: an extended limit frequency.
 pub fn encoder_speed_rounds_down<S: Source>(source: &mut S, _subject: &Subject) -> Verdict {
-    let hz = 300_000 + source.any_cut(3, 120_000, 8);
+    let hz = 300_000 + cut(source, 3, 120_000, 8);
     let Ok(frequency) = LimitFrequency::new(hz, true) else {
         return Verdict::Broken("permitted_frequency_is_accepted");
     };
