@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use stillpoint_monitors::sinumerik::db18::{Bit, PARTS, Part, Rights};
+use stillpoint_monitors::sinumerik::db18::{Bit, PARTS, Part, Rights, Row, supplement};
+use stillpoint_monitors::sinumerik::net_data::{self, Channel};
 use stillpoint_tests::root;
 
 /// Where a signal begins: `DB18.DBX38.0 ...`, `DB18.DBB0 bit 0..7`, `DB18.DBW4`.
@@ -89,5 +90,72 @@ fn parts_of_db18_are_those_of_the_table() {
             place(&pair[0]) + pair[0].bits <= place(&pair[1]),
             "{pair:?}"
         );
+    }
+}
+
+/// The ranges of an index that a parameter of an alarm lists: `1-64 INSE`, `65-128 OUTSE`, each with its name.
+fn ranges(alarm: i64, parameter: usize) -> Vec<(i64, i64, String)> {
+    let path = root().join("spec/families/sinumerik-840d/alarms.toml");
+    let text = std::fs::read_to_string(path).expect("there");
+    let table: toml::Table = text.parse().expect("TOML");
+    let alarms = table["alarm"].as_array().expect("a list");
+    let entry = alarms
+        .iter()
+        .find(|a| a["number"].as_integer() == Some(alarm));
+    let text = entry.expect("listed")["parameters"][parameter].as_str();
+    let (_, listed) = text
+        .expect("a text")
+        .split_once(" = ")
+        .expect("what it says");
+    let listed = listed.trim_start_matches("index for extended text: ");
+    let parts = listed.split([';', ',']).map(str::trim);
+    let parts = parts.map(|part| {
+        let (range, name) = part.split_once(' ').expect("a name");
+        let (first, last) = match range.rsplit_once('-') {
+            Some(("", _)) | None => (range, range),
+            Some(ends) => ends,
+        };
+        let number = |digits: &str| digits.parse().expect("a number");
+        (
+            number(first),
+            number(last),
+            name.trim_start_matches("$A_").to_owned(),
+        )
+    });
+    parts.collect()
+}
+
+/// S840D-DIAG-704: every index of the extended texts is the one that the alarm's table lists.
+#[test]
+fn extended_texts_have_the_listed_numbers() {
+    let rows = [
+        ("INSE", Row::Insep),
+        ("OUTSE", Row::Outsep),
+        ("INSI", Row::Insip),
+        ("OUTSI", Row::Outsip),
+        ("MARKERSI", Row::Markersip),
+    ];
+    let listed = ranges(27090, 3);
+    assert_eq!(listed.len(), 1 + rows.len());
+    assert_eq!((listed[0].0, listed[0].1), (0, 0));
+    assert_eq!(supplement(None), Some(0));
+    for ((name, row), (first, last, printed)) in rows.into_iter().zip(&listed[1..]) {
+        assert_eq!(name, printed);
+        let numbers =
+            (1..=64).map(|variable| i64::from(supplement(Some((row, variable))).expect(name)));
+        assert!(numbers.eq(*first..=*last), "{name}");
+        assert_eq!(supplement(Some((row, 0))), None);
+        assert_eq!(supplement(Some((row, 65))), None);
+    }
+
+    let listed = ranges(27254, 2);
+    let channels = [("INSE", Channel::Input), ("OUTSE", Channel::Output)];
+    assert_eq!(listed.len(), channels.len() + 1);
+    for ((name, channel), (first, last, printed)) in channels.into_iter().zip(&listed) {
+        assert_eq!(name, printed);
+        let numbers =
+            (1..=64).map(|variable| i64::from(net_data::supplement(channel, Some(variable))));
+        assert!(numbers.eq(*first..=*last), "{name}");
+        assert_eq!(i64::from(net_data::supplement(channel, None)), listed[2].0);
     }
 }

@@ -22,6 +22,9 @@ struct Added {
     file: String,
     name: String,
     text: String,
+    /// Whether a way is told with its bound.
+    #[serde(default)]
+    way: bool,
     change: Vec<Change>,
 }
 
@@ -34,8 +37,8 @@ struct Change {
     by: String,
 }
 
-/// The verdict on the guarantee.
-fn judged(added: &Added, change: Option<&Change>) -> Verdict {
+/// The verdict on the guarantee, and whether a way is told with it.
+fn judged(added: &Added, change: Option<&Change>) -> (Verdict, bool) {
     let path = root().join(&added.file);
     let mut text = std::fs::read_to_string(&path).expect("the machine");
     text.push_str(&added.text);
@@ -57,7 +60,8 @@ fn judged(added: &Added, change: Option<&Change>) -> Verdict {
     let answer = (list.iter())
         .find(|answer| answer.guarantee.name == added.name)
         .expect("asked");
-    answer.verdict
+    let way = answer.runs.iter().any(|run| run.way.is_some());
+    (answer.verdict, way)
 }
 
 #[test]
@@ -67,12 +71,12 @@ fn every_added_guarantee_holds_and_is_broken_by_each_change() {
     let file: File = toml::from_str(&text).unwrap_or_else(|e| panic!("{e}"));
     let wrong = each(&file.guarantee, |added| {
         let mut wrong = Vec::new();
-        let verdict = judged(added, None);
-        if verdict != Verdict::Holds {
-            wrong.push(format!("{}: {verdict:?}", added.name));
+        let found = judged(added, None);
+        if found != (Verdict::Holds, added.way) {
+            wrong.push(format!("{}: {found:?}", added.name));
         }
         for change in &added.change {
-            if judged(added, Some(change)) != Verdict::Violated {
+            if judged(added, Some(change)).0 != Verdict::Violated {
                 wrong.push(format!("{}: {}: not broken", added.name, change.text));
             }
         }

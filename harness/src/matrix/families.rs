@@ -8,7 +8,7 @@ use stillpoint_lang::read_text;
 use toml::{Table, Value};
 
 use super::ids::is_sentence;
-use super::read::{ReadError, add, entries};
+use super::read::{ReadError, add, entries, once, strings};
 use super::{EvidenceKind, Exception, Named, Sources};
 
 #[derive(Deserialize)]
@@ -69,10 +69,10 @@ pub(super) fn read(folder: &Path, family: &str, sources: &mut Sources) -> Result
                     sources.complete.insert(family.to_owned());
                 }
             }
-            name @ ("family.toml" | "signals.toml") => {
+            name @ ("family.toml" | "signals.toml" | "alarms.toml") => {
                 let owner = name.trim_end_matches(".toml");
                 let data = Value::Table(parsed(&path)?);
-                named(EvidenceKind::Data, owner, &data, &mut sources.rules);
+                named(EvidenceKind::Data, owner, &data, &mut sources.rules)?;
             }
             "reaction-chain.toml" => {
                 let chains = Value::Table(parsed(&path)?);
@@ -81,11 +81,11 @@ pub(super) fn read(folder: &Path, family: &str, sources: &mut Sources) -> Result
                     "reaction-chain",
                     &chains,
                     &mut sources.data,
-                );
+                )?;
             }
             "acceptance.toml" => {
                 let tests: Table = parsed(&path)?;
-                acceptance(&tests, family, sources);
+                acceptance(&tests, family, sources)?;
             }
             name if name.starts_with("requirements") || name == "manual.toml" => {}
             _ => {
@@ -96,8 +96,7 @@ pub(super) fn read(folder: &Path, family: &str, sources: &mut Sources) -> Result
             }
         }
     }
-    tables(&specs, sources);
-    Ok(())
+    tables(&specs, sources)
 }
 
 fn exceptions(path: &Path, family: &str, sources: &mut Sources) -> Result<(), ReadError> {
@@ -150,13 +149,13 @@ fn sentences(path: &Path, sources: &mut Sources) -> Result<(), ReadError> {
 
 /// The tests of the acceptance protocol. Only one with a scenario is evidence: the tests of the harness run it. To the others
 /// a requirement can be delegated.
-fn acceptance(tests: &Table, family: &str, sources: &mut Sources) {
+fn acceptance(tests: &Table, family: &str, sources: &mut Sources) -> Result<(), ReadError> {
     let tests = tests.get("test").and_then(Value::as_array);
     for test in tests.into_iter().flatten() {
         let name = test.get("id").and_then(Value::as_str).unwrap_or("");
-        let ids = test.get("req").and_then(Value::as_array);
-        let ids = ids.into_iter().flatten().filter_map(Value::as_str);
-        let ids: BTreeSet<String> = ids.map(str::to_owned).collect();
+        let list = strings(test.get("req"));
+        once(&format!("{family}/acceptance.toml {name}"), &list)?;
+        let ids: BTreeSet<String> = list.into_iter().collect();
         if test.get("simulate").is_some() {
             for id in &ids {
                 let place = format!("{family}/acceptance.toml {name}");
@@ -167,22 +166,24 @@ fn acceptance(tests: &Table, family: &str, sources: &mut Sources) {
         let key = (family.to_owned(), name.to_owned());
         sources.acceptance.insert(key, ids);
     }
+    Ok(())
 }
 
 /// The machines that a system has, and the systems.
-fn tables(specs: &[Table], sources: &mut Sources) {
+fn tables(specs: &[Table], sources: &mut Sources) -> Result<(), ReadError> {
     let used = used_machines(specs);
     for spec in specs {
         for (name, machine) in children(spec, "machine") {
             // A machine that no system has is not checked, so that its rules show nothing.
             if used.contains(name) {
-                named(EvidenceKind::Definition, name, machine, &mut sources.rules);
+                named(EvidenceKind::Definition, name, machine, &mut sources.rules)?;
             }
         }
         for (name, system) in children(spec, "system") {
-            named(EvidenceKind::Definition, name, system, &mut sources.rules);
+            named(EvidenceKind::Definition, name, system, &mut sources.rules)?;
         }
     }
+    Ok(())
 }
 
 pub(super) fn children<'a>(
@@ -211,16 +212,21 @@ fn used_machines(specs: &[Table]) -> BTreeSet<String> {
 
 /// Every table below `value` that names requirements by `id` (a list) or `req`. `owner` is the machine, system or file, `kind`
 /// what a place is that stands below neither `rule` nor `property`.
-fn named(kind: EvidenceKind, owner: &str, value: &Value, rules: &mut Named) {
+fn named(
+    kind: EvidenceKind,
+    owner: &str,
+    value: &Value,
+    rules: &mut Named,
+) -> Result<(), ReadError> {
     let mut open = vec![(kind, owner.to_owned(), value)];
     while let Some((kind, place, value)) = open.pop() {
         match value {
             Value::Table(table) => {
                 for (key, inner) in table {
-                    if let ("id" | "req", Some(list)) = (key.as_str(), inner.as_array()) {
-                        list.iter()
-                            .filter_map(Value::as_str)
-                            .for_each(|id| add(rules, id, kind, &place));
+                    if matches!(key.as_str(), "id" | "req") && inner.is_array() {
+                        let list = strings(Some(inner));
+                        once(&place, &list)?;
+                        list.iter().for_each(|id| add(rules, id, kind, &place));
                         continue;
                     }
                     let grouping = [
@@ -252,6 +258,7 @@ fn named(kind: EvidenceKind, owner: &str, value: &Value, rules: &mut Named) {
             _ => {}
         }
     }
+    Ok(())
 }
 
 #[cfg(test)]
@@ -359,6 +366,14 @@ mod tests {
             (
                 "exceptions.toml",
                 "[[exception]]\nid = [\"F-A-001\", \"F-A-001\"]\nreason = \"r\"\n",
+            ),
+            (
+                "acceptance.toml",
+                "[[test]]\nid = \"BY-HAND\"\nreq = [\"F-TEST-002\", \"F-TEST-002\"]\n",
+            ),
+            (
+                "reaction-chain.toml",
+                "[[group]]\nname = \"detect\"\nreq = [\"F-A-001\", \"F-A-002\", \"F-A-001\"]\n",
             ),
         ] {
             let kept = std::fs::read_to_string(folder.join(file)).expect("written above");

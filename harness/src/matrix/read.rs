@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-use stillpoint_lang::catalogue;
+use stillpoint_lang::catalogue::{self, twice};
 use stillpoint_lang::diag::Diagnostics;
 use toml::{Table, Value};
 
@@ -76,6 +76,20 @@ pub fn read(root: &Path) -> Result<Sources, ReadError> {
     Ok(sources)
 }
 
+/// A list of requirements, in which each stands once.
+///
+/// # Errors
+/// The first that stands there twice, with the place.
+pub(super) fn once(place: &str, list: &[String]) -> Result<(), ReadError> {
+    match twice(list) {
+        Some(id) => {
+            let message = format!("{place} names {id} twice: remove one of them");
+            Err(ReadError::Other(message))
+        }
+        None => Ok(()),
+    }
+}
+
 pub(super) fn add(named: &mut Named, id: &str, kind: EvidenceKind, place: &str) {
     named.entry(id.to_owned()).or_default().insert(Evidence {
         kind,
@@ -99,6 +113,15 @@ fn code(root: &Path, prefixes: &BTreeSet<String>, sources: &mut Sources) -> Resu
             .map_err(|e| ReadError::Other(format!("{place} is no Rust: {e}")))?;
         for test in &source.tests {
             add_found(&mut sources.tests, EvidenceKind::Test, &place, test);
+        }
+        for clause in &source.clauses {
+            once(
+                &format!("{place}:{} {}", clause.line, clause.name),
+                &clause.ids,
+            )?;
+        }
+        for harness in &source.harnesses {
+            once(&format!("{place} {}", harness.name), &harness.ids)?;
         }
         if monitor {
             for item in &source.items {
@@ -233,8 +256,9 @@ fn corpus(root: &Path, tests: &mut Named) -> Result<(), ReadError> {
             let names = ["name", "id"];
             let name = names.iter().find_map(|k| table.get(*k)?.as_str());
             let place = name.map_or(place.clone(), |n| format!("{place} {n}"));
-            let list = table.get("requirements").and_then(Value::as_array);
-            for id in list.into_iter().flatten().filter_map(Value::as_str) {
+            let list = strings(table.get("requirements"));
+            once(&place, &list)?;
+            for id in &list {
                 add(tests, id, EvidenceKind::Corpus, &place);
             }
             let inner = table.values().flat_map(|value| match value {
@@ -246,6 +270,13 @@ fn corpus(root: &Path, tests: &mut Named) -> Result<(), ReadError> {
         }
     }
     Ok(())
+}
+
+/// The texts of a list; nothing where there is none.
+pub(super) fn strings(list: Option<&Value>) -> Vec<String> {
+    let list = list.and_then(Value::as_array);
+    let texts = list.into_iter().flatten().filter_map(Value::as_str);
+    texts.map(str::to_owned).collect()
 }
 
 fn hidden(path: &Path) -> bool {

@@ -45,6 +45,16 @@ pub const fn signal(row: Row, variable: u8) -> Option<u16> {
     Some(64 * row as u16 + variable as u16)
 }
 
+/// The supplement of alarm 27090, which selects its extended text: 0 where NCK and PLC are set differently, else the number of the
+/// variable that differs; none beyond the variables (S840D-DIAG-704). That of 27254 is
+/// [`net_data::supplement`](super::net_data::supplement).
+pub const fn supplement(differs: Option<(Row, u8)>) -> Option<u16> {
+    match differs {
+        None => Some(0),
+        Some((row, variable)) => signal(row, variable),
+    }
+}
+
 /// Where signal 1 to 320 lies behind a byte.
 const fn behind(first: u8, signal: u16) -> Option<Bit> {
     if signal == 0 || signal > SIGNALS {

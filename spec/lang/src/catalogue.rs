@@ -123,6 +123,32 @@ struct Entry {
     merged_into: Option<Spanned<String>>,
 }
 
+/// The first of a list of requirements that stands in it before.
+pub fn twice(list: &[String]) -> Option<&str> {
+    let (_, repeated) = list
+        .iter()
+        .enumerate()
+        .find(|(at, id)| list.iter().take(*at).any(|earlier| earlier == *id))?;
+    Some(repeated)
+}
+
+/// A list of requirements of a file, for `deserialize_with`.
+///
+/// # Errors
+/// Another value, or a requirement that stands in the list twice.
+pub fn once<'de, D: serde::Deserializer<'de>>(
+    deserializer: D,
+) -> std::result::Result<Vec<String>, D::Error> {
+    let list = Vec::deserialize(deserializer)?;
+    match twice(&list) {
+        Some(id) => {
+            let message = format!("{id} stands twice in this list: remove one of them");
+            Err(serde::de::Error::custom(message))
+        }
+        None => Ok(list),
+    }
+}
+
 /// The requirement that a name stands for, its id or one of its sentences: `F-STOP-001` for `F-STOP-001/a`.
 pub fn requirement_id(named: &str) -> &str {
     named.split('/').next().unwrap_or(named)

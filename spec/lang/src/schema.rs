@@ -92,7 +92,7 @@ pub(crate) struct Port {
     pub init: Option<Spanned<Scalar>>,
     #[serde(default)]
     pub text: String,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "crate::catalogue::once")]
     pub id: Vec<String>,
 }
 
@@ -109,7 +109,7 @@ pub(crate) enum Scalar {
 #[serde(deny_unknown_fields)]
 pub(crate) struct Output {
     pub value: Text,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "crate::catalogue::once")]
     pub id: Vec<String>,
     #[serde(default)]
     pub text: String,
@@ -119,7 +119,7 @@ pub(crate) struct Output {
 #[serde(deny_unknown_fields)]
 pub(crate) struct Rule {
     pub name: Text,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "crate::catalogue::once")]
     pub id: Vec<String>,
     pub when: Text,
     pub then: Text,
@@ -174,7 +174,7 @@ pub(crate) struct Property {
     pub text: String,
     #[serde(default)]
     pub note: String,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "crate::catalogue::once")]
     pub req: Vec<String>,
     pub topic: Option<Text>,
     pub always: Option<Text>,

@@ -175,6 +175,7 @@ pub(super) struct Function {
     /// Whether one of the explored systems contains it.
     pub explored: bool,
     pub text: String,
+    #[serde(deserialize_with = "stillpoint_lang::catalogue::once")]
     pub id: Vec<String>,
 }
 

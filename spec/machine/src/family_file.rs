@@ -81,6 +81,7 @@ pub(super) struct ParamData {
     #[serde(default = "one")]
     step: i64,
     cycles: Option<Spanned<Rounding>>,
+    #[serde(deserialize_with = "stillpoint_lang::catalogue::once")]
     id: Vec<String>,
 }
 
@@ -99,6 +100,7 @@ struct LimitsData {
 #[serde(deny_unknown_fields)]
 struct RuleData {
     of: Scope,
+    #[serde(deserialize_with = "stillpoint_lang::catalogue::once")]
     id: Vec<String>,
     alarm: Option<u32>,
     #[serde(default)]

@@ -62,7 +62,7 @@ pub struct Guarantee {
 pub(super) struct Pattern {
     /// What it is about beside axes.
     pub about: About,
-    /// With `{door}`, `{axes}` and the arguments.
+    /// With `{door}`, `{axes}` and the arguments. What stands in brackets is told only where the file gives one of the arguments in it.
     pub text: String,
     pub source: String,
     pub arguments: IndexMap<String, Param>,
@@ -106,6 +106,7 @@ struct File {
 #[serde(deny_unknown_fields)]
 struct FaultData {
     text: String,
+    #[serde(deserialize_with = "stillpoint_lang::catalogue::once")]
     #[allow(dead_code)] // where it comes from, for readers of the data
     id: Vec<String>,
 }
@@ -273,8 +274,27 @@ impl Pattern {
                 (_, None) => format!("{{{name}}}"),
             })
         };
-        filled(&self.text, place).unwrap_or_default()
+        let given = |name: &str| values.get(name).is_some_and(|s| !s.places.is_empty());
+        filled(&without_defaults(&self.text, given), place).unwrap_or_default()
     }
+}
+
+/// A text without its brackets, and without the parts in them that have no place of which `given` is true.
+fn without_defaults(text: &str, given: impl Fn(&str) -> bool) -> String {
+    let mut told = String::new();
+    let mut rest = text;
+    while let Some((plain, after)) = rest.split_once('[') {
+        let (part, tail) = after.split_once(']').unwrap_or((after, ""));
+        let mut counts = false;
+        let _ = filled(part, |name| {
+            counts |= given(name);
+            Some(String::new())
+        });
+        told.push_str(plain);
+        told.push_str(if counts { part } else { "" });
+        rest = tail;
+    }
+    told + rest
 }
 
 impl Guarantee {
@@ -397,4 +417,18 @@ pub(super) fn asked<'a>(
         }
     }
     Ok(list)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::without_defaults;
+
+    #[test]
+    fn a_part_is_told_where_the_file_gives_a_value_in_it() {
+        let text = "open[ in {mode}], {axes}[; {signal} and {way}]";
+        let told = |names: &[&str]| without_defaults(text, |name| names.contains(&name));
+        assert_eq!(told(&[]), "open, {axes}");
+        assert_eq!(told(&["mode"]), "open in {mode}, {axes}");
+        assert_eq!(told(&["way"]), "open, {axes}; {signal} and {way}");
+    }
 }

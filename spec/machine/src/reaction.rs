@@ -146,6 +146,7 @@ struct StepData {
     length: Option<Spanned<String>>,
     margin: Option<Spanned<String>>,
     basis: Basis,
+    #[serde(deserialize_with = "stillpoint_lang::catalogue::once")]
     id: Vec<String>,
     property: Option<PropertyData>,
 }

@@ -205,3 +205,21 @@ fn cases_that_overlap_or_are_missing() {
         [1]
     );
 }
+
+#[test]
+fn a_requirement_stands_once_in_a_list() {
+    let text = |ids: &str, req: &str| {
+        format!(
+            "spec = \"s\"\n[machine.m]\ntext = \"m\"\n[machine.m.state]\nx = {{ type = \"BOOL\", init = false }}\n\
+             [[machine.m.rule]]\nname = \"r\"\nid = {ids}\nwhen = \"TRUE\"\nthen = \"x := TRUE;\"\n\
+             [system.s]\ntext = \"s\"\n[system.s.instance]\nm = {{ machine = \"m\" }}\n\
+             [[system.s.property]]\nid = \"P\"\ntext = \"p\"\nreq = {req}\nalways = \"m.x\"\n"
+        )
+    };
+    let (one, twice) = ("[\"F-A-001\"]", "@[\"F-A-001\", \"F-A-002\", \"F-A-001\"]");
+    for text in [text(twice, one), text(one, twice)] {
+        let said = mistake(&text);
+        assert!(said.contains("F-A-001 stands twice in this list"), "{said}");
+    }
+    assert!(load(&text(one, one), &[]).is_ok());
+}

@@ -27,6 +27,7 @@ pub(super) struct TestData {
     #[serde(default, rename = "let")]
     lets: IndexMap<String, Spanned<String>>,
     title: Spanned<String>,
+    #[serde(deserialize_with = "stillpoint_lang::catalogue::once")]
     req: Vec<String>,
     requires: Vec<Spanned<String>>,
     steps: Vec<Spanned<String>>,

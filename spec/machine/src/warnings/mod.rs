@@ -101,7 +101,7 @@ struct RuleData {
     /// Lines of the manual; none: the reason is that of an engineer.
     #[serde(default)]
     lines: String,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "stillpoint_lang::catalogue::once")]
     req: Vec<String>,
 }
 
