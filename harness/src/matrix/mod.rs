@@ -1,15 +1,15 @@
 //! The requirement traceability matrix, what the command `trace` prints: for every requirement of the catalogues the evidence for
 //! it, typed and at the level of a rule, an item, a clause or a test function.
 //!
-//! Evidence is one of four things. **Specification**: a rule, property, named expression or declaration of a table, or an
-//! item of the family's data. **Monitor**: a documented function, type, field, variant or constant of `impl`, or a clause of the
+//! Evidence is one of four things. **Specification**: a rule, property, named expression or declaration of a table, an
+//! item of the family's data, a documented item of the languages of safe programs, or a line of a program that the manual prints. **Monitor**: a documented function, type, field, variant or constant of `impl`, or a clause of the
 //! contract of its `next`. **Proof**: a clause whose harness stands in the inventory, or a run of the inventory. **Test**: a
 //! `#[test]` function whose own documentation names the requirement, a must-fail file by the property that it violates, a refused
 //! machine file by the rule that refuses it, a case of the corpus, or an acceptance test that is run on the simulated axis.
 //!
 //! A requirement is **covered** when it has specification, monitor, and a proof or a test. For one that is not about the
 //! behaviour of a monitor the monitor is not asked for: those of scope `support`, and of kind architecture, commissioning,
-//! constraint, diagnostic or parameter; and acceptance tests that are run and reaction chains count as its specification. A
+//! constraint, diagnostic or parameter; nor where a language or a printed program specifies it and a test tries that; and acceptance tests that are run and reaction chains count as its specification. A
 //! requirement whose text states several behaviours has sentences (`sentences.toml`); evidence then names a sentence,
 //! `ID/a`, evidence that names the id alone counts for nothing, and each sentence is judged on its own.
 //!
@@ -44,6 +44,10 @@ pub enum EvidenceKind {
     Definition,
     /// An item of a family's data.
     Data,
+    /// A documented item of the languages of safe programs.
+    Language,
+    /// A line of a program that the manual prints.
+    Program,
     /// A summand of a reaction time.
     Chain,
     /// A documented item of the monitors.
@@ -72,6 +76,8 @@ impl EvidenceKind {
             EvidenceKind::Property => "property",
             EvidenceKind::Definition => "definition",
             EvidenceKind::Data => "data",
+            EvidenceKind::Language => "language",
+            EvidenceKind::Program => "program",
             EvidenceKind::Chain => "chain",
             EvidenceKind::Item => "item",
             EvidenceKind::Clause => "clause",
@@ -125,6 +131,8 @@ pub struct Sources {
     pub sentences: BTreeMap<String, BTreeMap<String, String>>,
     /// Rules, named expressions, properties and family data.
     pub rules: Named,
+    /// What programs mean: documented items of their languages, and lines of programs that the manual prints.
+    pub programs: Named,
     /// Data that no monitor follows: acceptance tests that are run, and reaction chains.
     pub data: Named,
     /// Documented items of the monitors, and clauses.
@@ -290,6 +298,7 @@ fn unknown(sources: &Sources, rows: &[Row]) -> Vec<(String, String)> {
     [
         &sources.rules,
         &sources.data,
+        &sources.programs,
         &sources.monitors,
         &sources.proofs,
         &sources.tests,
@@ -398,10 +407,15 @@ fn shown(
     let (mut rules, data) = (places(&sources.rules), places(&sources.data));
     let (monitors, proofs) = (places(&sources.monitors), places(&sources.proofs));
     let tests = places(&sources.tests);
-    let specified = !rules.is_empty() || (!data.is_empty() && !about_monitors(requirement));
+    // What a program means is no matter of a monitor: the language or the program says it, and tests try that.
+    let programs = places(&sources.programs);
+    let programmed = !programs.is_empty() && !tests.is_empty();
+    let specified =
+        programmed || !rules.is_empty() || (!data.is_empty() && !about_monitors(requirement));
     rules.extend(data);
+    rules.extend(programs);
     let covered = specified
-        && (!monitors.is_empty() || !about_monitors(requirement))
+        && (programmed || !monitors.is_empty() || !about_monitors(requirement))
         && (!proofs.is_empty() || !tests.is_empty());
     let exception = exceptions.get(id);
     let (status, reason) = match (&requirement.merged_into, requirement.scope, exception) {

@@ -73,6 +73,7 @@ pub fn read(root: &Path) -> Result<Sources, ReadError> {
     must_fail(root, &mut sources.tests)?;
     refused(root, &prefixes, &mut sources.tests)?;
     corpus(root, &mut sources.tests)?;
+    printed(root, &prefixes, &mut sources.programs)?;
     Ok(sources)
 }
 
@@ -91,13 +92,19 @@ fn code(root: &Path, prefixes: &BTreeSet<String>, sources: &mut Sources) -> Resu
         let monitor = place.starts_with("impl/src/") && !is_mutant(&place);
         let inventory = place.starts_with("proofs/src/inventory/");
         // Most files name no requirement at a place that counts.
-        if !monitor && !inventory && !text.contains("#[test]") {
+        let language = place.starts_with("spec/logic/src/") && !place.contains("/peer");
+        if !monitor && !inventory && !language && !text.contains("#[test]") {
             continue;
         }
         let source = rust::parse(&text, prefixes)
             .map_err(|e| ReadError::Other(format!("{place} is no Rust: {e}")))?;
         for test in &source.tests {
             add_found(&mut sources.tests, EvidenceKind::Test, &place, test);
+        }
+        if language {
+            for item in &source.items {
+                add_found(&mut sources.programs, EvidenceKind::Language, &place, item);
+            }
         }
         if monitor {
             for item in &source.items {
@@ -236,6 +243,30 @@ fn corpus(root: &Path, tests: &mut Named) -> Result<(), ReadError> {
                 _ => Vec::new(),
             });
             open.extend(inner.map(|table| (place.clone(), table)));
+        }
+    }
+    Ok(())
+}
+
+/// The programs that manuals print, by the comments of their lines.
+fn printed(
+    root: &Path,
+    prefixes: &BTreeSet<String>,
+    programs: &mut Named,
+) -> Result<(), ReadError> {
+    let tests = root.join("tests");
+    if !tests.is_dir() {
+        return Ok(());
+    }
+    for (ending, begins) in [("stl", "//"), ("spf", ";")] {
+        for (place, text) in texts(root, &tests, ending)? {
+            for (at, line) in text.lines().enumerate() {
+                let comment = line.split_once(begins).map_or("", |(_, comment)| comment);
+                for id in ids(comment, prefixes) {
+                    let place = format!("{place}:{}", at + 1);
+                    add(programs, &id, EvidenceKind::Program, &place);
+                }
+            }
         }
     }
     Ok(())
