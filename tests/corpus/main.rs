@@ -10,6 +10,7 @@ mod interface;
 mod machines;
 mod manuals;
 mod parameters;
+mod printed_programs;
 mod programs;
 mod reaction_times;
 mod safe_logic;

@@ -96,8 +96,9 @@ pub(super) fn guaranteed(
             let mut system = system;
             if let Some(scan) = explore.scan.as_ref().filter(|_| !wiring.is_empty()) {
                 let scan = evaluate(family, scan, &asked.values, judged.cycle)?.max(1);
-                let scans = logic.scanned(&wiring)?;
-                system.scanned = scans.into_iter().map(|d| (d, scan)).collect();
+                let times = logic.times(&family.folder.join(&explore.file), &wiring)?;
+                system.scanned = times.scanned.into_iter().map(|d| (d, scan)).collect();
+                system.durations.extend(times.running);
             }
             let mut run = bind(family, explore, &system, judged.cycle, &subject, 0)?;
             run.run.wiring = wiring;
