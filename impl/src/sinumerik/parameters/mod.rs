@@ -239,7 +239,7 @@ machine_data! {
     /// t_chk: time for the feedback that the pulses are cancelled (S840D-PARAM-022).
     36957 "SAFE_PULSE_DIS_CHECK_TIME" pulse_dis_check_time: u32 = 100_000, TEN_SECONDS, Microseconds;
 
-    /// Time limit of an acceptance test (S840D-PARAM-023); compared only.
+    /// Time limit of an acceptance test (S840D-PARAM-023/e); compared only.
     36958 "SAFE_ACCEPTANCE_TST_TIMEOUT" acceptance_tst_timeout: u32 = 40_000_000, Range(5_000_000, 100_000_000), Microseconds;
 
     /// Speed below which STOP B cancels the pulses before t_B has passed (S840D-PARAM-024, S840D-PARAM-726).
