@@ -13,6 +13,7 @@ mod manuals;
 mod messages;
 mod parameters;
 mod patterns;
+mod printed_programs;
 mod profisafe_example;
 mod programs;
 mod reaction_times;

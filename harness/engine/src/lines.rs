@@ -29,9 +29,13 @@ pub fn deciding(bound: &Bound, property: &Property, trace: &Trace) -> Vec<Line> 
     let Some(cycle) = cycles.last() else {
         return Vec::new();
     };
+    let told = bound.system.lazies.iter();
+    let told = told.filter(|lazy| line(&lazy.text).is_some());
+    let programs: BTreeSet<Option<&str>> = told.map(|lazy| instance(&lazy.name)).collect();
     let mut search = Search {
         bound,
         cycle,
+        several: programs.len() > 1,
         seen: BTreeSet::new(),
         lines: BTreeSet::new(),
     };
@@ -61,6 +65,8 @@ fn instance(name: &str) -> Option<&str> {
 struct Search<'a> {
     bound: &'a Bound,
     cycle: &'a Cycle,
+    /// Several programs have lines: each is told with the instance that it belongs to.
+    several: bool,
     seen: BTreeSet<u32>,
     lines: BTreeSet<Line>,
 }
@@ -93,9 +99,13 @@ impl Search<'_> {
             return;
         };
         let value = self.value(&Node::Lazy(k));
+        let text = match instance(&lazy.name).filter(|_| self.several) {
+            Some(program) => format!("{program}: {text}"),
+            None => text.to_owned(),
+        };
         self.lines.insert(Line {
             number,
-            text: text.to_owned(),
+            text,
             value: self.bound.system.show(lazy.ty, value),
         });
     }

@@ -2,7 +2,8 @@
 //! it, typed and at the level of a rule, an item, a clause or a test function.
 //!
 //! Evidence is one of four things. **Specification**: a rule, property, named expression or declaration of a table, an
-//! item of the family's data, or a documented item of the languages of safe programs (`spec/logic/src`). **Monitor**: a documented function, type, field, variant or constant of `impl`, or a clause of the
+//! item of the family's data, a documented item of the languages of safe programs (`spec/logic/src`), or a line of a program that a
+//! manual prints, by its comment. **Monitor**: a documented function, type, field, variant or constant of `impl`, or a clause of the
 //! contract of its `next`. **Proof**: a clause whose harness stands in the inventory, or a run of the inventory. **Test**: a
 //! `#[test]` function whose own documentation names the requirement, a must-fail file by the property that it violates, a refused
 //! machine file by the rule that refuses it, a case of the corpus, or an acceptance test that is run on the simulated axis.
@@ -10,7 +11,7 @@
 //! A requirement is **covered** when it has specification, monitor, and a proof or a test. For one that is not about the
 //! behaviour of a monitor the monitor is not asked for: those of scope `support`, and of kind architecture, commissioning,
 //! constraint, diagnostic or parameter; for one whose only specification is an item of the languages, which refuse or understand
-//! a program before any monitor runs, neither; and acceptance tests that are run and reaction chains count as its specification. A
+//! a program before any monitor runs, neither, nor for what a printed program specifies and a test tries; and acceptance tests that are run and reaction chains count as its specification. A
 //! requirement whose text states several behaviours has sentences (`sentences.toml`); evidence then names a sentence,
 //! `ID/a`, evidence that names the id alone counts for nothing, and each sentence is judged on its own.
 //!
@@ -47,6 +48,8 @@ pub enum EvidenceKind {
     Data,
     /// A documented item of the languages of safe programs.
     Language,
+    /// A line of a program that the manual prints.
+    Program,
     /// A summand of a reaction time.
     Chain,
     /// A documented item of the monitors.
@@ -76,6 +79,7 @@ impl EvidenceKind {
             EvidenceKind::Definition => "definition",
             EvidenceKind::Data => "data",
             EvidenceKind::Language => "language",
+            EvidenceKind::Program => "program",
             EvidenceKind::Chain => "chain",
             EvidenceKind::Item => "item",
             EvidenceKind::Clause => "clause",
@@ -131,6 +135,8 @@ pub struct Sources {
     pub rules: Named,
     /// Documented items of the languages of safe programs.
     pub languages: Named,
+    /// Lines of programs that manuals print.
+    pub programs: Named,
     /// Data that no monitor follows: acceptance tests that are run, and reaction chains.
     pub data: Named,
     /// Documented items of the monitors, and clauses.
@@ -297,6 +303,7 @@ fn unknown(sources: &Sources, rows: &[Row]) -> Vec<(String, String)> {
         &sources.rules,
         &sources.languages,
         &sources.data,
+        &sources.programs,
         &sources.monitors,
         &sources.proofs,
         &sources.tests,
@@ -405,13 +412,16 @@ fn shown(
     let (mut rules, data) = (places(&sources.rules), places(&sources.data));
     let (monitors, proofs) = (places(&sources.monitors), places(&sources.proofs));
     let tests = places(&sources.tests);
-    let languages = places(&sources.languages);
+    let (languages, programs) = (places(&sources.languages), places(&sources.programs));
+    // A program that the manual prints is what it specifies, and no monitor runs it: a test does.
+    let printed = !programs.is_empty() && !tests.is_empty();
     // What only the languages are about is settled when a program is read, before any monitor runs.
     let about_programs = rules.is_empty() && !languages.is_empty();
-    let behaviour = about_monitors(requirement) && !about_programs;
+    let behaviour = about_monitors(requirement) && !about_programs && !printed;
     rules.extend(languages);
-    let specified = !rules.is_empty() || (!data.is_empty() && !behaviour);
+    let specified = printed || !rules.is_empty() || (!data.is_empty() && !behaviour);
     rules.extend(data);
+    rules.extend(programs);
     let covered = specified
         && (!monitors.is_empty() || !behaviour)
         && (!proofs.is_empty() || !tests.is_empty());

@@ -73,6 +73,7 @@ pub fn read(root: &Path) -> Result<Sources, ReadError> {
     must_fail(root, &mut sources.tests)?;
     refused(root, &prefixes, &mut sources.tests)?;
     corpus(root, &mut sources.tests)?;
+    printed(root, &prefixes, &mut sources.programs)?;
     Ok(sources)
 }
 
@@ -277,6 +278,30 @@ pub(super) fn strings(list: Option<&Value>) -> Vec<String> {
     let list = list.and_then(Value::as_array);
     let texts = list.into_iter().flatten().filter_map(Value::as_str);
     texts.map(str::to_owned).collect()
+}
+
+/// The programs that manuals print, by the comments of their lines.
+fn printed(
+    root: &Path,
+    prefixes: &BTreeSet<String>,
+    programs: &mut Named,
+) -> Result<(), ReadError> {
+    let tests = root.join("tests");
+    if !tests.is_dir() {
+        return Ok(());
+    }
+    for (ending, begins) in [("stl", "//"), ("spf", ";")] {
+        for (place, text) in texts(root, &tests, ending)? {
+            for (at, line) in text.lines().enumerate() {
+                let comment = line.split_once(begins).map_or("", |(_, comment)| comment);
+                for id in ids(comment, prefixes) {
+                    let place = format!("{place}:{}", at + 1);
+                    add(programs, &id, EvidenceKind::Program, &place);
+                }
+            }
+        }
+    }
+    Ok(())
 }
 
 fn hidden(path: &Path) -> bool {

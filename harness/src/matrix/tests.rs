@@ -50,6 +50,31 @@ fn status(sources: &Sources) -> Status {
     Matrix::new(sources).rows[0].status()
 }
 
+/// A program that a manual prints is run by a test, not by a monitor; its lines alone are no evidence.
+#[test]
+fn printed_programs_need_a_test_and_no_monitor() {
+    let program = named("F-STOP-001", EvidenceKind::Program, "tests/stop.stl:7");
+    let tried = named("F-STOP-001", EvidenceKind::Test, "tests/stop.rs:1 stops");
+    let read = || Sources {
+        monitors: Named::new(),
+        proofs: Named::new(),
+        programs: program.clone(),
+        tests: tried.clone(),
+        ..full()
+    };
+    assert_eq!(status(&read()), Status::Covered);
+    let untried = Sources {
+        tests: Named::new(),
+        ..read()
+    };
+    assert_eq!(status(&untried), Status::Open);
+    let unprinted = Sources {
+        programs: Named::new(),
+        ..read()
+    };
+    assert_eq!(status(&unprinted), Status::Open);
+}
+
 /// What a program may say is settled where it is read: no monitor is asked for, but a test is. A rule of a table makes it a
 /// matter of the monitors again.
 #[test]

@@ -143,6 +143,9 @@ pub(super) enum Language {
     /// Synchronous actions with numbered signals, which the values of the machine file connect.
     #[serde(rename = "SAFE.SPF")]
     SafeSpf,
+    /// Statement lists of STEP 7, with the same signals as SAFE.SPF.
+    #[serde(rename = "STL")]
+    StatementList,
 }
 
 /// A machine of the tables that a machine file may replace.
@@ -154,6 +157,8 @@ pub(super) struct Slot {
     /// The language of programs that can stand in its place.
     #[serde(default)]
     pub language: Language,
+    /// The machine that a program of the other half takes the place of, in statement lists: the key `plc` of the logic.
+    pub plc: Option<String>,
     /// What it is, in a few words.
     pub text: String,
     /// What is assumed of it where the machine file has none.

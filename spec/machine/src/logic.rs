@@ -1,5 +1,5 @@
-//! The logic of a machine file: `[logic.NAME]` with the tables of `[machine.NAME]`, or with the key `source` that names a program in
-//! Structured Text beside the machine file. It takes the place of the machine of that name in the tables of the family, which must be
+//! The logic of a machine file: `[logic.NAME]` with the tables of `[machine.NAME]`, or with the key `source` that names a program
+//! beside the machine file, and `plc` that names the half of it in a PLC. It takes the place of the machine of that name in the tables of the family, which must be
 //! one that the family lets go.
 
 use std::collections::BTreeMap;
@@ -18,7 +18,7 @@ use toml::de::{DeTable, DeValue, Deserializer};
 use super::document::Findings;
 use super::family::{Family, Language, Slot};
 use super::own::Own;
-use super::wired::Wired;
+use super::wired::{Program, Times, Wired};
 use super::{Basis, Machine, Place, Run, Wiring, own};
 
 /// The machines of a machine file, in its order.
@@ -63,6 +63,8 @@ struct File {
 #[serde(deny_unknown_fields)]
 struct Elsewhere {
     source: Spanned<String>,
+    /// The half of it that stands in the PLC.
+    plc: Option<Spanned<String>>,
     #[serde(default)]
     #[allow(dead_code)] // a comment for readers of the file
     text: String,
@@ -155,33 +157,29 @@ impl Logic {
         slot: &Slot,
         tables: &Path,
     ) -> Result<()> {
-        let beside = Path::new(&self.file).parent().unwrap_or(Path::new(""));
-        let path: PathBuf = beside.join(program.source.get_ref());
-        let what = match slot.language {
-            Language::StructuredText => "program in Structured Text",
-            Language::SafeSpf => "program SAFE.SPF",
-        };
-        let source = read_text(&path, what).map_err(|Diagnostics(list)| {
-            let told = |d: Diagnostic| {
-                Diagnostic::new(
-                    &self.file,
-                    &self.source,
-                    Some(program.source.span()),
-                    d.to_string(),
-                )
-                .label("named here")
-                .help(format!(
-                    "`source` names a {what}, relative to the machine file"
-                ))
+        if let Some(half) = &program.plc {
+            let Some(machine) = &slot.plc else {
+                let message = format!("the logic '{}' has no half in a PLC", name.get_ref());
+                let fault = self.fault(Some(half.span()), message).label("no such half");
+                return Err(fault.help("leave `plc` out").into());
             };
-            Diagnostics(list.into_iter().map(told).collect())
-        })?;
-        let spec = Spec::load(tables)?;
-        let file = path.display().to_string();
-        if slot.language == Language::SafeSpf {
-            self.wired.push(Wired::read(name, file, source, &spec)?);
-            return Ok(());
+            let (file, source) = self.beside(half, "plc", Language::StatementList)?;
+            let name = Spanned::new(half.span(), machine.clone());
+            self.wired.push(Wired::stl(name, file, source)?);
         }
+        let (file, source) = self.beside(&program.source, "source", slot.language)?;
+        match slot.language {
+            Language::SafeSpf => {
+                self.wired.push(Wired::spf(name, file, source)?);
+                return Ok(());
+            }
+            Language::StatementList => {
+                self.wired.push(Wired::stl(name, file, source)?);
+                return Ok(());
+            }
+            Language::StructuredText => {}
+        }
+        let spec = Spec::load(tables)?;
         let signature = Signature::of(&spec, name.get_ref())?;
         let compiled = compile(&file, &source, &signature)?;
         let definition = Definition {
@@ -193,6 +191,33 @@ impl Logic {
         };
         self.machines.push((name, definition));
         Ok(())
+    }
+
+    /// The text of a program that a key of the machine file names.
+    fn beside(
+        &self,
+        named: &Spanned<String>,
+        key: &str,
+        language: Language,
+    ) -> Result<(String, Arc<str>)> {
+        let beside = Path::new(&self.file).parent().unwrap_or(Path::new(""));
+        let path: PathBuf = beside.join(named.get_ref());
+        let what = match language {
+            Language::StructuredText => "program in Structured Text",
+            Language::SafeSpf => "program SAFE.SPF",
+            Language::StatementList => "statement list",
+        };
+        let source = read_text(&path, what).map_err(|Diagnostics(list)| {
+            let told = |d: Diagnostic| {
+                self.fault(Some(named.span()), d.to_string())
+                    .label("named here")
+                    .help(format!(
+                        "`{key}` names a {what}, relative to the machine file"
+                    ))
+            };
+            Diagnostics(list.into_iter().map(told).collect())
+        })?;
+        Ok((path.display().to_string(), source))
     }
 
     /// The times of the programs that take part in a system with these machines.
@@ -236,38 +261,52 @@ impl Logic {
             .any(|w| machines.contains(w.name.get_ref()))
     }
 
+    /// Whether one of these machines is a half in a PLC that no program takes the place of.
+    pub fn lacks_half(&self, family: &Family, machines: &[String]) -> bool {
+        let halves = family.logic.values().filter_map(|slot| slot.plc.as_ref());
+        let mut halves = halves.filter(|half| machines.contains(half));
+        halves.any(|half| !self.wired.iter().any(|w| w.name.get_ref() == half))
+    }
+
     /// Whether there is such a program.
     pub fn is_programmed(&self) -> bool {
         !self.wired.is_empty()
     }
 
     /// Whether such a program is told something through this port.
-    pub fn is_told(&self, port: &str) -> bool {
-        self.wired.iter().any(|w| w.is_told(port))
+    pub fn is_told(&self, spec: &Spec, port: &str) -> bool {
+        self.wired.iter().any(|w| w.is_told(spec, port))
     }
 
-    /// The times of such programs with these signals, which are counted in their scans.
+    /// The times of such programs in a specification file with these signals.
     ///
     /// # Errors
     /// A program cannot be explored.
-    pub fn scanned(&self, wiring: &Wiring) -> Result<Vec<(String, u64)>> {
-        let mut all = Vec::new();
-        for wired in &self.wired {
-            all.extend(wired.compiled(wiring)?.durations);
+    pub fn times(&self, path: &Path, wiring: &Wiring) -> Result<Times> {
+        let spec = Spec::load(path)?;
+        let mut times = Times::default();
+        for wired in self.wired.iter().filter(|w| w.takes_part(&spec)) {
+            let durations = wired.compiled(&spec, wiring)?.durations;
+            match wired.program {
+                Program::Spf(_) => times.scanned.extend(durations),
+                Program::Stl(_) => times.running.extend(durations),
+            }
         }
-        Ok(all)
+        Ok(times)
     }
 
-    /// The signals of a question in words of the file, at the ports of the machine that a program in numbered signals stands for.
+    /// The signals of a question in words of the file, at the ports of the machine of the specification file that a program in numbered
+    /// signals stands for.
     ///
     /// # Errors
     /// More signals than ports.
-    pub fn shown(&self, own: &Own, place: &Place) -> Result<Wiring> {
-        let Some(wired) = self.wired.first() else {
+    pub fn shown(&self, path: &Path, own: &Own, place: &Place) -> Result<Wiring> {
+        let spec = Spec::load(path)?;
+        let Some(wired) = self.wired.iter().find(|w| w.takes_part(&spec)) else {
             return Ok(Wiring::new());
         };
         let used = own::used(own, &wired.signals());
-        wired.shown(&used).ok_or_else(|| {
+        wired.shown(&spec, &used).ok_or_else(|| {
             let message = format!(
                 "guarantee {}: {} signals are too many for one question",
                 own.name,
@@ -332,8 +371,10 @@ impl Logic {
     /// The file cannot be read, or the logic lacks an output of what it replaces.
     pub fn spec(&self, path: &Path, wiring: &Wiring) -> Result<Spec> {
         let mut spec = Spec::load(path)?;
-        for wired in self.wired.iter().filter(|_| !wiring.is_empty()) {
-            let machine = wired.compiled(wiring)?.machine;
+        let wired = self.wired.iter().filter(|_| !wiring.is_empty());
+        let wired: Vec<&Wired> = wired.filter(|w| w.takes_part(&spec)).collect();
+        for wired in wired {
+            let machine = wired.compiled(&spec, wiring)?.machine;
             spec.replace(&wired.file, &wired.source, &wired.name, &machine)?;
         }
         for (name, machine) in &self.machines {
@@ -403,8 +444,11 @@ impl Machine {
     /// What is worth telling of programs that are right, each with its line.
     pub(super) fn logic_notes(&self) -> impl Iterator<Item = String> + '_ {
         self.basis.logic.wired.iter().flat_map(|wired| {
-            let notes = wired.program.notes().iter();
-            notes.map(|note| format!("{}, {note}.", wired.file))
+            let notes = match &wired.program {
+                Program::Spf(program) => program.notes(),
+                Program::Stl(_) => &[],
+            };
+            notes.iter().map(|note| format!("{}, {note}.", wired.file))
         })
     }
 
@@ -414,8 +458,16 @@ impl Machine {
         let names = logic.machines.iter().map(|(name, _)| name);
         let names = names.chain(logic.wired.iter().map(|w| &w.name));
         names.filter_map(|name| {
-            let slot = family.logic.get(name.get_ref())?;
-            Some((name.get_ref().as_str(), slot.text.as_str()))
+            let slot = family.logic.get(name.get_ref());
+            let text = match slot {
+                Some(slot) => slot.text.as_str(),
+                None => {
+                    let mut slots = family.logic.values();
+                    slots.find(|slot| slot.plc.as_ref() == Some(name.get_ref()))?;
+                    "its half in the PLC"
+                }
+            };
+            Some((name.get_ref().as_str(), text))
         })
     }
 }

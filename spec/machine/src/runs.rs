@@ -97,6 +97,16 @@ pub(super) fn guaranteed(
             }
             decided = true;
             let system = declared(family, explore, &mut files, logic)?;
+            if asked.pattern.needs_program && logic.lacks_half(family, &system.machines) {
+                let message = format!(
+                    "guarantee {name} is about both halves of the safe logic, and the file has none in the PLC"
+                );
+                let place = Some(asked.guarantee.place.clone());
+                let found = logic.fault(place, message).label("this guarantee");
+                let help =
+                    "add plc = \"...\" to [logic.NAME], a statement list beside the machine file";
+                return Err(found.help(help).into());
+            }
             let subject = Subject {
                 members: vec![(asked.axis, &asked.values)],
                 axes: vec![asked.axis.to_owned()],
@@ -105,15 +115,17 @@ pub(super) fn guaranteed(
                 true => wiring(family, explore, &asked, logic)?,
                 false => Wiring::new(),
             };
+            let path = family.folder.join(&explore.file);
             let wiring = match &asked.guarantee.own {
-                Some(own) => logic.shown(own, &asked.guarantee.place)?,
+                Some(own) => logic.shown(&path, own, &asked.guarantee.place)?,
                 None => wiring,
             };
             let mut system = system;
             if let Some(scan) = explore.scan.as_ref().filter(|_| !wiring.is_empty()) {
                 let scan = evaluate(family, scan, &asked.values, judged.cycle)?.max(1);
-                let scans = logic.scanned(&wiring)?;
-                system.scanned = scans.into_iter().map(|d| (d, scan)).collect();
+                let times = logic.times(&path, &wiring)?;
+                system.scanned = times.scanned.into_iter().map(|d| (d, scan)).collect();
+                system.durations.extend(times.running);
             }
             let mut run = bind(family, explore, &system, judged.cycle, &subject, 0)?;
             run.run.wiring = wiring;

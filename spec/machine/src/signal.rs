@@ -14,7 +14,11 @@ const WORD: i64 = 32;
 #[serde(deny_unknown_fields)]
 pub(super) struct Bits {
     /// How many there are, from 1.
+    #[serde(default)]
     count: i64,
+    /// They are bits of so many bytes, `M0.0` to `M255.7`; they have no machine datum, and their coding is a number of the project.
+    #[serde(default)]
+    bytes: i64,
     /// Their machine datum without word and bit (`i s mm xx nn`: of `xx` and `nn`).
     code: i64,
 }
@@ -32,7 +36,11 @@ impl Signals {
             let code = bits.code + 0x100 * word + bit;
             (format!("{name}[{}]", k + 1), code)
         });
-        let plain: Vec<_> = plain.collect();
+        let of_bytes = (0..8 * bits.bytes).map(|k| {
+            let (byte, bit) = (k / 8, k % 8);
+            (format!("{name}{byte}.{bit}"), bits.code + k + 1)
+        });
+        let plain: Vec<_> = plain.chain(of_bytes).collect();
         let turned = plain.iter().filter(|_| inverted);
         let turned = turned.map(|(name, code)| (format!("NOT {name}"), code + INVERTED));
         Some(plain.iter().cloned().chain(turned).collect())
@@ -64,7 +72,12 @@ pub(super) fn coded(text: &str) -> Option<i64> {
 
 /// Names, with those of one list told by its ends: `"0", "OUTSI[1]" to "OUTSI[64]"`.
 pub(super) fn ranges(names: &[&str]) -> String {
-    let base = |name: &str| name.split_once('[').map(|(base, _)| base.to_owned());
+    let base = |name: &str| {
+        let bits = name.split_once('.').filter(|(of, _)| of.len() > 1);
+        let bits = bits.map(|(of, _)| of.trim_end_matches(|c: char| c.is_ascii_digit()));
+        let base = name.split_once('[').map(|(base, _)| base).or(bits);
+        base.map(str::to_owned)
+    };
     let mut told: Vec<String> = Vec::new();
     for list in names.chunk_by(|a, b| base(a).is_some() && base(a) == base(b)) {
         told.push(match list {
@@ -81,7 +94,11 @@ mod tests {
     use super::*;
 
     fn signals() -> Signals {
-        let bits = |code| Bits { count: 64, code };
+        let bits = |code| Bits {
+            count: 64,
+            bytes: 0,
+            code,
+        };
         let list = [("OUTSI", 0x0401_0000), ("INSE", 0x0402_0000)];
         Signals(
             list.map(|(name, code)| (name.to_owned(), bits(code)))

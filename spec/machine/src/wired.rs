@@ -1,13 +1,14 @@
-//! Programs with numbered signals, SAFE.SPF: what they are connected to follows from the values of the machine file, axis by axis.
+//! Programs with numbered signals, SAFE.SPF and statement lists: what they are connected to follows from the values of the machine file,
+//! axis by axis.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use stillpoint_lang::Spec;
-use stillpoint_lang::diag::Result;
+use stillpoint_lang::diag::{Diagnostic, Result};
 use stillpoint_logic::Compiled;
-use stillpoint_logic::spf::{self, Interface, Mode, Output, Program, Readings};
 use stillpoint_logic::st::Signature;
+use stillpoint_logic::{spf, stl};
 use toml::Spanned;
 
 use super::Wiring;
@@ -26,58 +27,102 @@ pub(super) struct Wired {
     pub program: Program,
     pub file: String,
     pub source: Arc<str>,
-    /// The interface of that machine, and its inputs by name.
-    signature: Signature,
-    inputs: Vec<String>,
+}
+
+/// A program in one of the languages that name signals by numbers.
+#[derive(Clone)]
+pub(super) enum Program {
+    /// The half of the NCK.
+    Spf(spf::Program),
+    /// The half of the PLC.
+    Stl(stl::Program),
+}
+
+/// The times of programs: name, and length in microseconds.
+#[derive(Default)]
+pub(super) struct Times {
+    /// Counted in the scans of the program.
+    pub scanned: Vec<(String, u64)>,
+    /// Counted in cycles of the system.
+    pub running: Vec<(String, u64)>,
+}
+
+/// The ports of a machine, by type for inputs.
+struct Ports {
+    inputs: Vec<(String, bool)>,
     outputs: Vec<String>,
-    /// The inputs of type BOOL.
-    bools: Vec<String>,
+}
+
+impl Ports {
+    fn of(spec: &Spec, machine: &str) -> Option<Self> {
+        let mut machines = spec.outline().machines.into_iter();
+        let found = machines.find(|m| m.name == machine)?;
+        let inputs = found.inputs.into_iter();
+        Some(Self {
+            inputs: inputs.map(|port| (port.name, port.ty == "BOOL")).collect(),
+            outputs: found.outputs.into_iter().map(|port| port.name).collect(),
+        })
+    }
 }
 
 impl Wired {
-    /// Reads a program that takes the place of a machine of `spec`.
+    /// Reads SAFE.SPF.
     ///
     /// # Errors
     /// Everything wrong in it, each with its place.
-    pub fn read(
-        name: Spanned<String>,
-        file: String,
-        source: Arc<str>,
-        spec: &Spec,
-    ) -> Result<Self> {
-        let mut machines = spec.outline().machines.into_iter();
-        let machine = machines.find(|m| m.name == *name.get_ref());
-        let (inputs, outputs) = machine.map_or_else(Default::default, |m| (m.inputs, m.outputs));
-        let bools = inputs.iter().filter(|port| port.ty == "BOOL");
+    pub fn spf(name: Spanned<String>, file: String, source: Arc<str>) -> Result<Self> {
         Ok(Self {
-            program: spf::parse(&file, &source, Mode::Strict)?,
-            signature: Signature::of(spec, name.get_ref())?,
-            bools: bools.map(|port| port.name.clone()).collect(),
-            inputs: inputs.into_iter().map(|port| port.name).collect(),
-            outputs: outputs.into_iter().map(|port| port.name).collect(),
+            program: Program::Spf(spf::parse(&file, &source, spf::Mode::Strict)?),
             name,
             file,
             source,
         })
     }
 
-    /// Whether the program is told something through this port.
-    pub fn is_told(&self, port: &str) -> bool {
-        self.inputs.iter().any(|input| input == port)
+    /// Reads a statement list.
+    ///
+    /// # Errors
+    /// Everything wrong in its form, each with its place.
+    pub fn stl(name: Spanned<String>, file: String, source: Arc<str>) -> Result<Self> {
+        Ok(Self {
+            program: Program::Stl(stl::parse(&file, &source)?),
+            name,
+            file,
+            source,
+        })
+    }
+
+    /// Whether the specification has the machine whose place it takes.
+    pub fn takes_part(&self, spec: &Spec) -> bool {
+        Ports::of(spec, self.name.get_ref()).is_some()
+    }
+
+    /// Whether the program is told something through this port of the machine.
+    pub fn is_told(&self, spec: &Spec, port: &str) -> bool {
+        let ports = Ports::of(spec, self.name.get_ref());
+        ports.is_some_and(|ports| ports.inputs.iter().any(|(input, _)| input == port))
     }
 
     /// The table that it is with these signals.
     ///
     /// # Errors
     /// It cannot be explored.
-    pub fn compiled(&self, wiring: &Wiring) -> Result<Compiled> {
-        self.program.compile(&self.interface(wiring))
+    pub fn compiled(&self, spec: &Spec, wiring: &Wiring) -> Result<Compiled> {
+        let signature = Signature::of(spec, self.name.get_ref())?;
+        match &self.program {
+            Program::Spf(program) => program.compile(&self.of_nck(spec, signature, wiring)),
+            Program::Stl(program) => program.compile(&self.of_plc(spec, signature, wiring)?),
+        }
     }
 
-    /// Its signals by all their names, `INSE[3]` and those that it defines: the variable, and whether the program gives it.
+    /// Its signals by all their names, `INSE[3]` and those that it defines: the variable, and whether the program gives it. Those of
+    /// the half in the PLC have the names of the other half.
     pub fn signals(&self) -> BTreeMap<String, (String, bool)> {
         let mut all = BTreeMap::new();
-        for used in self.program.variables() {
+        let Program::Spf(program) = &self.program else {
+            return all;
+        };
+        for used in program.variables() {
             let variable = used.variable.to_string();
             for name in used.names.iter().chain([&variable]) {
                 all.insert(name.clone(), (variable.clone(), used.writes));
@@ -86,21 +131,18 @@ impl Wired {
         all
     }
 
-    fn is_bool(&self, input: &str) -> bool {
-        self.bools.iter().any(|port| port == input)
-    }
-
     /// The signals at the ports of the machine that it stands for, where nothing but these signals is looked at: what the program
     /// gives at its outputs, what it is told at its inputs. None: there are more of them than ports.
-    pub fn shown(&self, signals: &[(String, bool)]) -> Option<Wiring> {
+    pub fn shown(&self, spec: &Spec, signals: &[(String, bool)]) -> Option<Wiring> {
         let mut wiring = Wiring::new();
-        let (inputs, mut outputs) = (self.inputs.iter(), self.outputs.iter());
+        let ports = Ports::of(spec, self.name.get_ref())?;
+        let (inputs, mut outputs) = (ports.inputs.iter(), ports.outputs.iter());
         // Signals are of type BOOL; the scan is told by another port.
-        let mut inputs = inputs.filter(|port| *port != SCAN && self.is_bool(port));
+        let mut inputs = inputs.filter(|(port, is_bool)| port != SCAN && *is_bool);
         for (variable, given) in signals {
             let port = match given {
                 true => outputs.next()?,
-                false => inputs.next()?,
+                false => &inputs.next()?.0,
             };
             wiring.insert(port.clone(), variable.clone());
         }
@@ -108,33 +150,62 @@ impl Wired {
         Some(wiring)
     }
 
-    fn interface(&self, wiring: &Wiring) -> Interface {
-        let mut interface = Interface {
-            signature: self.signature.clone(),
+    fn of_nck(&self, spec: &Spec, signature: Signature, wiring: &Wiring) -> spf::Interface {
+        let mut interface = spf::Interface {
+            signature,
             inputs: Vec::new(),
             outputs: Vec::new(),
             scan: Some(SCAN.to_owned()),
-            readings: Readings::default(),
+            readings: spf::Readings::default(),
         };
         for (port, signal) in wiring {
             let plain = signal.strip_prefix("NOT ").unwrap_or(signal);
-            let variable = plain.parse().ok();
-            match variable {
-                Some(variable) if self.is_told(port) => {
+            match plain.parse().ok() {
+                Some(variable) if self.is_told(spec, port) => {
                     interface.inputs.push((variable, port.clone()));
                 }
                 Some(variable) => {
                     let inverted = plain != signal;
-                    let output = Output::Variable { variable, inverted };
+                    let output = spf::Output::Variable { variable, inverted };
                     interface.outputs.push((port.clone(), output));
                 }
                 None => {
-                    let output = Output::Constant(signal == "TRUE");
+                    let output = spf::Output::Constant(signal == "TRUE");
                     interface.outputs.push((port.clone(), output));
                 }
             }
         }
         interface
+    }
+
+    fn of_plc(&self, spec: &Spec, signature: Signature, wiring: &Wiring) -> Result<stl::Interface> {
+        let mut interface = stl::Interface {
+            signature,
+            inputs: Vec::new(),
+            outputs: Vec::new(),
+            scan: Some(SCAN.to_owned()),
+        };
+        for (port, signal) in wiring {
+            let plain = signal.strip_prefix("NOT ").unwrap_or(signal);
+            if matches!(plain, "TRUE" | "FALSE") {
+                let output = stl::Output::Constant(signal == "TRUE");
+                interface.outputs.push((port.clone(), output));
+                continue;
+            }
+            let bit = plain.parse().map_err(|why: String| {
+                let fault = Diagnostic::new(&self.file, &self.source, None, why);
+                fault.help("name a signal that the half of the PLC has too")
+            })?;
+            match self.is_told(spec, port) {
+                true => interface.inputs.push((bit, port.clone())),
+                false => {
+                    let inverted = plain != signal;
+                    let output = stl::Output::Bit { bit, inverted };
+                    interface.outputs.push((port.clone(), output));
+                }
+            }
+        }
+        Ok(interface)
     }
 }
 
@@ -148,6 +219,7 @@ pub(super) fn wiring(
     asked: &Asked<'_>,
     logic: &Logic,
 ) -> Result<Wiring> {
+    let spec = Spec::load(&family.folder.join(&explore.file))?;
     let mut wiring = Wiring::new();
     for wire in &explore.wires {
         let (port, name) = (&wire.port, &wire.name);
@@ -156,7 +228,7 @@ pub(super) fn wiring(
         if code == 0 && wire.optional {
             continue;
         }
-        if code == 0 && logic.is_told(port) {
+        if code == 0 && logic.is_told(&spec, port) {
             let guarantee = asked.guarantee;
             let message = format!(
                 "guarantee {}: the program is not told of it: {name} names no signal",

@@ -3,6 +3,7 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+mod example;
 mod listings;
 mod meaning;
 mod refused;

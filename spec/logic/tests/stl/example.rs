@@ -389,3 +389,33 @@ fn the_light_barrier() {
     plc.set("input_32_0").run(1);
     assert_eq!(bits.map(|bit| plc.is(bit)), [true; 5]);
 }
+
+/// S840D-BRAKE-715: what releases the brake, and what only the output of the PLC has beside it; S840D-BRAKE-716: the speed controller
+/// decides.
+#[test]
+fn the_brake() {
+    let bits = ["INSIP[1]", "OUTSEP[1]", "A2.0"];
+    let inputs = [
+        "db31_dbx111_4",
+        "db31_dbx108_2",
+        "db31_dbx93_7",
+        "db31_dbx61_6",
+        "markersip_1",
+        "db31_dbx61_5",
+        "db10_dbx104_7",
+    ];
+    let mut plc = Printed::new("brake", &bits, 100);
+    let mut released = 0;
+    for k in 0..128_u32 {
+        let is = |n: usize| k >> n & 1 == 1;
+        let on = inputs.iter().enumerate().filter(|(n, _)| is(*n));
+        plc.on = on.map(|(_, input)| *input).collect();
+        plc.run(1);
+        let compared = !is(0) && !is(1) && is(2) && is(3) && is(4);
+        assert_eq!(plc.is("INSIP[1]"), is(0));
+        assert_eq!(plc.is("OUTSEP[1]"), compared, "{:?}", plc.on);
+        assert_eq!(plc.is("A2.0"), compared && is(5) && is(6), "{:?}", plc.on);
+        released += usize::from(compared);
+    }
+    assert_eq!(released, 4);
+}
