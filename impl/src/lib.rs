@@ -4,6 +4,7 @@
 //! | --- | --- |
 //! | [`sinumerik`] | SINUMERIK 840D / SIMODRIVE 611 digital: one module is one safety function of one monitoring channel |
 //! | [`heidenhain`] | HEIDENHAIN Functional Safety (iTNC 530 HSCI): one module is one safety function of one channel |
+//! | [`srm`] | fail-safe blocks for storage and retrieval machines: one module is one block |
 //! | [`kernel`] | what the monitors of every family are made of: durations, positions, speeds, windows, timers |
 //! | [`units`] | user values to increments, rounded to the safe side |
 //! | [`contract`] | how a step carries its contract |
@@ -30,4 +31,5 @@ pub mod mutant;
 pub mod heidenhain;
 pub mod kernel;
 pub mod sinumerik;
+pub mod srm;
 pub mod units;

@@ -37,6 +37,7 @@ macro_rules! family {
 
 stillpoint_monitors::heidenhain_monitors! { family }
 stillpoint_monitors::sinumerik_monitors! { family }
+stillpoint_monitors::srm_monitors! { family }
 
 /// The lines of the table for a mutant, whose step function `subject` has.
 fn killed_by(mutant: Mutant, subject: &Subject) -> Vec<String> {

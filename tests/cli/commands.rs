@@ -330,6 +330,18 @@ fn an_option_of_a_reading_changes_results() {
     );
 }
 
+/// In the first call an input that is already 1 is an edge or not: the reading stands in initial values, and nowhere else.
+#[test]
+fn an_option_that_only_initial_values_read_is_compared() {
+    let file = "spec/families/srm-fblocks/sbr.toml";
+    let report = json(&stillpoint(&["check", file, "--json", "--readings", "all"]));
+    let readings = report["readings"].as_array().expect("readings");
+    let edge = readings.iter().find(|r| r["option"] == "EDGE_ZERO");
+    let edge = edge.expect("the option of the reading");
+    assert_eq!(edge["explorations"], 1, "{edge}");
+    assert_eq!(edge["complete"], true, "{edge}");
+}
+
 #[test]
 fn reductions_keep_verdicts_and_say_what_they_did() {
     let file = "spec/families/sinumerik-840d/reaction.toml";

@@ -12,6 +12,7 @@ mod machines;
 mod manuals;
 mod messages;
 mod parameters;
+mod patterns;
 mod printed_programs;
 mod profisafe_example;
 mod programs;

@@ -106,6 +106,10 @@ fn explore(piece: &Pairing, mutant: Option<Mutant>) -> Compared {
 /// The machine that a mutant is one of; none where no table states what its monitor does, so that only its contract finds it.
 fn machine(mutant: Mutant) -> Option<Name> {
     let family = families::of_mutant(mutant).expect("a family with monitors");
+    // A family whose tables are still to be written has nothing to be compared with.
+    if family.peers.machines().count() == 0 {
+        return None;
+    }
     let mut names = family
         .peers
         .machines()

@@ -36,11 +36,30 @@ pub fn files(folder: &str, extension: &str) -> Vec<PathBuf> {
 /// The specification files that ship with the project: those of the folders for which code is generated. A family without
 /// `family.toml` is under construction and not among them.
 pub fn specification_files() -> Vec<PathBuf> {
-    let families = std::fs::read_dir(root().join("spec/families")).expect("the families");
-    let families = families.map(|entry| entry.expect("an entry").path());
-    let families = families.filter(|folder| folder.join("family.toml").exists());
+    let families = families().into_iter().filter(|f| registered(f));
+    specifications(families.chain([root().join("spec/bench")]))
+}
+
+/// The specification files of the families under construction: no code is generated for them, and no machine file names them.
+pub fn files_under_construction() -> Vec<PathBuf> {
+    specifications(families().into_iter().filter(|f| !registered(f)))
+}
+
+/// The folders of the families.
+fn families() -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(root().join("spec/families")).expect("the families");
+    entries.map(|e| e.expect("an entry").path()).collect()
+}
+
+/// Whether machine files can be written for the family of this folder.
+fn registered(folder: &Path) -> bool {
+    folder.join("family.toml").exists()
+}
+
+/// The specification files of these folders, in the order of their names.
+fn specifications(folders: impl Iterator<Item = PathBuf>) -> Vec<PathBuf> {
     let mut found = Vec::new();
-    for folder in families.chain([root().join("spec/bench")]) {
+    for folder in folders {
         for entry in std::fs::read_dir(&folder).expect("a folder") {
             let path = entry.expect("an entry").path();
             let is_toml = path.extension().is_some_and(|e| e == "toml");

@@ -136,14 +136,17 @@ fn shown(judged: &Judgement) -> String {
     text
 }
 
-/// Whether any rule, output or property of the system reads an option of the reading.
+/// Whether any rule, output, property or initial value of the system reads an option of the reading.
 fn uses(bound: &Bound, id: &str) -> bool {
     let system = &bound.system;
     let mut found = false;
-    system.nodes(&mut |n| {
+    let mut look = |n: &Node| {
         if let Node::Cell(Space::Param, k) = n {
             found |= system.params[*k as usize].reading.as_deref() == Some(id);
         }
-    });
+    };
+    system.nodes(&mut look);
+    let initial = system.states.iter().filter_map(|s| s.init.as_ref());
+    initial.for_each(|n| n.visit(&mut look));
     found
 }

@@ -6,6 +6,7 @@
 mod drive;
 pub mod heidenhain;
 pub mod sinumerik;
+pub mod srm;
 
 use stillpoint_machine::Machine;
 use stillpoint_monitors::mutant::Mutant;
@@ -14,7 +15,7 @@ use crate::diff::peer::Peers;
 pub use drive::*;
 
 /// The families with monitors. A new one is registered here, and nowhere else in the harness.
-pub static FAMILIES: [&Family; 2] = [&sinumerik::FAMILY, &heidenhain::FAMILY];
+pub static FAMILIES: [&Family; 3] = [&sinumerik::FAMILY, &heidenhain::FAMILY, &srm::FAMILY];
 
 /// A family of drives: what of it is code.
 pub struct Family {
@@ -22,7 +23,7 @@ pub struct Family {
     pub name: &'static str,
     /// The module of its monitors.
     pub module: &'static str,
-    /// Its monitors as peers of its tables, for `diff`.
+    /// Its monitors as peers of its tables, for `diff`: none while it has monitors and no tables.
     pub peers: Peers,
     /// Its deliberately wrong monitors.
     pub mutants: fn() -> Vec<Mutant>,

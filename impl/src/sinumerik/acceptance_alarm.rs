@@ -75,7 +75,7 @@ monitor! { sinumerik::acceptance_alarm;
             => s.outputs.acknowledged && s.after.tested == s.inputs.cause;
 
     /// Outside of the mode an alarm stays, whatever key is pressed.
-    pending_alarm_needs_power_on ["S840D-ACCEPT-742", "S840D-ACCEPT-753"]:
+    pending_alarm_needs_power_on ["S840D-ACCEPT-742", "S840D-ACCEPT-753", "S840D-PARAM-023/b"]:
         when |s| !s.inputs.active && !s.inputs.power_on
             => !s.outputs.acknowledged && s.after.tested == (s.before.tested || s.inputs.cause);
 

@@ -218,7 +218,7 @@ monitor! { sinumerik::acceptance_mode;
             => s.after.mode == Group::None;
 
     /// So does its time.
-    mode_ends_with_its_time ["S840D-ACCEPT-746", "S840D-ACCEPT-750"]:
+    mode_ends_with_its_time ["S840D-ACCEPT-746", "S840D-ACCEPT-750", "S840D-PARAM-023/a", "S840D-PARAM-023/c", "S840D-MDTIM-016/a"]:
         when |s| s.before.mode != Group::None && s.before.lasted.count().saturating_add(1) >= s.config.t_test.count()
             => s.after.mode == Group::None;
 
@@ -233,7 +233,7 @@ monitor! { sinumerik::acceptance_mode;
             => s.after.mode == Group::None && !s.after.permits && !s.after.unlike && !s.outputs.differs;
 
     /// The message of the mode of group 1 is there as long as the mode.
-    mode_is_told ["S840D-ACCEPT-740"]:
+    mode_is_told ["S840D-ACCEPT-740", "S840D-PARAM-023/a"]:
         when |s| s.before.invariant(&s.config)
             => s.outputs.active == (s.after.mode == Group::One);
 
@@ -253,7 +253,7 @@ monitor! { sinumerik::acceptance_mode;
             => s.outputs.inhibit == (s.inputs.own_inhibit || s.inputs.external_cd || s.inputs.other_stop);
 
     /// The software limit switches are off in the mode of group 2 only, with their message.
-    limit_switches_are_off ["S840D-ACCEPT-749", "S840D-ACCEPT-750"]:
+    limit_switches_are_off ["S840D-ACCEPT-749", "S840D-ACCEPT-750", "S840D-PARAM-023/c"]:
         when |s| s.before.invariant(&s.config)
             => s.outputs.limits_off == (s.after.mode == Group::Two);
 
@@ -263,7 +263,7 @@ monitor! { sinumerik::acceptance_mode;
             => s.outputs.show_all == s.inputs.phase;
 
     /// Channels that differ for the whole time are told, and no sooner.
-    difference_is_told ["S840D-ACCEPT-747"]:
+    difference_is_told ["S840D-ACCEPT-747", "S840D-TIMING-702/c"]:
         when |s| s.before.unlike && !s.inputs.nck_reset && s.inputs.other_mode != (s.before.mode == Group::One)
             => s.outputs.differs == (s.before.differed.count() + 1 == s.config.t_differ.count());
 

@@ -156,7 +156,7 @@ fields! {
 
 monitor! { sinumerik::brake_load;
     /// An axis that leaves the window ends the test in the same cycle.
-    window_ends_the_test ["S840D-BRAKE-706"]:
+    window_ends_the_test ["S840D-BRAKE-706", "S840D-PARAM-036/a", "S840D-PARAM-036/c"]:
         when |s| s.before.active && s.inputs.position.distance(s.before.begun) > s.config.window
             => !s.after.active && !s.after.reached && !s.outputs.contour_off && !s.outputs.standstill_off;
 
@@ -172,7 +172,7 @@ monitor! { sinumerik::brake_load;
             => s.after.begun == if s.before.active { s.before.begun } else { s.inputs.position };
 
     /// A test needs its function, no other travel to fixed stop, an attainable torque, a PLC axis and its enables.
-    begins_only_if_possible ["S840D-BRAKE-701", "S840D-BRAKE-703", "S840D-BRAKE-710", "S840D-BRAKE-711"]:
+    begins_only_if_possible ["S840D-BRAKE-701", "S840D-BRAKE-703", "S840D-BRAKE-710", "S840D-BRAKE-711", "S840D-PARAM-036/a"]:
         when |s| s.after.active && !s.before.active
             => s.inputs.select && !s.before.held && s.config.enabled && !s.inputs.fixed_active && !s.inputs.unattainable
                 && s.inputs.plc_axis && s.inputs.enables;

@@ -104,7 +104,7 @@ fields! {
 
 monitor! { sinumerik::brake_torque;
     /// In the direction of the load the brake bears the required torque, whatever the load is.
-    brake_bears_what_is_required ["S840D-BRAKE-702", "S840D-BRAKE-704"]:
+    brake_bears_what_is_required ["S840D-BRAKE-702", "S840D-BRAKE-704", "S840D-PARAM-036/a"]:
         when |s| s.inputs.measure && !s.outputs.unattainable
             => i32::from(s.inputs.measured) - s.after.lower == s.config.borne(s.inputs.measured);
 
@@ -120,12 +120,12 @@ monitor! { sinumerik::brake_torque;
             => s.after.upper - i32::from(s.config.weight) == i32::from(s.config.required);
 
     /// A drive that could not hold the axis with its limit is found when the test is selected.
-    drive_can_hold_the_axis ["S840D-BRAKE-703"]:
+    drive_can_hold_the_axis ["S840D-BRAKE-703", "S840D-PARAM-036/b"]:
         when |s| s.inputs.measure && !s.outputs.unattainable && !s.config.automatic
             => s.after.upper >= i32::from(s.inputs.measured) && i32::from(s.config.required) > i32::from(s.inputs.measured);
 
     /// And nothing else is refused.
-    refused_for_a_reason ["S840D-BRAKE-703"]:
+    refused_for_a_reason ["S840D-BRAKE-703", "S840D-PARAM-036/b"]:
         when |s| s.outputs.unattainable
             => s.inputs.measure && !s.config.automatic && (i32::from(s.config.required) <= i32::from(s.inputs.measured)
                 || 2 * i32::from(s.config.weight) + s.config.borne(s.inputs.measured) < 2 * i32::from(s.inputs.measured));

@@ -154,7 +154,7 @@ fields! {
 }
 
 impl Inputs {
-    /// Whether nothing forbids to wait.
+    /// Whether nothing forbids to wait (S840D-ESR-703).
     fn permits_waiting(&self, config: &Config) -> bool {
         if self.stop_a || self.test {
             return false;

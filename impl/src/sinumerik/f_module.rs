@@ -158,7 +158,7 @@ monitor! { sinumerik::f_module;
             => s.after.net & !s.inputs.outse == 0 && s.after.net & !s.inputs.outsep == 0;
 
     /// Both channels see the same inputs.
-    channels_see_the_same ["S840D-PSAFE-001", "S840D-PSAFE-002", "S840D-PSAFE-004", "S840D-PSAFE-716"]:
+    channels_see_the_same ["S840D-PSAFE-001", "S840D-PSAFE-002", "S840D-PSAFE-004", "S840D-PSAFE-716", "S840D-DIAG-705"]:
         when |s| s.after.shown != 0 || s.before.shown != 0
             => s.outputs.inse == s.after.shown && s.outputs.insep == s.after.shown;
 
@@ -174,7 +174,7 @@ monitor! { sinumerik::f_module;
 
     /// Errors of the communication and of channels stop the axes.
     faults_stop_the_axes ["S840D-PSAFE-018", "S840D-PSAFE-019", "S840D-PSAFE-021", "S840D-PSAFE-024",
-        "S840D-PSAFE-704", "S840D-PSAFE-716", "S840D-P-31"]:
+        "S840D-PSAFE-704", "S840D-PSAFE-716", "S840D-P-31", "S840D-DIAG-705"]:
         when |s| (s.inputs.failed || s.inputs.lifeless || s.inputs.bad != 0 || s.inputs.bad_output) && !s.inputs.power_on
             => s.outputs.stop && s.outputs.inhibit
                 && s.after.a_failed >= s.inputs.failed && s.after.a_life >= s.inputs.lifeless

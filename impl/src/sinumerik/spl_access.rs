@@ -97,7 +97,7 @@ fields! {
 
 monitor! { sinumerik::spl_access;
     /// What the SPL forms is changed by SAFE.SPF alone.
-    only_the_program_writes ["S840D-SPLPROT-004"]:
+    only_the_program_writes ["S840D-SPLPROT-004", "S840D-ALARM-724/a"]:
         when |s| s.inputs.data == Object::Formed && s.inputs.write
             => s.outputs.allowed == s.inputs.by_spl && (s.outputs.alarm == Alarm::A17070) != s.inputs.by_spl;
 

@@ -118,23 +118,23 @@ fields! {
 
 monitor! { sinumerik::spl_comparison;
     /// Every cause raises the alarm in its cycle, also in one with RESET.
-    cause_raises_the_alarm ["S840D-SPLKDV-003", "S840D-SPLKDV-007", "S840D-SPLKDV-018"]:
+    cause_raises_the_alarm ["S840D-SPLKDV-003", "S840D-SPLKDV-007", "S840D-SPLKDV-018", "S840D-KDV-727", "S840D-KDV-728"]:
         when |s| s.inputs.found.is_some() || s.inputs.lost
             || (s.inputs.running && (s.inputs.protected != s.inputs.protected_other || s.inputs.stop_e != s.inputs.stop_e_other))
             => s.after.alarm;
 
     /// With the alarm a protected channel stops, with the stop that it is set to.
-    protected_channel_stops ["S840D-SPLKDV-004", "S840D-SPLKDV-020", "S840D-SPL-015"]:
+    protected_channel_stops ["S840D-SPLKDV-004", "S840D-SPLKDV-020", "S840D-SPL-015", "S840D-KDV-727", "S840D-KDV-728"]:
         when |s| s.inputs.protected && (s.inputs.found.is_some() || s.inputs.lost)
             => s.after.stop && s.outputs.request == if s.inputs.stop_e { ExternalStop::E } else { ExternalStop::D };
 
     /// A channel that is being commissioned begins no stop.
-    commissioning_begins_no_stop ["S840D-SPLKDV-003"]:
+    commissioning_begins_no_stop ["S840D-SPLKDV-003", "S840D-ALARM-725/a"]:
         when |s| !s.inputs.protected && !s.before.stop
             => !s.after.stop && s.outputs.request == ExternalStop::None;
 
     /// Settings that do not match are an error only once the comparison runs.
-    settings_are_compared ["S840D-SPLKDV-007"]:
+    settings_are_compared ["S840D-SPLKDV-007", "S840D-KDV-727"]:
         when |s| s.inputs.running
             => s.outputs.bit_28 == (s.inputs.protected != s.inputs.protected_other)
                 && s.outputs.bad_mode == (s.inputs.stop_e != s.inputs.stop_e_other);

@@ -100,7 +100,7 @@ monitor! { sinumerik::spl_file;
             => s.after.length == s.before.length && s.after.sum == s.before.sum && s.after.changed == s.before.changed;
 
     /// A check finds every deviation of a protected file, its length first.
-    deviation_is_found ["S840D-SPLPROT-001", "S840D-SPLPROT-002"]:
+    deviation_is_found ["S840D-SPLPROT-001", "S840D-SPLPROT-002", "S840D-ALARM-723"]:
         when |s| s.inputs.check && s.inputs.protected && !s.inputs.power_on && s.before.deviation == Deviation::None
             => s.after.deviation == if s.inputs.length != s.before.length {
                 Deviation::Length
@@ -116,7 +116,7 @@ monitor! { sinumerik::spl_file;
             => !s.outputs.alarm_27093;
 
     /// What was found stays until power-on.
-    alarm_until_power_on ["S840D-SPLPROT-002"]:
+    alarm_until_power_on ["S840D-SPLPROT-002", "S840D-ALARM-723"]:
         when |s| s.before.deviation != Deviation::None && !s.inputs.power_on
             => s.outputs.alarm_27093 && s.after.deviation == s.before.deviation;
 

@@ -159,7 +159,8 @@ impl Outputs {
 
 monitor! { sinumerik::spl_link;
     /// A channel that has heard nothing for exactly the time it may, and hears nothing again, has its alarm.
-    silence_is_noticed ["S840D-SPLCOMM-001", "S840D-SPLCOMM-002", "S840D-SPLCOMM-004", "S840D-SPLCOMM-009"]:
+    silence_is_noticed ["S840D-SPLCOMM-001", "S840D-SPLCOMM-002", "S840D-SPLCOMM-004", "S840D-SPLCOMM-009",
+        "S840D-ALARM-722", "S840D-TIMING-701"]:
         when |s| s.before.link == Link::Heard && s.before.time == s.config.patience && s.inputs.running
             && !s.inputs.exchange && !s.inputs.power_on
             => s.outputs.alarm && s.outputs.pending && s.after.link == Link::Lost;
@@ -181,12 +182,12 @@ monitor! { sinumerik::spl_link;
             => s.outputs.alarm && s.outputs.pending;
 
     /// The grace begins whole.
-    grace_is_whole ["S840D-SPLCOMM-003", "S840D-SPLCOMM-007", "S840D-SPLCOMM-009"]:
+    grace_is_whole ["S840D-SPLCOMM-003", "S840D-SPLCOMM-007", "S840D-SPLCOMM-009", "S840D-ALARM-722", "S840D-TIMING-701"]:
         when |s| s.before.link == Link::Heard && s.after.link == Link::Lost
             => s.after.time == s.config.grace && !s.outputs.stopped;
 
     /// It runs down, whatever is heard, and when it is over the reaction is there.
-    grace_runs_down ["S840D-SPLCOMM-003", "S840D-SPLCOMM-004", "S840D-SPLCOMM-010"]:
+    grace_runs_down ["S840D-SPLCOMM-003", "S840D-SPLCOMM-004", "S840D-SPLCOMM-010", "S840D-ALARM-722", "S840D-TIMING-701"]:
         when |s| s.before.link == Link::Lost && !s.inputs.power_on
             => s.after.time == s.before.time.tick() && s.outputs.stopped == s.after.time.is_zero() && s.outputs.alarm;
 
@@ -196,7 +197,7 @@ monitor! { sinumerik::spl_link;
             => s.outputs.stopped && s.outputs.alarm && s.outputs.pending;
 
     /// With the reaction every external output is 0.
-    outputs_are_cleared ["S840D-SPLCOMM-003", "S840D-SPLCOMM-005"]:
+    outputs_are_cleared ["S840D-SPLCOMM-003", "S840D-SPLCOMM-005", "S840D-ALARM-722"]:
         when |s| s.outputs.stopped
             => s.outputs.outsed == [0; 2];
 

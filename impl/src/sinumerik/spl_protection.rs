@@ -82,12 +82,12 @@ monitor! { sinumerik::spl_protection;
             => s.outputs.protected == s.before.protected && s.outputs.stop_e == s.before.stop_e;
 
     /// That the protection is missing is shown when the comparison runs for the first time.
-    missing_protection_is_shown ["S840D-SPLKDV-008"]:
+    missing_protection_is_shown ["S840D-SPLKDV-008", "S840D-ALARM-725/a"]:
         when |s| s.inputs.running && !s.outputs.protected && (s.inputs.power_on || !s.before.shown)
             => s.outputs.alarm_27095 && s.after.shown;
 
     /// It is shown once until power-on, and never of a protected channel or without a comparison.
-    shown_once ["S840D-SPLKDV-008"]:
+    shown_once ["S840D-SPLKDV-008", "S840D-ALARM-725/a"]:
         when |s| !s.inputs.running || s.outputs.protected || (s.before.shown && !s.inputs.power_on)
             => !s.outputs.alarm_27095 && (s.inputs.power_on || s.after.shown == s.before.shown);
 

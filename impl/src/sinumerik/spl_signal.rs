@@ -169,7 +169,8 @@ fields! {
 
 monitor! { sinumerik::spl_signal;
     /// A difference is an error exactly when it has lasted for longer than the time in force now.
-    error_exactly_beyond_the_time ["S840D-SPLKDV-001", "S840D-SPLKDV-002", "S840D-SPLKDV-013", "S840D-SPLKDV-019"]:
+    error_exactly_beyond_the_time ["S840D-SPLKDV-001", "S840D-SPLKDV-002", "S840D-SPLKDV-013", "S840D-SPLKDV-019",
+        "S840D-TIMING-701", "S840D-KDV-727"]:
         when |s| s.before.phase == Phase::Differs && s.inputs.differs() && s.inputs.running && !s.inputs.power_on
             => {
                 // In whole numbers of 64 bits: how long it has lasted in this cycle.

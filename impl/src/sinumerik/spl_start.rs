@@ -264,7 +264,7 @@ monitor! { sinumerik::spl_start;
             => (s.after.stage == Stage::Executing && s.after.by_event && s.outputs.status >> 8 & 1 == 1) == s.inputs.mask;
 
     /// A protected logic without an axis that has safety functions is refused until power-on.
-    protected_needs_an_axis ["S840D-SPLSTART-009"]:
+    protected_needs_an_axis ["S840D-SPLSTART-009", "S840D-ALARM-726"]:
         when |s| s.before.bare && s.inputs.protected_somewhere() && !s.before.compared && !s.inputs.power_on
             => !s.after.compared && (!s.before.denied || s.after.denied);
 

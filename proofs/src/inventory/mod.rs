@@ -292,10 +292,14 @@ macro_rules! inventory {
 
 mod heidenhain;
 mod sinumerik;
+mod srm;
 
 /// Every harness.
 pub fn all() -> impl Iterator<Item = &'static Entry> {
-    let families = sinumerik::ENTRIES.into_iter().chain(heidenhain::ENTRIES);
+    let families = sinumerik::ENTRIES
+        .into_iter()
+        .chain(heidenhain::ENTRIES)
+        .chain(srm::ENTRIES);
     families.flatten()
 }
 

@@ -70,6 +70,7 @@ pub fn clauses<M: Contract>() -> Vec<ClauseText> {
 
 pub mod heidenhain;
 pub mod sinumerik;
+pub mod srm;
 
 /// The step functions under test of every family.
 #[derive(Clone, Copy, Debug)]
@@ -78,6 +79,8 @@ pub struct Subject {
     pub heidenhain: heidenhain::Subject,
     /// SINUMERIK 840D.
     pub sinumerik: sinumerik::Subject,
+    /// Fail-safe blocks for storage and retrieval machines.
+    pub srm: srm::Subject,
 }
 
 impl Subject {
@@ -85,5 +88,6 @@ impl Subject {
     pub const PRODUCTION: Self = Self {
         heidenhain: heidenhain::Subject::PRODUCTION,
         sinumerik: sinumerik::Subject::PRODUCTION,
+        srm: srm::Subject::PRODUCTION,
     };
 }

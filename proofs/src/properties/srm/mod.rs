@@ -1,0 +1,3 @@
+//! Fail-safe blocks for storage and retrieval machines: the step functions under test.
+
+stillpoint_monitors::srm_monitors! { subject }
