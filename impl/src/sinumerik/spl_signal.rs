@@ -25,7 +25,8 @@ config! {
 }
 
 impl Config {
-    /// `plain`: one second, `extended`: ten, both in whole cycles of the comparison (S840D-SPLKDV-001).
+    /// `plain`: one second, `extended`: ten, both in whole cycles of the comparison (S840D-SPLKDV-001). Halves that are one cycle of
+    /// each apart are no difference that lasts as long (S840D-TIMING-703/c).
     ///
     /// # Errors
     /// [`ConfigError::NoDelay`] without a time, [`ConfigError::DelayTooLong`] for more cycles than the times have in the
