@@ -182,11 +182,16 @@ fn alarms_exist() {
 }
 
 /// For each rule a machine that violates it and one beside it that does not: what stands in the file after the family.
-pub(super) const EXAMPLES: [(&str, &str, &str); 69] = [
+pub(super) const EXAMPLES: [(&str, &str, &str); 70] = [
     (
         "the monitoring cycle is longer than 25 ms",
         "control.SYSCLOCK_CYCLE_TIME = \"5 ms\"\ncontrol.SAFETY_SYSCLOCK_TIME_RATIO = 6\naxis.X = { kind = \"linear\" }",
         "control.SYSCLOCK_CYCLE_TIME = \"5 ms\"\ncontrol.SAFETY_SYSCLOCK_TIME_RATIO = 5\naxis.X = { kind = \"linear\" }",
+    ),
+    (
+        "the axis is connected to the safe programmable logic, whose halves may differ",
+        "control = { SYSCLOCK_CYCLE_TIME = \"4 ms\", IPO_SYSCLOCK_CYCLE_TIME_RATIO = 3, PLC_CYCLE_MAX = \"988 ms\" }\naxis.X = { kind = \"linear\", functions = [\"SBH/SG\", \"external stops\"], EXT_STOP_INPUT = [\"OUTSI[1]\", \"1\", \"1\", \"1\"], MODE_SWITCH_TIME = \"2 s\" }",
+        "control = { SYSCLOCK_CYCLE_TIME = \"4 ms\", IPO_SYSCLOCK_CYCLE_TIME_RATIO = 3, PLC_CYCLE_MAX = \"987 ms\" }\naxis.X = { kind = \"linear\", functions = [\"SBH/SG\", \"external stops\"], EXT_STOP_INPUT = [\"OUTSI[1]\", \"1\", \"1\", \"1\"], MODE_SWITCH_TIME = \"2 s\" }",
     ),
     (
         "the message is suppressed while the axis is parked",
