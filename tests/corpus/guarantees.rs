@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 
 use serde::Deserialize;
-use stillpoint_engine::check::{Settings, check};
-use stillpoint_engine::subject::{self, Readings};
+use stillpoint_engine::check::Settings;
 use stillpoint_harness::guarantees::answers;
 use stillpoint_machine::{self as machine, Machine, families};
 use stillpoint_model::{Until, Verdict};
+use stillpoint_tests::guarantees::decided;
 use stillpoint_tests::peer::each;
 use stillpoint_tests::root;
 
@@ -31,23 +31,13 @@ fn guaranteed(
     names: &[&str],
     until: Until,
 ) -> BTreeMap<String, (Verdict, Option<u64>)> {
-    let runs: Vec<_> = machine
-        .runs
-        .iter()
-        .filter(|r| r.guarantee.as_deref().is_some_and(|g| names.contains(&g)))
-        .cloned()
-        .collect();
-    let path = root().join(file);
-    let subject =
-        subject::of_runs(&path, machine, &runs, &Readings::new()).unwrap_or_else(|e| panic!("{e}"));
     let settings = Settings {
         // Where the first violation is enough there are many machines to check, so each has one thread.
         threads: usize::from(until == Until::Violated),
         until,
         ..Settings::default()
     };
-    let checked = check(&subject, &settings, &mut |_| Box::new(()))
-        .unwrap_or_else(|(t, e)| panic!("{t}: {e}"));
+    let (subject, checked) = decided(&root().join(file), machine, names, &settings);
     let list = answers(&subject, &checked).into_iter().map(|answer| {
         let bound = answer.runs.iter().filter_map(|run| run.bound).max();
         (
@@ -178,14 +168,7 @@ fn the_fault_that_breaks_a_guarantee_is_named() {
     ] {
         let machine = changed(file, from, to);
         let path = root().join(file);
-        let runs: Vec<_> = (machine.runs.iter())
-            .filter(|r| r.guarantee.as_deref() == Some(name))
-            .cloned()
-            .collect();
-        let subject = subject::of_runs(&path, machine, &runs, &Readings::new())
-            .unwrap_or_else(|e| panic!("{e}"));
-        let checked = check(&subject, &Settings::default(), &mut |_| Box::new(()))
-            .unwrap_or_else(|(t, e)| panic!("{t}: {e}"));
+        let (subject, checked) = decided(&path, machine, &[name], &Settings::default());
         let list = answers(&subject, &checked);
         let answer = list
             .iter()

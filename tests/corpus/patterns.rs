@@ -1,11 +1,11 @@
 //! Guarantees that no shipped machine asks for: each holds where it is added, and is broken by each of its changes.
 
 use serde::Deserialize;
-use stillpoint_engine::check::{Settings, check};
-use stillpoint_engine::subject::{self, Readings};
+use stillpoint_engine::check::Settings;
 use stillpoint_harness::guarantees::answers;
 use stillpoint_machine::{self as machine, families};
-use stillpoint_model::Verdict;
+use stillpoint_model::{Until, Verdict};
+use stillpoint_tests::guarantees::decided;
 use stillpoint_tests::peer::each;
 use stillpoint_tests::root;
 
@@ -48,14 +48,12 @@ fn judged(added: &Added, change: Option<&Change>) -> (Verdict, bool) {
     }
     let machine = machine::load_bytes(&path, text.into_bytes(), &families(&path));
     let machine = machine.unwrap_or_else(|e| panic!("{}: {e}", added.name));
-    let runs: Vec<_> = (machine.runs.iter())
-        .filter(|run| run.guarantee.as_ref() == Some(&added.name))
-        .cloned()
-        .collect();
-    let subject = subject::of_runs(&path, machine, &runs, &Readings::new());
-    let subject = subject.unwrap_or_else(|e| panic!("{}: {e}", added.name));
-    let checked = check(&subject, &Settings::default(), &mut |_| Box::new(()))
-        .unwrap_or_else(|(t, e)| panic!("{t}: {e}"));
+    let names = [added.name.as_str()];
+    let settings = Settings {
+        until: change.map_or(Until::Complete, |_| Until::Violated),
+        ..Settings::default()
+    };
+    let (subject, checked) = decided(&path, machine, &names, &settings);
     let list = answers(&subject, &checked);
     let answer = (list.iter())
         .find(|answer| answer.guarantee.name == added.name)

@@ -4,12 +4,12 @@
 use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
-use stillpoint_engine::check::{Settings, check};
+use stillpoint_engine::check::Settings;
 use stillpoint_engine::lines;
-use stillpoint_engine::subject::{self, Readings};
 use stillpoint_harness::guarantees::answers;
 use stillpoint_machine as machine;
 use stillpoint_model::Verdict;
+use stillpoint_tests::guarantees::decided;
 use stillpoint_tests::peer::each;
 use stillpoint_tests::root;
 
@@ -33,18 +33,11 @@ fn judged(path: &Path, more: &str, guarantee: &str) -> (Verdict, Vec<Found>) {
     bytes.extend_from_slice(more.as_bytes());
     let machine = machine::load_bytes(path, bytes, &root().join("spec/families"))
         .unwrap_or_else(|e| panic!("{e}"));
-    let runs: Vec<_> = (machine.runs.iter())
-        .filter(|run| run.guarantee.as_deref() == Some(guarantee))
-        .cloned()
-        .collect();
-    let subject =
-        subject::of_runs(path, machine, &runs, &Readings::new()).unwrap_or_else(|e| panic!("{e}"));
     let settings = Settings {
         threads: 1,
         ..Settings::default()
     };
-    let checked = check(&subject, &settings, &mut |_| Box::new(()))
-        .unwrap_or_else(|(t, e)| panic!("{t}: {e}"));
+    let (subject, checked) = decided(path, machine, &[guarantee], &settings);
     let all = answers(&subject, &checked);
     let answer = all.iter().find(|a| a.guarantee.name == guarantee);
     let found = subject.tasks.iter().zip(&checked).flat_map(|(task, one)| {

@@ -4,12 +4,12 @@
 use std::path::PathBuf;
 
 use serde::Deserialize;
-use stillpoint_engine::check::{Settings, check};
+use stillpoint_engine::check::Settings;
 use stillpoint_engine::lines;
-use stillpoint_engine::subject::{self, Readings};
 use stillpoint_harness::guarantees::answers;
 use stillpoint_machine as machine;
 use stillpoint_model::{Until, Verdict};
+use stillpoint_tests::guarantees::decided;
 use stillpoint_tests::peer::each;
 use stillpoint_tests::root;
 
@@ -81,19 +81,12 @@ fn written(k: usize, case: &Case) -> PathBuf {
 fn judged(path: &std::path::Path, guarantee: &str, until: Until) -> (Verdict, Vec<String>) {
     let machine =
         machine::load(path, &root().join("spec/families")).unwrap_or_else(|e| panic!("{e}"));
-    let runs: Vec<_> = (machine.runs.iter())
-        .filter(|run| run.guarantee.as_deref() == Some(guarantee))
-        .cloned()
-        .collect();
-    let subject =
-        subject::of_runs(path, machine, &runs, &Readings::new()).unwrap_or_else(|e| panic!("{e}"));
     let settings = Settings {
         threads: 1,
         until,
         ..Settings::default()
     };
-    let checked = check(&subject, &settings, &mut |_| Box::new(()))
-        .unwrap_or_else(|(t, e)| panic!("{t}: {e}"));
+    let (subject, checked) = decided(path, machine, &[guarantee], &settings);
     let answers = answers(&subject, &checked);
     let found = answers.iter().find(|a| a.guarantee.name == guarantee);
     let named = subject.tasks.iter().zip(&checked).flat_map(|(task, one)| {

@@ -1,8 +1,9 @@
-//! What the end-to-end tests share: where the files of the project are, what tests leave out, how to run other tools, what
-//! fuzzers drive, a reader of BTOR2.
+//! What the end-to-end tests share: where the files of the project are, what tests leave out, how to run other tools, how
+//! single guarantees are decided, what fuzzers drive, a reader of BTOR2.
 
 pub mod btor2;
 pub mod fuzz;
+pub mod guarantees;
 pub mod peer;
 pub mod random;
 

@@ -177,17 +177,15 @@ pub fn check(
             let by = decisive(task, k, &options, settings.interpret);
             decided.insert(k, by.map_err(|e| (task.title.clone(), e))?);
         }
+        let mut judged = outcome.report.properties.iter();
+        let violated = judged.any(|j| j.verdict == Verdict::Violated);
         out.push(Checked {
             outcome,
             unfired,
             excluded,
             decisive: decided,
         });
-        let broken = |one: &Checked| {
-            let judged = &one.outcome.report.properties;
-            judged.iter().any(|j| j.verdict == Verdict::Violated)
-        };
-        if settings.until == Until::Violated && out.last().is_some_and(broken) {
+        if settings.until == Until::Violated && violated {
             break;
         }
     }

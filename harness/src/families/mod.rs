@@ -23,7 +23,7 @@ pub struct Family {
     pub name: &'static str,
     /// The module of its monitors.
     pub module: &'static str,
-    /// Its monitors as peers of its tables, for `diff`: none while it has monitors and no tables.
+    /// Its monitors as peers of its tables, for `diff`: none while the family is under construction.
     pub peers: Peers,
     /// Its deliberately wrong monitors.
     pub mutants: fn() -> Vec<Mutant>,

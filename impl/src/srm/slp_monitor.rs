@@ -9,6 +9,7 @@
 //! AMB-70, AMB-71.
 
 use crate::srm::common::{ErrReact, UNLIMITED, diag, latch, magnitude, release_velocity, rises};
+pub use crate::srm::retraction::Outputs;
 use crate::srm::retraction::{Given, Phase, Range};
 
 config! {
@@ -108,42 +109,6 @@ impl Inputs {
     /// A valid position above the upper limit.
     pub const fn above(&self, config: &Config) -> bool {
         self.pos_valid && self.safe_pos > config.x_positive
-    }
-}
-
-fields! {
-    /// The outputs of one call.
-    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-    pub struct Outputs {
-        /// SLS limit, mm/min.
-        pub sls_threshold: i32,
-        /// The velocity keeps the limit.
-        pub sls_ok: bool,
-        /// The position keeps the lower limit, or retracts.
-        pub x_negative_ok: bool,
-        /// The position keeps the upper limit, or retracts.
-        pub x_positive_ok: bool,
-        /// Motion in the negative direction is permitted.
-        pub move_negative_ok: bool,
-        /// Motion in the positive direction is permitted.
-        pub move_positive_ok: bool,
-        /// Something can be acknowledged.
-        pub ack_req: bool,
-        /// A fault is latched or a parameter is wrong.
-        pub error: bool,
-        /// The diagnostic word.
-        pub diag: u16,
-    }
-}
-
-impl Outputs {
-    /// Every enable is given.
-    pub const fn all_enabled(&self) -> bool {
-        self.sls_ok
-            && self.x_negative_ok
-            && self.x_positive_ok
-            && self.move_negative_ok
-            && self.move_positive_ok
     }
 }
 

@@ -282,11 +282,10 @@ impl Logic {
     ///
     /// # Errors
     /// A program cannot be explored.
-    pub fn times(&self, path: &Path, wiring: &Wiring) -> Result<Times> {
-        let spec = Spec::load(path)?;
+    pub fn times(&self, spec: &Spec, wiring: &Wiring) -> Result<Times> {
         let mut times = Times::default();
-        for wired in self.wired.iter().filter(|w| w.takes_part(&spec)) {
-            let durations = wired.compiled(&spec, wiring)?.durations;
+        for wired in self.wired.iter().filter(|w| w.takes_part(spec)) {
+            let durations = wired.compiled(spec, wiring)?.durations;
             match wired.program {
                 Program::Spf(_) => times.scanned.extend(durations),
                 Program::Stl(_) => times.running.extend(durations),
@@ -300,13 +299,12 @@ impl Logic {
     ///
     /// # Errors
     /// More signals than ports.
-    pub fn shown(&self, path: &Path, own: &Own, place: &Place) -> Result<Wiring> {
-        let spec = Spec::load(path)?;
-        let Some(wired) = self.wired.iter().find(|w| w.takes_part(&spec)) else {
+    pub fn shown(&self, spec: &Spec, own: &Own, place: &Place) -> Result<Wiring> {
+        let Some(wired) = self.wired.iter().find(|w| w.takes_part(spec)) else {
             return Ok(Wiring::new());
         };
         let used = own::used(own, &wired.signals());
-        wired.shown(&spec, &used).ok_or_else(|| {
+        wired.shown(spec, &used).ok_or_else(|| {
             let message = format!(
                 "guarantee {}: {} signals are too many for one question",
                 own.name,

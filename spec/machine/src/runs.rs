@@ -10,6 +10,7 @@ use super::own::{Asks, Own};
 use super::plausible::{Judged, evaluate};
 use super::wired::wiring;
 use super::{Axis, Door, Group, Run, Wiring};
+use stillpoint_lang::Spec;
 use stillpoint_lang::diag::{Diagnostic, Diagnostics, Result};
 
 /// A scaled system has at most this many steps in its longest time.
@@ -96,7 +97,7 @@ pub(super) fn guaranteed(
                 continue;
             }
             decided = true;
-            let system = declared(family, explore, &mut files, logic)?;
+            let mut system = declared(family, explore, &mut files, logic)?;
             if asked.pattern.needs_program && logic.lacks_half(family, &system.machines) {
                 let message = format!(
                     "guarantee {name} is about both halves of the safe logic, and the file has none in the PLC"
@@ -111,24 +112,25 @@ pub(super) fn guaranteed(
                 members: vec![(asked.axis, &asked.values)],
                 axes: vec![asked.axis.to_owned()],
             };
-            let wiring = match logic.takes(&system.machines) {
-                true => wiring(family, explore, &asked, logic)?,
-                false => Wiring::new(),
-            };
-            let path = family.folder.join(&explore.file);
-            let wiring = match &asked.guarantee.own {
-                Some(own) => logic.shown(&path, own, &asked.guarantee.place)?,
-                None => wiring,
-            };
-            let mut system = system;
-            if let Some(scan) = explore.scan.as_ref().filter(|_| !wiring.is_empty()) {
-                let scan = evaluate(family, scan, &asked.values, judged.cycle)?.max(1);
-                let times = logic.times(&path, &wiring)?;
-                system.scanned = times.scanned.into_iter().map(|d| (d, scan)).collect();
-                system.durations.extend(times.running);
+            let mut connected = Wiring::new();
+            let takes = logic.takes(&system.machines);
+            if takes || asked.guarantee.own.is_some() {
+                let spec = Spec::load(&family.folder.join(&explore.file))?;
+                if takes {
+                    connected = wiring(family, explore, &asked, logic, &spec)?;
+                }
+                if let Some(own) = &asked.guarantee.own {
+                    connected = logic.shown(&spec, own, &asked.guarantee.place)?;
+                }
+                if let Some(scan) = explore.scan.as_ref().filter(|_| !connected.is_empty()) {
+                    let scan = evaluate(family, scan, &asked.values, judged.cycle)?.max(1);
+                    let times = logic.times(&spec, &connected)?;
+                    system.scanned = times.scanned.into_iter().map(|d| (d, scan)).collect();
+                    system.durations.extend(times.running);
+                }
             }
             let mut run = bind(family, explore, &system, judged.cycle, &subject, 0)?;
-            run.run.wiring = wiring;
+            run.run.wiring = connected;
             run.run.guarantee = Some(asked.guarantee.name.clone());
             if let Some(own) = &asked.guarantee.own {
                 // It is about the logic, whatever axis there is.

@@ -48,6 +48,7 @@ pub(super) struct Times {
 }
 
 /// The ports of a machine, by type for inputs.
+#[derive(Default)]
 struct Ports {
     inputs: Vec<(String, bool)>,
     outputs: Vec<String>,
@@ -62,6 +63,11 @@ impl Ports {
             inputs: inputs.map(|port| (port.name, port.ty == "BOOL")).collect(),
             outputs: found.outputs.into_iter().map(|port| port.name).collect(),
         })
+    }
+
+    /// Whether the machine is told something through this port.
+    fn is_told(&self, port: &str) -> bool {
+        self.inputs.iter().any(|(input, _)| input == port)
     }
 }
 
@@ -99,8 +105,7 @@ impl Wired {
 
     /// Whether the program is told something through this port of the machine.
     pub fn is_told(&self, spec: &Spec, port: &str) -> bool {
-        let ports = Ports::of(spec, self.name.get_ref());
-        ports.is_some_and(|ports| ports.inputs.iter().any(|(input, _)| input == port))
+        Ports::of(spec, self.name.get_ref()).is_some_and(|ports| ports.is_told(port))
     }
 
     /// The table that it is with these signals.
@@ -109,9 +114,10 @@ impl Wired {
     /// It cannot be explored.
     pub fn compiled(&self, spec: &Spec, wiring: &Wiring) -> Result<Compiled> {
         let signature = Signature::of(spec, self.name.get_ref())?;
+        let ports = Ports::of(spec, self.name.get_ref()).unwrap_or_default();
         match &self.program {
-            Program::Spf(program) => program.compile(&self.of_nck(spec, signature, wiring)),
-            Program::Stl(program) => program.compile(&self.of_plc(spec, signature, wiring)?),
+            Program::Spf(program) => program.compile(&of_nck(&ports, signature, wiring)),
+            Program::Stl(program) => program.compile(&self.of_plc(&ports, signature, wiring)?),
         }
     }
 
@@ -150,35 +156,12 @@ impl Wired {
         Some(wiring)
     }
 
-    fn of_nck(&self, spec: &Spec, signature: Signature, wiring: &Wiring) -> spf::Interface {
-        let mut interface = spf::Interface {
-            signature,
-            inputs: Vec::new(),
-            outputs: Vec::new(),
-            scan: Some(SCAN.to_owned()),
-            readings: spf::Readings::default(),
-        };
-        for (port, signal) in wiring {
-            let plain = signal.strip_prefix("NOT ").unwrap_or(signal);
-            match plain.parse().ok() {
-                Some(variable) if self.is_told(spec, port) => {
-                    interface.inputs.push((variable, port.clone()));
-                }
-                Some(variable) => {
-                    let inverted = plain != signal;
-                    let output = spf::Output::Variable { variable, inverted };
-                    interface.outputs.push((port.clone(), output));
-                }
-                None => {
-                    let output = spf::Output::Constant(signal == "TRUE");
-                    interface.outputs.push((port.clone(), output));
-                }
-            }
-        }
-        interface
-    }
-
-    fn of_plc(&self, spec: &Spec, signature: Signature, wiring: &Wiring) -> Result<stl::Interface> {
+    fn of_plc(
+        &self,
+        ports: &Ports,
+        signature: Signature,
+        wiring: &Wiring,
+    ) -> Result<stl::Interface> {
         let mut interface = stl::Interface {
             signature,
             inputs: Vec::new(),
@@ -196,7 +179,7 @@ impl Wired {
                 let fault = Diagnostic::new(&self.file, &self.source, None, why);
                 fault.help("name a signal that the half of the PLC has too")
             })?;
-            match self.is_told(spec, port) {
+            match ports.is_told(port) {
                 true => interface.inputs.push((bit, port.clone())),
                 false => {
                     let inverted = plain != signal;
@@ -209,6 +192,35 @@ impl Wired {
     }
 }
 
+/// How SAFE.SPF is connected to the ports of the machine that it stands for.
+fn of_nck(ports: &Ports, signature: Signature, wiring: &Wiring) -> spf::Interface {
+    let mut interface = spf::Interface {
+        signature,
+        inputs: Vec::new(),
+        outputs: Vec::new(),
+        scan: Some(SCAN.to_owned()),
+        readings: spf::Readings::default(),
+    };
+    for (port, signal) in wiring {
+        let plain = signal.strip_prefix("NOT ").unwrap_or(signal);
+        match plain.parse().ok() {
+            Some(variable) if ports.is_told(port) => {
+                interface.inputs.push((variable, port.clone()));
+            }
+            Some(variable) => {
+                let inverted = plain != signal;
+                let output = spf::Output::Variable { variable, inverted };
+                interface.outputs.push((port.clone(), output));
+            }
+            None => {
+                let output = spf::Output::Constant(signal == "TRUE");
+                interface.outputs.push((port.clone(), output));
+            }
+        }
+    }
+    interface
+}
+
 /// The signals of the program by the ports of what it replaces, from the values of the machine file.
 ///
 /// # Errors
@@ -218,8 +230,8 @@ pub(super) fn wiring(
     explore: &Explore,
     asked: &Asked<'_>,
     logic: &Logic,
+    spec: &Spec,
 ) -> Result<Wiring> {
-    let spec = Spec::load(&family.folder.join(&explore.file))?;
     let mut wiring = Wiring::new();
     for wire in &explore.wires {
         let (port, name) = (&wire.port, &wire.name);
@@ -228,7 +240,7 @@ pub(super) fn wiring(
         if code == 0 && wire.optional {
             continue;
         }
-        if code == 0 && logic.is_told(&spec, port) {
+        if code == 0 && logic.is_told(spec, port) {
             let guarantee = asked.guarantee;
             let message = format!(
                 "guarantee {}: the program is not told of it: {name} names no signal",

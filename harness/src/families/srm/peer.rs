@@ -2,7 +2,7 @@
 
 use crate::diff::peer::Peers;
 
-/// None yet: the blocks have their contracts before their tables.
+/// None yet: machine files cannot name the family, and no code is made of its tables.
 pub(super) const PEERS: Peers = Peers {
     machines: &[],
     systems: &[],

@@ -18,6 +18,7 @@ pub use laws::*;
 
 use crate::srm::common::{ErrReact, diag, latch, magnitude, release_velocity, rises};
 use crate::srm::interpolation::Curve;
+pub use crate::srm::retraction::Outputs;
 use crate::srm::retraction::{Given, Phase, Range};
 
 fields! {
@@ -196,31 +197,6 @@ impl Inputs {
     /// A valid position above the upper limit, or limits that are crossed.
     pub const fn above(&self) -> bool {
         self.pos_valid && self.safe_pos > self.x_positive || self.crossed()
-    }
-}
-
-fields! {
-    /// The outputs of one call.
-    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-    pub struct Outputs {
-        /// SLS limit, mm/min.
-        pub sls_threshold: i32,
-        /// The velocity keeps the limit.
-        pub sls_ok: bool,
-        /// The position keeps the lower limit, or retracts.
-        pub x_negative_ok: bool,
-        /// The position keeps the upper limit, or retracts.
-        pub x_positive_ok: bool,
-        /// Motion in the negative direction is permitted.
-        pub move_negative_ok: bool,
-        /// Motion in the positive direction is permitted.
-        pub move_positive_ok: bool,
-        /// Something can be acknowledged.
-        pub ack_req: bool,
-        /// A fault is latched or a parameter is wrong.
-        pub error: bool,
-        /// The diagnostic word.
-        pub diag: u16,
     }
 }
 
