@@ -3,7 +3,8 @@
 //! The values that it gives to each number are combined anew. Each combination that the constructor accepts and whose state is
 //! consistent must be among those that it enumerates; what it leaves out of them it leaves out on purpose or by mistake.
 
-use std::collections::{BTreeMap, HashSet};
+use std::collections::{BTreeMap, HashMap, HashSet};
+use std::ops::ControlFlow;
 
 use stillpoint_monitors::contract::Contract;
 use stillpoint_monitors::fields::{get, set, walk};
@@ -31,12 +32,13 @@ pub struct Found {
 /// without parts).
 pub type Tied<'a> = (u32, &'a str);
 
-/// Combines the values of a draw; those that are tied keep the combinations that it gives them.
+/// Combines the values of a draw; those that are tied keep the combinations that it gives them. One answer for each list
+/// of tied numbers.
 pub fn check<M: Contract>(
     domain: Domain,
     case: impl Fn(&mut Odometer) -> Option<Case<M>>,
-    tied: &[Tied],
-) -> Found {
+    tied: &[Vec<Tied>],
+) -> Vec<Found> {
     let each = |found: &mut dyn FnMut(u32, &[i64])| {
         let mut numbers = Vec::new();
         enumerate(domain, 0, |source| {
@@ -48,36 +50,50 @@ pub fn check<M: Contract>(
         });
     };
     let paths = paths::<M>();
-    let mut parts: BTreeMap<u32, Vec<Unit>> = BTreeMap::new();
+    let mut all: Vec<Parts> = tied.iter().map(|_| Parts::new()).collect();
     each(&mut |part, numbers| {
-        let units = parts
-            .entry(part)
-            .or_insert_with(|| units(&paths, part, tied));
-        units.iter_mut().for_each(|unit| unit.meet(numbers));
+        for (parts, tied) in all.iter_mut().zip(tied) {
+            let units = parts
+                .entry(part)
+                .or_insert_with(|| units(&paths, part, tied));
+            units.iter_mut().for_each(|unit| unit.meet(numbers));
+        }
     });
-    let mut open = HashSet::new();
-    combine::<M>(&parts, &mut |part, numbers| {
-        open.insert(hash(part, numbers));
-    });
-    let steps = open.len();
+    let mut found = vec![Found::default(); all.len()];
+    // The steps that no draw has made yet, each with the places of the lists that combine it.
+    let mut open: HashMap<u64, Vec<usize>> = HashMap::new();
+    for (place, (found, parts)) in found.iter_mut().zip(&all).enumerate() {
+        combine::<M>(parts, &mut |part, numbers| {
+            let of = open.entry(hash(part, numbers)).or_default();
+            if of.last() != Some(&place) {
+                of.push(place);
+                found.steps += 1;
+            }
+            ControlFlow::Continue(())
+        });
+    }
     each(&mut |part, numbers| {
         open.remove(&hash(part, numbers));
     });
-    let mut example = String::new();
-    combine::<M>(&parts, &mut |part, numbers| {
-        if example.is_empty() && open.contains(&hash(part, numbers)) {
+    for (place, (found, parts)) in found.iter_mut().zip(&all).enumerate() {
+        let missed = |of: &Vec<usize>| of.contains(&place);
+        found.missed = open.values().filter(|of| missed(of)).count();
+        if found.missed == 0 {
+            continue;
+        }
+        combine::<M>(parts, &mut |part, numbers| {
+            if !open.get(&hash(part, numbers)).is_some_and(missed) {
+                return ControlFlow::Continue(());
+            }
             let named = paths.iter().zip(numbers);
             let named: Vec<String> = named
                 .map(|(path, number)| format!("{} {number}", path.join(".")))
                 .collect();
-            example = format!("part {part}: {}", named.join(", "));
-        }
-    });
-    Found {
-        steps,
-        missed: open.len(),
-        example,
+            found.example = format!("part {part}: {}", named.join(", "));
+            ControlFlow::Break(())
+        });
     }
+    found
 }
 
 /// Reads the numbers of a step.
@@ -130,6 +146,9 @@ impl Unit {
     }
 }
 
+/// The numbers of each part.
+type Parts = BTreeMap<u32, Vec<Unit>>;
+
 /// One for each row of names that are tied in the part, and for each other number.
 fn units(paths: &[Path], part: u32, tied: &[Tied]) -> Vec<Unit> {
     let tied = tied.iter().filter(|(of, _)| *of == part);
@@ -147,7 +166,7 @@ fn units(paths: &[Path], part: u32, tied: &[Tied]) -> Vec<Unit> {
 }
 
 /// Combines the values of each part. Only what is a step counts.
-fn combine<M: Contract>(parts: &BTreeMap<u32, Vec<Unit>>, step: &mut dyn FnMut(u32, &[i64])) {
+fn combine<M: Contract>(parts: &Parts, step: &mut dyn FnMut(u32, &[i64]) -> ControlFlow<()>) {
     for (part, units) in parts {
         let counts: Vec<u64> = units.iter().map(|unit| unit.values.len() as u64).collect();
         let all = (counts.iter()).try_fold(1, |all: u64, count| all.checked_mul(*count));
@@ -177,7 +196,9 @@ fn combine<M: Contract>(parts: &BTreeMap<u32, Vec<Unit>>, step: &mut dyn FnMut(u
             if M::accepted(config) && M::invariant(state, config) {
                 // A number of a value that is missing has no effect: it is read as it is after all.
                 read::<M>(&case, &mut effective);
-                step(*part, &effective);
+                if step(*part, &effective).is_break() {
+                    return;
+                }
             }
         }
     }

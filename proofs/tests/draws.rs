@@ -1,5 +1,6 @@
 //! Draws that are written by hand leave nothing out but what this table says: see `complete`.
 
+use rayon::prelude::*;
 use stillpoint_proofs::complete::{Found, Tied};
 use stillpoint_proofs::inventory;
 
@@ -55,50 +56,62 @@ const TIED: &[(&str, &[u32], &str, &str)] = &[
     ),
 ];
 
-/// What the draw of a harness leaves out, with the rows of the table but the one of this place.
-fn found(entry: &inventory::Entry, without: Option<usize>) -> Option<Found> {
+/// The rows of the table for a harness but the one of this place.
+fn rows(id: &str, without: Option<usize>) -> Vec<Tied<'static>> {
     let rows = TIED.iter().enumerate();
-    let rows =
-        rows.filter(|(place, (id, ..))| *id == entry.id && without.is_none_or(|row| row != *place));
-    let tied: Vec<Tied> = rows
-        .flat_map(|(_, (_, parts, name, _))| parts.iter().map(move |part| (*part, *name)))
+    let rows = rows.filter(|(place, row)| row.0 == id && without != Some(*place));
+    rows.flat_map(|(_, (_, parts, name, _))| parts.iter().map(move |part| (*part, *name)))
+        .collect()
+}
+
+/// What is wrong with the draw of a harness or with its rows: they say what it leaves out, and each of them is needed.
+fn wrong(entry: &inventory::Entry) -> Vec<String> {
+    let Some(by_hand) = entry.by_hand else {
+        return Vec::new();
+    };
+    let own: Vec<usize> = (0..TIED.len())
+        .filter(|place| TIED.get(*place).is_some_and(|row| row.0 == entry.id))
         .collect();
-    Some((entry.by_hand?)(&tied))
-}
-
-#[test]
-fn draws_by_hand_leave_out_only_what_the_table_says() {
+    let lists: Vec<_> = std::iter::once(None)
+        .chain(own.iter().copied().map(Some))
+        .map(|without| rows(entry.id, without))
+        .collect();
+    let mut found = by_hand(&lists).into_iter();
+    let Found {
+        steps,
+        missed,
+        example,
+    } = found.next().unwrap_or_default();
+    let id = entry.id;
     let mut wrong = Vec::new();
-    for entry in inventory::all() {
-        let Some(found) = found(entry, None) else {
-            continue;
-        };
-        println!("{}: {} combinations are steps", entry.id, found.steps);
-        if found.steps < 100 {
+    if steps < 100 {
+        wrong.push(format!("{id}: only {steps} combinations are steps"));
+    }
+    if missed > 0 {
+        wrong.push(format!(
+            "{id}: {missed} of {steps} steps are never drawn: {example}"
+        ));
+    }
+    for (row, found) in own.iter().filter_map(|place| TIED.get(*place)).zip(found) {
+        if found.missed == 0 {
             wrong.push(format!(
-                "{}: only {} combinations are steps",
-                entry.id, found.steps
-            ));
-        }
-        if found.missed > 0 {
-            wrong.push(format!(
-                "{}: {} of {} steps are never drawn: {}",
-                entry.id, found.missed, found.steps, found.example
+                "{id}, parts {:?}: {} leaves nothing out",
+                row.1, row.2
             ));
         }
     }
-    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    wrong
 }
 
 #[test]
-fn every_row_of_the_table_is_needed() {
-    for (place, (id, parts, name, _)) in TIED.iter().enumerate() {
-        let entry = inventory::all().find(|entry| entry.id == *id);
-        let found = entry.and_then(|entry| found(entry, Some(place)));
-        let found = found.unwrap_or_else(|| panic!("{id} has no draw by hand"));
-        assert!(
-            found.missed > 0,
-            "{id}, parts {parts:?}: {name} leaves nothing out"
-        );
-    }
+fn draws_by_hand_leave_out_what_the_table_says_and_nothing_else() {
+    let entries: Vec<_> = inventory::all().collect();
+    let unknown = (TIED.iter())
+        .filter(|row| !(entries.iter()).any(|entry| entry.id == row.0 && entry.by_hand.is_some()))
+        .map(|row| format!("{} has no draw by hand", row.0));
+    let wrong: Vec<String> = (entries.par_iter())
+        .flat_map_iter(|entry| wrong(entry))
+        .chain(unknown.collect::<Vec<_>>())
+        .collect();
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }

@@ -34,6 +34,12 @@ pub fn tools(programs: &[&str]) -> bool {
     true
 }
 
+/// Whether a program is there and starts with this option: for a tool that another one can stand in for.
+pub fn starts(program: &str, option: &str) -> bool {
+    let output = Command::new(program).arg(option).output();
+    output.is_ok_and(|output| output.status.success())
+}
+
 /// A peer that `.ci/peers` has put into `target/tools`, if it is there. A user without it sees that the test was skipped; where
 /// the environment has `CI`, it fails then.
 ///

@@ -38,7 +38,7 @@ pub struct Entry {
     /// Tries every choice.
     pub enumerate: fn(&Subject) -> Count,
     /// What the enumeration of a contract leaves out whose draw is written by hand.
-    pub by_hand: Option<fn(&[Tied]) -> Found>,
+    pub by_hand: Option<fn(&[Vec<Tied>]) -> Vec<Found>>,
     /// Makes one random run.
     pub sample: fn(&mut Tape<'_>, &Subject) -> Verdict,
 }

@@ -13,7 +13,7 @@ use stillpoint_tests::{exceptions, files, specification_files};
 use super::{SLICE, SYMMETRY, YARDSTICK, compare, full, of, reduced};
 
 /// Systems with more transitions than this are not explored several times here: they are exceptions.
-const MOST: u128 = 50_000_000;
+const MOST: u128 = 6_000_000;
 
 /// The shipped systems that are small enough, each with its unreduced exploration, made once for all tests.
 pub(crate) fn shipped() -> &'static [(Bound, Outcome)] {

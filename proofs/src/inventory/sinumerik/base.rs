@@ -6,7 +6,7 @@ use crate::inventory::NARROW;
 inventory! {
     [contract stop_contract on sinumerik::stop {
         property: "every clause of the arbitration's contract: priority, latching, acknowledgement, timers, actions",
-        tries: "t_b t_c t_d t_e: 0 2; timer: 0..2",
+        tries: "t_b t_d: 0 2; t_c t_e: 2; timer: 0..2",
         caveat: "longer times only under Kani and in samples; the code compares times, it never treats one by its value",
     }]
     [contract external_contract on sinumerik::external {
@@ -21,8 +21,8 @@ inventory! {
     }]
     [contract [kani(stub(stillpoint_monitors::kernel::Speed::reduced, crate::kani_source::reduced_small))] selection_contract on sinumerik::selection {
         property: "every clause of the selection's contract: delays, override, forced operating stop, reference position, feedback",
-        domain: Domain { delays: &[0, 1, 3], highest_speed: 2 },
-        domain_text: "t_vel 0, 1 or 3 cycles; limits 0 to 2 in every order; no override, or factors of 1 or 100 % at 0 and elsewhere; two positions; every consistent state and input",
+        domain: Domain { delays: &[0, 2], highest_speed: 2 },
+        domain_text: "t_vel 0 or 2 cycles; limits 0 to 2 in every order; no override, or factors of 1 or 100 % at 0 and elsewhere; two positions; every consistent state and input",
         caveat: "the comparison of speed and position with the limits is not part of this monitor; Kani takes no override: selection_override and units_factor do",
     }]
     [contract reference_contract on sinumerik::reference {
@@ -117,8 +117,8 @@ inventory! {
         property: "two runs of a forced operating stop that differ in the signals only are the same",
         requirements: ["S840D-P-07", "S840D-STOP-080", "S840D-EXT-018"],
         covers: ["the signals differ and one of them de-selects"],
-        domain: Domain { delays: &[0, 2], highest_speed: 1 },
-        domain_text: "t_vel 0 or 2 cycles; limits 0 or 1; with and without override; every consistent state; every pair of signals",
+        domain: Domain { delays: &[1], highest_speed: 1 },
+        domain_text: "t_vel 1 cycle; limits 0 or 1; with and without override; every consistent state; every pair of signals",
         bound: "one step from any consistent state; inductive",
         caveat: "Kani takes limits below a factor of at most 15, see units_factor",
     }]
