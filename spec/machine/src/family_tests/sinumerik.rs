@@ -182,7 +182,7 @@ fn alarms_exist() {
 }
 
 /// For each rule a machine that violates it and one beside it that does not: what stands in the file after the family.
-pub(super) const EXAMPLES: [(&str, &str, &str); 70] = [
+pub(super) const EXAMPLES: [(&str, &str, &str); 73] = [
     (
         "the monitoring cycle is longer than 25 ms",
         "control.SYSCLOCK_CYCLE_TIME = \"5 ms\"\ncontrol.SAFETY_SYSCLOCK_TIME_RATIO = 6\naxis.X = { kind = \"linear\" }",
