@@ -6,14 +6,14 @@ use std::path::Path;
 use serde_json::{Value, json};
 use stillpoint_lang::catalogue::{Catalogue, requirement_id};
 use stillpoint_lang::diag::{Result, nearest};
-use stillpoint_machine::data::{Allowed, Datum, FamilyData};
+use stillpoint_machine::data::{Allowed, Datum, FamilyData, Told};
 use stillpoint_machine::uses::{Uses, uses};
 
 use crate::report::wrapped;
 
-/// The parameters of the family that a user may call so. `Err`: what to write instead.
+/// The parameters of the family, and the arguments of its guarantees, that a user may call so. `Err`: what to write instead.
 pub fn find<'a>(data: &'a FamilyData, word: &str) -> std::result::Result<Vec<&'a Datum>, String> {
-    let all = || data.parameters.iter();
+    let all = || data.parameters.iter().chain(&data.arguments);
     let found: Vec<&Datum> = all().filter(|d| d.is_called(word)).collect();
     if !found.is_empty() {
         return Ok(found);
@@ -52,12 +52,50 @@ pub fn list(name: &str, data: &FamilyData) -> String {
             wrapped(&mut out, &" ".repeat(width + 3), &text(datum));
         }
     }
+    if !data.patterns.is_empty() {
+        out.push_str("\npatterns of [guarantee.NAME]\n");
+    }
+    for told in &data.patterns {
+        wrapped(
+            &mut out,
+            &format!("  {:<width$} ", told.name),
+            &arguments(told),
+        );
+    }
     let _ = writeln!(
         out,
-        "\n{} parameters; one of them whole: stillpoint params {name} NAME",
+        "\n{} parameters; one of them, a pattern or its argument whole: stillpoint params {name} NAME",
         data.parameters.len()
     );
     out
+}
+
+/// A pattern of guarantees whole, as text.
+pub fn pattern(told: &Told) -> String {
+    let mut out = format!("{}: a pattern of [guarantee.NAME]\n", told.name);
+    for (head, text) in [
+        ("says:", &told.text),
+        ("arguments:", &arguments(told)),
+        ("source:", &told.source),
+    ] {
+        wrapped(&mut out, &format!("  {head:<11} "), text);
+    }
+    out
+}
+
+/// A pattern of guarantees as JSON.
+pub fn pattern_to_json(told: &Told) -> Value {
+    json!({
+        "pattern": told.name, "text": told.text, "source": told.source, "required": told.required, "optional": told.optional,
+    })
+}
+
+/// The arguments of a pattern, first those that a guarantee has to give.
+fn arguments(told: &Told) -> String {
+    let lists = [("", &told.required), ("may have ", &told.optional)];
+    let lists = lists.iter().filter(|(_, list)| !list.is_empty());
+    let lists = lists.map(|(head, list)| format!("{head}{}", list.join(", ")));
+    lists.collect::<Vec<_>>().join("; ")
 }
 
 /// One parameter whole, as text.

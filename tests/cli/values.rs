@@ -169,11 +169,13 @@ fn an_acceptance_is_checked_itself() {
 #[test]
 fn a_parameter_is_told_whole_however_it_is_called() {
     let mut said = String::new();
-    let cases: [(&[&str], i32); 10] = [
+    let cases: [(&[&str], i32); 12] = [
         (&["params", "sinumerik-840d"], 0),
         (&["params", "sinumerik-840d", "STANDSTILL_TOL"], 0),
         (&["params", "heidenhain-fs", "525"], 0),
         (&["params", "heidenhain-fs", "SMP610"], 0),
+        (&["params", "sinumerik-840d", "contactor"], 0),
+        (&["params", "heidenhain-fs", "device_contacts"], 0),
         (&["params", "sinumerik-840d", "STANDSTIL_TOL"], 2),
         (&["params", "sinumerik-840d", "36931x"], 2),
         (&["params", "sinumerik-840d", "SWITCH_TIME"], 2),

@@ -15,6 +15,7 @@ use stillpoint_tests::root;
 
 const LATHE: &str = "spec/machines/lathe-840d";
 const INTERLOCK: &str = "tests/machines/interlock-840d";
+const PRESS: &str = "tests/machines/press-840d";
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -124,6 +125,18 @@ fn the_lathe_keeps_what_it_guarantees() {
 fn a_door_that_is_confirmed_keeps_what_it_guarantees() {
     let machine = root().join(format!("{INTERLOCK}.toml"));
     for name in ["hold_to_run", "acknowledge", "no_start", "slow", "stops"] {
+        assert_eq!(
+            judged(&machine, name, Until::Complete).0,
+            Verdict::Holds,
+            "{name}"
+        );
+    }
+}
+
+#[test]
+fn a_press_with_modes_a_lock_and_contactors_keeps_what_it_guarantees() {
+    let machine = root().join(format!("{PRESS}.toml"));
+    for name in ["modes", "lock", "hydraulics", "no_start"] {
         assert_eq!(
             judged(&machine, name, Until::Complete).0,
             Verdict::Holds,

@@ -15,7 +15,8 @@ use super::{Failure, emit};
 pub struct Arguments {
     /// The family, such as sinumerik-840d, or its folder
     family: PathBuf,
-    /// One parameter, by its name in a machine file or as the manual calls it: STANDSTILL_TOL, MD36930, 1330, SMP525.x
+    /// One parameter, by its name in a machine file or as the manual calls it: STANDSTILL_TOL, MD36930, 1330, SMP525.x; or a pattern of
+    /// guarantees, or an argument of one
     name: Option<String>,
     /// Print JSON
     #[arg(long)]
@@ -35,6 +36,14 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         }
         return Ok(0);
     };
+    let mut patterns = data.patterns.iter();
+    if let Some(told) = patterns.find(|told| told.name == *word) {
+        match arguments.json {
+            true => emit_json(params::pattern_to_json(told)),
+            false => emit(&params::pattern(told)),
+        }
+        return Ok(0);
+    }
     let found = params::find(&data, word)
         .map_err(|help| Failure::Other(format!("{name} has no parameter '{word}'; {help}")))?;
     let catalogue = catalogue::load(folder.parent().unwrap_or(Path::new(".")))?;

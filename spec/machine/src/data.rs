@@ -16,6 +16,25 @@ pub struct FamilyData {
     pub functions: Vec<Enabled>,
     /// The parameters of the control, of an axis, of a group and of a door, in the order of the data.
     pub parameters: Vec<Datum>,
+    /// What a guarantee may say, in the order of its patterns, each once.
+    pub arguments: Vec<Datum>,
+    /// The patterns of guarantees, in the order of the data.
+    pub patterns: Vec<Told>,
+}
+
+/// A pattern of guarantees.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Told {
+    /// Its name in a machine file.
+    pub name: String,
+    /// What is guaranteed, with the names of its arguments in braces.
+    pub text: String,
+    /// Where it comes from.
+    pub source: String,
+    /// The arguments without a default.
+    pub required: Vec<String>,
+    /// The other ones.
+    pub optional: Vec<String>,
 }
 
 /// A function that can be enabled for an axis.
@@ -34,7 +53,7 @@ pub struct Enabled {
 pub struct Datum {
     /// Its name in a machine file.
     pub name: String,
-    /// Where it stands there: `control`, `axis`, `group` or `door`.
+    /// Where it stands there: `control`, `axis`, `group`, `door` or `guarantee`.
     pub table: &'static str,
     /// The manual's names; empty for what is no machine datum.
     pub manual: String,
@@ -81,8 +100,28 @@ pub fn load(folder: &Path) -> Result<FamilyData> {
         let datum = move |(name, param): (&String, &Param)| datum(name, table, param);
         params.iter().map(datum)
     });
+    let mut arguments: Vec<Datum> = Vec::new();
+    for (name, param) in family.patterns.values().flat_map(|p| &p.arguments) {
+        if !arguments.iter().any(|known| known.name == *name) {
+            arguments.push(datum(name, "guarantee", param));
+        }
+    }
+    let patterns = family.patterns.iter().map(|(name, pattern)| {
+        let needed = |argument: &&String| pattern.required.contains(argument);
+        let all = pattern.arguments.keys();
+        let (required, optional) = all.partition::<Vec<_>, _>(needed);
+        Told {
+            name: name.clone(),
+            text: pattern.text.clone(),
+            source: pattern.source.clone(),
+            required: required.into_iter().cloned().collect(),
+            optional: optional.into_iter().cloned().collect(),
+        }
+    });
     Ok(FamilyData {
         parameters: parameters.collect(),
+        arguments,
+        patterns: patterns.collect(),
         functions: (family.functions.iter())
             .map(|f| Enabled {
                 name: f.name.clone(),

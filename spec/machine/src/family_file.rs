@@ -17,6 +17,7 @@ use super::family::{
 use super::guarantee;
 use super::signal::{Bits, Signals};
 use super::value::{Raw, number};
+use super::whole::before;
 use stillpoint_lang::diag::Result;
 use stillpoint_lang::read_text;
 use stillpoint_lang::syntax::parse_expr;
@@ -267,8 +268,14 @@ impl Check {
         known.whole.extend(group.iter().flat_map(owned));
         let group_lets = self.lets(data.group_let, &mut known.whole);
         known.inherit(&group_lets);
-        known.axis.push("k".to_owned());
-        known.whole.push("k".to_owned());
+        for (name, formula) in &group_lets {
+            let roundings = known.roundings(formula);
+            known.roundings.insert(before(name), roundings);
+            known.whole.push(before(name));
+        }
+        for names in [&mut known.axis, &mut known.door, &mut known.whole] {
+            names.push("k".to_owned());
+        }
         let rules = data.plausibility.into_iter();
         let rules = rules.filter_map(|r| self.rule(r, &known)).collect();
         let explore = data.explore.into_iter();

@@ -19,6 +19,7 @@ use super::plausible::{Judged, evaluate, insert};
 use super::runs::Parts;
 use super::template::filled;
 use super::uses::{of_system, of_wires};
+use super::whole::before;
 use super::{Machine, Place, Settings};
 use stillpoint_lang::diag::Result;
 
@@ -187,7 +188,8 @@ impl Context<'_> {
             About::Door => self.known.door.clone(),
         };
         names.extend(arguments.keys().cloned());
-        names.extend(self.group_lets.iter().map(|(name, _)| name.clone()));
+        let lets = self.group_lets.iter();
+        names.extend(lets.flat_map(|(name, _)| [name.clone(), before(name)]));
         names.push(PROGRAMMED.to_owned());
         let mut roundings = self.known.roundings.clone();
         let times = arguments
@@ -402,6 +404,8 @@ pub(super) fn asked<'a>(
                     None => vec![evaluate(family, formula, &values, judged.cycle)?],
                 };
                 values.insert(name.clone(), value);
+                let sum = group.and_then(|(_, values)| values.get(&before(name)).cloned());
+                values.insert(before(name), sum.unwrap_or(vec![0]));
             }
             if let Some(door) = door {
                 insert(&mut values, &door.values);

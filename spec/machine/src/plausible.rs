@@ -4,7 +4,7 @@ use super::document::Findings;
 use super::eval::{Values, eval};
 use super::family::{Family, Formula, Rule, Scope};
 use super::read::Draft;
-use super::whole::Whole;
+use super::whole::{Whole, add_before};
 use super::{Axis, AxisKind, Door, Group, Place, Settings};
 use stillpoint_lang::diag::{Diagnostic, Result};
 use stillpoint_lang::syntax::ast::{Expr, Kind};
@@ -89,6 +89,7 @@ pub(super) fn judge(
         judge.rules(Scope::Group, &mut values, &subject)?;
         groups.push(values);
     }
+    add_before(family, &draft.groups, &mut groups);
     for door in &draft.doors {
         for (axis, values) in draft.axes.iter().zip(&axes) {
             if door.axes.iter().any(|name| *name.get_ref() == axis.name) {

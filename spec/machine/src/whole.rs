@@ -2,7 +2,7 @@
 //! everything. A value of a part is a list there, with one cell for each part that has it, in the order of the file.
 
 use super::eval::Values;
-use super::family::Family;
+use super::family::{Family, Quantity};
 use super::plausible::{evaluate, insert};
 use super::read::Draft;
 use super::{Door, Group};
@@ -118,6 +118,51 @@ impl<'a> Whole<'a> {
     }
 }
 
+/// The name of the greatest sum of a named expression of a group along the groups that come before it.
+pub(super) fn before(name: &str) -> String {
+    format!("{name}_before")
+}
+
+/// Adds these sums to the values of each group, in the order of the file: 0 where no group comes before.
+pub(super) fn add_before(family: &Family, groups: &[Group], values: &mut [Values]) {
+    let params = family.group.iter().flatten();
+    let lists: Vec<&String> = params
+        .filter(|(_, param)| param.quantity == Quantity::Groups)
+        .map(|(name, _)| name)
+        .collect();
+    let first: Vec<Vec<usize>> = (groups.iter().enumerate())
+        .map(|(of, group)| {
+            let listed = |k: &usize| {
+                let cells = lists.iter().filter_map(|name| group.values.get(*name));
+                *k != of && cells.flat_map(|s| &s.cells).any(|bits| bits >> k & 1 == 1)
+            };
+            (0..groups.len()).filter(listed).collect()
+        })
+        .collect();
+    for (name, _) in &family.group_lets {
+        let cell = |group: &Values| {
+            group
+                .get(name)
+                .and_then(|c| c.first().copied())
+                .unwrap_or(0)
+        };
+        let own: Vec<i64> = values.iter().map(cell).collect();
+        for (k, values) in values.iter_mut().enumerate() {
+            values.insert(before(name), vec![sum_before(&own, &first, k, own.len())]);
+        }
+    }
+}
+
+/// The greatest sum of `own` along the groups before this one; groups that wait for one another are an error of the file, so `depth` ends it.
+fn sum_before(own: &[i64], first: &[Vec<usize>], of: usize, depth: usize) -> i64 {
+    if depth == 0 {
+        return 0;
+    }
+    let sums = first[of].iter();
+    let sums = sums.map(|k| own[*k].saturating_add(sum_before(own, first, *k, depth - 1)));
+    sums.max().unwrap_or(0)
+}
+
 /// The values of a name in all `parts` that have it as a single value.
 fn list<'v>(parts: impl Iterator<Item = &'v Values>, name: &str) -> Vec<i64> {
     let single = |values: &'v Values| match values.get(name).map(Vec::as_slice) {
@@ -125,4 +170,20 @@ fn list<'v>(parts: impl Iterator<Item = &'v Values>, name: &str) -> Vec<i64> {
         _ => None,
     };
     parts.filter_map(single).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::sum_before;
+
+    #[test]
+    fn groups_that_come_before_add_up_along_the_longest_way() {
+        // 0 waits for 1 and 2, and 2 for 3.
+        let first = [vec![1, 2], vec![], vec![3], vec![]];
+        let own = [1, 50, 20, 40];
+        let of = |k| sum_before(&own, &first, k, own.len());
+        assert_eq!([of(0), of(1), of(2), of(3)], [60, 0, 40, 0]);
+        // Groups that wait for one another come to an end too.
+        sum_before(&[1, 1], &[vec![1], vec![0]], 0, 2);
+    }
 }

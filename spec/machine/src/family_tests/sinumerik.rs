@@ -182,7 +182,7 @@ fn alarms_exist() {
 }
 
 /// For each rule a machine that violates it and one beside it that does not: what stands in the file after the family.
-pub(super) const EXAMPLES: [(&str, &str, &str); 70] = [
+pub(super) const EXAMPLES: [(&str, &str, &str); 73] = [
     (
         "the monitoring cycle is longer than 25 ms",
         "control.SYSCLOCK_CYCLE_TIME = \"5 ms\"\ncontrol.SAFETY_SYSCLOCK_TIME_RATIO = 6\naxis.X = { kind = \"linear\" }",
@@ -222,6 +222,21 @@ pub(super) const EXAMPLES: [(&str, &str, &str); 70] = [
         "the drive cannot hold the monitoring cycle",
         "control.SYSCLOCK_CYCLE_TIME = \"3.333 ms\"\naxis.X = { kind = \"linear\" }",
         "control.SYSCLOCK_CYCLE_TIME = \"3.375 ms\"\naxis.X = { kind = \"linear\" }",
+    ),
+    (
+        "the contact of the door has the time-out of an F module, and there is none",
+        "axis.X = { kind = \"linear\", functions = [\"SBH/SG\"] }\ndoor.A = { axes = [\"X\"], bus_timeout = \"100 ms\" }",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_IN_ADDRESS = [0x050003FE, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]\ncontrol.PROFISAFE_IN_ASSIGN = [4001, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]\naxis.X = { kind = \"linear\", functions = [\"SBH/SG\"] }\ndoor.A = { axes = [\"X\"], contact = \"INSE[4]\", bus_timeout = \"100 ms\" }",
+    ),
+    (
+        "comes from an F module (connection 0), and nothing says how soon it is 0",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_IN_ADDRESS = [0x050003FE, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]\ncontrol.PROFISAFE_IN_ASSIGN = [4001, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]\naxis.X = { kind = \"linear\", functions = [\"SBH/SG\"] }\ndoor.A = { axes = [\"X\"], contact = \"INSE[4]\" }",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_IN_ADDRESS = [0x050003FE, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]\ncontrol.PROFISAFE_IN_ASSIGN = [4001, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]\naxis.X = { kind = \"linear\", functions = [\"SBH/SG\"] }\ndoor.A = { axes = [\"X\"], contact = \"INSE[5]\" }",
+    ),
+    (
+        "the time-out of the F module is shorter than the PROFIsafe cycle",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_IN_ADDRESS = [0x050003FE, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]\ncontrol.PROFISAFE_IN_ASSIGN = [4001, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]\naxis.X = { kind = \"linear\", functions = [\"SBH/SG\"] }\ndoor.A = { axes = [\"X\"], contact = \"INSE[4]\", bus_timeout = \"1 ms\" }",
+        "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_IN_ADDRESS = [0x050003FE, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]\ncontrol.PROFISAFE_IN_ASSIGN = [4001, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]\naxis.X = { kind = \"linear\", functions = [\"SBH/SG\"] }\ndoor.A = { axes = [\"X\"], contact = \"INSE[4]\", bus_timeout = \"150 ms\" }",
     ),
     (
         "the PROFIsafe cycle is longer than 25 ms",
