@@ -2,7 +2,8 @@
 
 use crate::diff::slices::Slice;
 
-/// The value of an input that is held: signals are valid, the drive is enabled, has selected the test and reports that it is well.
+/// The value of an input that is held: signals are valid, the drive is enabled, has selected the test and
+/// reports that it is well; the ends of a range are where the tables have them.
 pub(super) const CALM: &[(&str, i32)] = &[
     ("valid_2", 1),
     ("pos_valid", 1),
@@ -11,14 +12,21 @@ pub(super) const CALM: &[(&str, i32)] = &[
     ("selected", 1),
     ("active", 1),
     ("result", 1),
+    ("x_negative", 1),
+    ("x_positive", 3),
 ];
 
 /// The slices.
 pub(super) const SLICES: &[Slice] = &[
-    // Two encoders: the third one is not read.
+    // Two encoders, two positions of each: the third one is not read.
     Slice {
         system: "position",
-        params: &[("three", 0)],
+        params: &[
+            ("three", 0),
+            ("p_top", 1),
+            ("pos_reference", 1),
+            ("window_s", 0),
+        ],
         free: &[
             "pos_1",
             "pos_s",
@@ -28,6 +36,19 @@ pub(super) const SLICES: &[Slice] = &[
             "sync",
             "ack",
         ],
+    },
+    // Two encoders that may be apart by 1 mm, the range narrower than the positions, any change a step.
+    Slice {
+        system: "position",
+        params: &[
+            ("three", 0),
+            ("p_top", 1),
+            ("pos_reference", 1),
+            ("pos_min", 1),
+            ("pos_max", 1),
+            ("step_limit", 0),
+        ],
+        free: &["pos_1", "pos_s", "valid_1", "valid_s", "reference", "ack"],
     },
     // Three encoders, two positions of each.
     Slice {
@@ -49,6 +70,27 @@ pub(super) const SLICES: &[Slice] = &[
             "sync",
             "ack",
         ],
+    },
+    // End zones whose ends move.
+    Slice {
+        system: "endzone",
+        params: &[("p_top", 2)],
+        free: &[
+            "pos",
+            "pos_valid",
+            "v",
+            "v_valid",
+            "x_negative",
+            "x_positive",
+            "release",
+            "ack",
+        ],
+    },
+    // End zones of a wider range.
+    Slice {
+        system: "endzone",
+        params: &[("p_top", 4)],
+        free: &["pos", "pos_valid", "v", "v_valid", "release", "ack"],
     },
     // Brake test: every status word of the drive, an external and a motor holding brake.
     Slice {
