@@ -100,7 +100,17 @@ static PIECES: LazyLock<Vec<Pairing>> = LazyLock::new(|| {
         .iter()
         .filter(|p| !both_channels(&p.machine))
         .flat_map(|p| slices(p).unwrap_or_else(|e| panic!("{e}")));
-    pieces.collect()
+    // Systems that differ only in parameters that a slice sets have it in common.
+    let mut all: Vec<Pairing> = Vec::new();
+    for piece in pieces {
+        let same = |p: &Pairing| {
+            name(p) == name(&piece) && p.held == piece.held && p.bound.values == piece.bound.values
+        };
+        if !all.iter().any(same) {
+            all.push(piece);
+        }
+    }
+    all
 });
 
 /// Explores a piece. There are many of them, so each has one thread.

@@ -26,6 +26,7 @@ pub(super) const SLICES: &[Slice] = &[
             ("p_top", 1),
             ("pos_reference", 1),
             ("window_s", 0),
+            ("pos_min", 0),
         ],
         free: &[
             "pos_1",
@@ -44,25 +45,26 @@ pub(super) const SLICES: &[Slice] = &[
             ("three", 0),
             ("p_top", 1),
             ("pos_reference", 1),
+            ("window_s", 1),
             ("pos_min", 1),
             ("pos_max", 1),
             ("step_limit", 0),
         ],
         free: &["pos_1", "pos_s", "valid_1", "valid_s", "reference", "ack"],
     },
-    // Three encoders, two positions of each.
+    // Three encoders, two positions of each; POSSI does not move.
     Slice {
         system: "position",
         params: &[
             ("three", 1),
             ("p_top", 1),
             ("pos_reference", 1),
-            ("window_s", 0),
+            ("window_s", 1),
+            ("pos_min", 0),
         ],
         free: &[
             "pos_1",
             "pos_2",
-            "pos_s",
             "valid_1",
             "valid_2",
             "valid_s",
