@@ -103,6 +103,10 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     };
     let what = match arguments.random {
         Some(_) => format!("random runs, seed {}: a test, not a proof", arguments.seed),
+        None if compared.iter().any(|c| !c.narrowed.is_empty()) => {
+            "every reachable pair, of the inputs those values that the lines below do not leave out"
+                .to_owned()
+        }
         None if compared.iter().all(|c| c.held.is_empty()) => {
             "every reachable pair, every input of the interface".to_owned()
         }

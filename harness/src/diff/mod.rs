@@ -33,6 +33,8 @@ pub struct Compared {
     pub params: Vec<(String, String)>,
     /// Inputs that kept one value.
     pub held: Vec<(String, i32)>,
+    /// Inputs that had some of their values.
+    pub narrowed: Vec<String>,
     /// Reachable pairs of states; 0 for random runs.
     pub pairs: u64,
     /// Cycles in which both sides were compared.
@@ -77,6 +79,7 @@ pub fn exhaustive(
 ) -> Result<Compared, DiffError> {
     let peer = monitor(pairing, mutant)?;
     let mut product = Product::new(&pairing.bound, peer.as_ref()).map_err(DiffError::Sides)?;
+    let narrowed = product.narrow();
     for (input, value) in &pairing.held {
         product.hold(input, *value).map_err(DiffError::Sides)?;
     }
@@ -115,6 +118,7 @@ pub fn exhaustive(
         axes: pairing.axes.clone(),
         params: params(&pairing.bound),
         held: pairing.held.clone(),
+        narrowed,
         pairs: report.states,
         cycles: report.transitions,
         outputs: report.transitions * product.outputs() as u128,
@@ -236,6 +240,7 @@ impl Compared {
             axes: pairing.axes.clone(),
             params: params(&pairing.bound),
             held: Vec::new(),
+            narrowed: Vec::new(),
             pairs: 0,
             cycles: 0,
             outputs: 0,
@@ -283,6 +288,12 @@ pub fn text(compared: &[Compared], what: &str) -> String {
             let held: Vec<String> = c.held.iter().map(|(n, v)| format!("{n} = {v}")).collect();
             out.push_str(&format!("  inputs held: {}\n", held.join(", ")));
         }
+        if !c.narrowed.is_empty() {
+            let names = c.narrowed.join(", ");
+            out.push_str(&format!(
+                "  inputs of which some values were tried: {names}\n"
+            ));
+        }
         out.push_str(&format!(
             "  {} pairs, {} cycles, {} outputs{}\n",
             grouped(u128::from(c.pairs)),
@@ -315,7 +326,7 @@ pub fn to_json(compared: &[Compared], seed: Option<u64>) -> Value {
         "seed": seed,
         "machines": compared.iter().map(|c| json!({
             "machine": c.machine, "axes": c.axes,
-            "held": c.held.iter().cloned().collect::<BTreeMap<_, _>>(),
+            "held": c.held.iter().cloned().collect::<BTreeMap<_, _>>(), "narrowed": c.narrowed,
             "parameters": c.params.iter().cloned().collect::<BTreeMap<_, _>>(),
             "pairs": c.pairs, "cycles": number(c.cycles), "outputs_compared": number(c.outputs),
             "complete": c.complete, "diagram": c.divergence.as_ref().map(Diagram::text),

@@ -97,7 +97,7 @@ impl<'a> Product<'a> {
                 .push(found.ok_or_else(|| format!("table {} has no input `{name}`", system.name))?);
         }
         let unknown = system.inputs.iter().enumerate().find(|(k, input)| {
-            !feeds.contains(k) && !peer.unused().iter().any(|name| is(&input.name, name))
+            !feeds.contains(k) && !peer.unused().iter().any(|(name, _)| is(&input.name, name))
         });
         if let Some((_, input)) = unknown {
             return Err(format!(
@@ -109,8 +109,14 @@ impl<'a> Product<'a> {
         for (k, (lo, hi)) in bound.inputs.iter().enumerate() {
             let port = feeds.iter().position(|f| *f == k);
             values.push(match port {
-                // An input that the monitor does not have keeps its least value: its readings are not the recommended ones.
-                None => Values::Range(*lo, *lo),
+                // An input that the monitor does not have keeps its least value, where its readings are not the recommended
+                // ones, or the one that the monitor's parameters give it.
+                None => {
+                    let name = &system.inputs[k].name;
+                    let kept = peer.unused().iter().find(|(n, _)| is(name, n));
+                    let value = kept.and_then(|(_, value)| *value).unwrap_or(*lo);
+                    Values::Range(value, value)
+                }
                 Some(port) => match peer.allowed(port) {
                     Some(values) => values,
                     None => Values::Range(*lo, *hi),
@@ -162,6 +168,18 @@ impl<'a> Product<'a> {
         let k = found.ok_or_else(|| format!("table {} has no input `{input}`", system.name))?;
         self.values[k] = Values::Range(value, value);
         Ok(())
+    }
+
+    /// Leaves wide inputs the values that an exploration tries; the names of those inputs.
+    pub fn narrow(&mut self) -> Vec<String> {
+        let mut narrowed = Vec::new();
+        for (port, k) in self.feeds.iter().enumerate() {
+            if let Some(values) = self.peer.explored(port) {
+                self.values[*k] = values;
+                narrowed.push(self.bound.system.inputs[*k].name.clone());
+            }
+        }
+        narrowed
     }
 
     /// The names of the table's state variables: its cells stand first.

@@ -63,6 +63,11 @@ pub(crate) const fn apart(a: i32, b: i32) -> i64 {
     (a as i64 - b as i64).abs()
 }
 
+/// Whether the quotient of two numbers is whole. There is none by 0 (SRM-TIMING-005).
+pub(crate) const fn multiple(number: i32, of: i32) -> bool {
+    of != 0 && number.wrapping_rem(of) == 0
+}
+
 /// How many calls a time lasts: the quotient, where it is whole and positive in both (SRM-TIMING-005).
 pub(crate) const fn calls(time: i32, t_sample: i32) -> Option<i32> {
     if time > 0 && t_sample > 0 && time % t_sample == 0 {
@@ -109,6 +114,8 @@ mod tests {
     #[test]
     fn times_are_whole_calls() {
         assert_eq!(calls(100, 20), Some(5));
+        assert!(multiple(-20, 10) && multiple(20, -10) && multiple(0, 1) && multiple(i32::MIN, -1));
+        assert!(!multiple(15, 10) && !multiple(0, 0) && !multiple(5, 0));
         for (time, t_sample) in [(100, 30), (0, 20), (-20, 20), (20, 0), (20, -20), (5, 10)] {
             assert_eq!(calls(time, t_sample), None);
         }

@@ -10,9 +10,10 @@ use crate::diff::product::Values;
 /// A monitor with its configuration.
 pub(crate) struct Adapter {
     inputs: Vec<&'static str>,
-    unused: &'static [&'static str],
+    unused: Vec<(&'static str, Option<i32>)>,
     outputs: Vec<&'static str>,
     allowed: Vec<(usize, Values)>,
+    explored: Vec<(usize, Values)>,
     domains: Vec<Domain>,
     initial: Vec<i32>,
     kept: Vec<(usize, &'static str, &'static str)>,
@@ -48,9 +49,10 @@ impl Adapter {
     ) -> Self {
         Self {
             inputs,
-            unused: &[],
+            unused: Vec::new(),
             outputs,
             allowed: Vec::new(),
+            explored: Vec::new(),
             domains,
             initial,
             kept: Vec::new(),
@@ -71,18 +73,35 @@ impl Adapter {
 
     /// Names the inputs that only the table has, for other readings than the recommended ones.
     pub(crate) fn without(mut self, unused: &'static [&'static str]) -> Self {
-        self.unused = unused;
+        self.unused.extend(unused.iter().map(|name| (*name, None)));
+        self
+    }
+
+    /// Gives an input that only the table has the one value it keeps: what the monitor knows from its parameters.
+    pub(crate) fn with(mut self, name: &'static str, value: i32) -> Self {
+        self.unused.push((name, Some(value)));
         self
     }
 
     /// Restricts inputs to the values they have at this interface.
     pub(crate) fn only(mut self, inputs: &[&str], values: Values) -> Self {
-        for (port, name) in self.inputs.iter().enumerate() {
-            if inputs.contains(name) {
-                self.allowed.push((port, values));
-            }
-        }
+        let ports = self.ports(inputs);
+        self.allowed.extend(ports.map(|port| (port, values)));
         self
+    }
+
+    /// Restricts wide inputs to some of their values in an exploration; random runs have all.
+    pub(crate) fn explored(mut self, inputs: &[&str], values: Values) -> Self {
+        let ports = self.ports(inputs);
+        self.explored.extend(ports.map(|port| (port, values)));
+        self
+    }
+
+    /// The numbers of the inputs of these names.
+    fn ports(&self, inputs: &[&str]) -> impl Iterator<Item = usize> + use<> {
+        let ports = self.inputs.iter().enumerate();
+        let found = ports.filter(|(_, name)| inputs.contains(name));
+        found.map(|(port, _)| port).collect::<Vec<_>>().into_iter()
     }
 
     /// A cell that starts with the value of a state variable of the table: non-volatile state.
@@ -107,12 +126,17 @@ impl Peer for Adapter {
         &self.inputs
     }
 
-    fn unused(&self) -> &'static [&'static str] {
-        self.unused
+    fn unused(&self) -> &[(&'static str, Option<i32>)] {
+        &self.unused
     }
 
     fn allowed(&self, k: usize) -> Option<Values> {
         let found = self.allowed.iter().find(|(port, _)| *port == k);
+        found.map(|(_, values)| *values)
+    }
+
+    fn explored(&self, k: usize) -> Option<Values> {
+        let found = self.explored.iter().find(|(port, _)| *port == k);
         found.map(|(_, values)| *values)
     }
 

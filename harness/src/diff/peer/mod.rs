@@ -29,10 +29,12 @@ pub type Numbers = Vec<i64>;
 pub trait Peer: Send + Sync {
     /// Names of the inputs, as the table calls them.
     fn inputs(&self) -> &[&'static str];
-    /// Names of the inputs that only the table has; they keep their least value.
-    fn unused(&self) -> &'static [&'static str];
+    /// Names of the inputs that only the table has, each with the value it keeps; none for its least one.
+    fn unused(&self) -> &[(&'static str, Option<i32>)];
     /// The values input `k` can have at this interface; none where every value of the table's type is possible.
     fn allowed(&self, k: usize) -> Option<Values>;
+    /// The values input `k` has in an exploration, which cannot try all of a wide one; none where it tries all.
+    fn explored(&self, k: usize) -> Option<Values>;
     /// Names of the outputs; each is an output or a state variable of the table.
     fn outputs(&self) -> &[&'static str];
     /// Ranges of the cells of the state.

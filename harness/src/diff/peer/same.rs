@@ -4,7 +4,7 @@
 use stillpoint_lang::ir::LazyKind;
 use stillpoint_model::Domain;
 use stillpoint_monitors::contract::{Contract, Next};
-use stillpoint_monitors::fields::{Kind, get, set};
+use stillpoint_monitors::fields::{Fields, Kind, get, set};
 use stillpoint_monitors::mutant::Mutant;
 
 use super::adapter::Adapter;
@@ -45,7 +45,14 @@ pub(crate) struct Same<'a, M: Contract> {
     cells: Vec<(&'static str, Domain)>,
     kept: Vec<(&'static str, &'static str, &'static str)>,
     only: Vec<(&'static [&'static str], Values)>,
+    explored: Vec<(&'static [&'static str], Values)>,
+    decided: Vec<(&'static str, Decide<M>)>,
+    /// Parameters that the table has as inputs, each with the port.
+    live: Vec<(&'static str, &'static str)>,
 }
+
+/// An input of the table that the parameters of the monitor decide.
+type Decide<M> = fn(&<M as Contract>::Config) -> bool;
 
 impl<'a, M: Contract> Same<'a, M> {
     /// The monitor under the parameters of a table, or its wrong variant.
@@ -64,6 +71,9 @@ impl<'a, M: Contract> Same<'a, M> {
             cells: Vec::new(),
             kept: Vec::new(),
             only: Vec::new(),
+            explored: Vec::new(),
+            decided: Vec::new(),
+            live: Vec::new(),
         }
     }
 
@@ -148,6 +158,24 @@ impl<'a, M: Contract> Same<'a, M> {
         self
     }
 
+    /// Restricts wide inputs to some of their values in an exploration; random runs have all.
+    pub(crate) fn explored(mut self, inputs: &'static [&'static str], values: Values) -> Self {
+        self.explored.push((inputs, values));
+        self
+    }
+
+    /// An input that only the table has: what the parameters make of it.
+    pub(crate) fn decided(mut self, name: &'static str, decide: Decide<M>) -> Self {
+        self.decided.push((name, decide));
+        self
+    }
+
+    /// A parameter of the monitor that the table has as an input: it may change from cycle to cycle.
+    pub(crate) fn live(mut self, parameter: &'static str, port: &'static str) -> Self {
+        self.live.push((parameter, port));
+        self
+    }
+
     /// What the table calls a number of the monitor.
     fn table_name(&self, number: &Number) -> &'static str {
         let named = (self.named.iter()).find(|(_, name)| has(&number.name, name));
@@ -163,6 +191,17 @@ impl<'a, M: Contract> Same<'a, M> {
         self.hidden.iter().any(|name| has(own, name))
     }
 
+    /// The numbers of the configuration that inputs give, each with its port.
+    fn changing(&self) -> Vec<(usize, &'static str)> {
+        let numbers = numbers::<M::Config>("config");
+        let numbers = numbers.iter().enumerate();
+        let found = numbers.filter_map(|(k, number)| {
+            let live = self.live.iter().find(|(name, _)| has(&number.name, name));
+            live.map(|(_, port)| (k, *port))
+        });
+        found.collect()
+    }
+
     /// The configuration, from the parameters of the table.
     fn configuration(&self) -> Result<M::Config, Refusal> {
         if let Some(config) = self.config {
@@ -170,8 +209,10 @@ impl<'a, M: Contract> Same<'a, M> {
         }
         let mut values = Vec::new();
         for number in &numbers::<M::Config>("config") {
+            let live = self.live.iter().any(|(name, _)| has(&number.name, name));
             values.push(match self.constant(&number.name) {
                 Some(value) => value,
+                None if live => 0,
                 None => i64::from(self.params.known(self.table_name(number))?),
             });
         }
@@ -202,7 +243,9 @@ impl<'a, M: Contract> Same<'a, M> {
         let cells = self.cells.iter().map(|(name, _)| *name);
         let kept = self.kept.iter().map(|(name, ..)| *name);
         let hidden = self.hidden.iter().copied();
+        let live = self.live.iter().map(|(name, _)| *name);
         let mut given = named
+            .chain(live)
             .chain(constants)
             .chain(made)
             .chain(cells)
@@ -265,6 +308,11 @@ impl<'a, M: Contract> Same<'a, M> {
                 }
             });
         }
+        let mut live = Vec::new();
+        for (number, port) in self.changing() {
+            live.push((number, ports.len()));
+            ports.push(port);
+        }
         // Which of the numbers are compared, outputs first.
         let mut outputs = Vec::new();
         let mut from_outputs = Vec::new();
@@ -300,6 +348,10 @@ impl<'a, M: Contract> Same<'a, M> {
                 Feed::Constant(value) => *value,
                 Feed::Made(first, make) => make(&ports[*first..]),
             }));
+            let config = match live.is_empty() {
+                true => config,
+                false => changed(config, &live, ports),
+            };
             let (after, outputs) = next(state, &config, &inputs);
             let mut compared = from_outputs.iter();
             get(outputs, |number| {
@@ -319,11 +371,27 @@ impl<'a, M: Contract> Same<'a, M> {
         for (inputs, values) in self.only {
             adapter = adapter.only(inputs, values);
         }
+        for (inputs, values) in self.explored {
+            adapter = adapter.explored(inputs, values);
+        }
+        for (name, decide) in self.decided {
+            adapter = adapter.with(name, i32::from(decide(&config)));
+        }
         for (cell, variable, condition) in kept {
             adapter = adapter.kept_where(cell, variable, condition);
         }
         Ok(adapter)
     }
+}
+
+/// The configuration with some of its numbers from ports.
+fn changed<C: Fields>(config: C, live: &[(usize, usize)], ports: &[i32]) -> C {
+    let mut values = Vec::new();
+    get(config, |number| values.push(number));
+    for (number, port) in live {
+        values[*number] = i64::from(ports[*port]);
+    }
+    set(values.into_iter())
 }
 
 /// The monitors of a family that its tables describe in the same words: the machine of the table, the module of the monitor, and

@@ -484,7 +484,7 @@ mod tests {
                     t_sample: 0,
                     ..right
                 },
-                0x10,
+                0x30,
             ),
             (
                 Config {

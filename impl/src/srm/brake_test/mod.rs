@@ -21,7 +21,8 @@ pub use word::*;
 
 use crate::kernel::Cycles;
 use crate::srm::common::{
-    ErrReact, UNLIMITED, apart, bit, calls, diag, latch, magnitude, release_velocity, rises,
+    ErrReact, UNLIMITED, apart, bit, calls, diag, latch, magnitude, multiple, release_velocity,
+    rises,
 };
 
 fields! {
@@ -99,7 +100,7 @@ impl Config {
             || times.iter().any(|time| *time < 1)
             || self.pos_tolerance < 0
             || self.vmax_release < 1;
-        let uneven = self.t_sample >= 1 && times.iter().any(|time| time % self.t_sample != 0);
+        let uneven = times.iter().any(|time| !multiple(*time, self.t_sample));
         diag(&[(4, range), (5, uneven)])
     }
 

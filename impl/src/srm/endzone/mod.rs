@@ -267,12 +267,11 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
     };
     let velocity = magnitude(inputs.safe_v);
     let exceeds = inputs.v_valid && velocity > i64::from(limit);
-    let keeps = !inputs.v_valid || velocity <= i64::from(threshold);
     let retracts_fast = latch(
         state.retracts_fast,
         exceeds && phase.released(),
         acknowledged,
-        keeps,
+        !exceeds,
     );
     let fast = latch(
         state.fast,
@@ -317,8 +316,7 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
         move_negative_ok: !phase.lower() && !blocked,
         move_positive_ok: !phase.upper() && !given.crossed && !blocked,
         ack_req: range.acknowledgeable(&given)
-            || retracts_fast && keeps && !(exceeds && phase.released())
-            || fast && !exceeds
+            || (retracts_fast || fast) && !exceeds
             || overflowed && !overflow,
         error: diag & !0x60 != 0,
         diag,

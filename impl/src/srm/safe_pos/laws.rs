@@ -251,13 +251,14 @@ monitor! { srm::safe_pos;
     supervision_is_acknowledged ["SRM-POS-019", "SRM-POS-020", "SRM-POSV-006", "SRM-POSV-009", "SRM-P-11", "SRM-P-75"]:
         when |s| s.before.above && !s.after.above || s.before.below && !s.after.below
             || s.before.fast && !s.after.fast || s.before.drifted && !s.after.drifted
-            => acknowledges(&s) && (!s.before.above || s.after.above || s.outputs.safe_pos <= s.config.pos_max)
+            => acknowledges(&s) && s.after.phase.formed() && (!s.before.above || s.after.above || s.outputs.safe_pos <= s.config.pos_max)
                 && (!s.before.below || s.after.below || s.outputs.safe_pos >= s.config.pos_min)
                 && (!s.before.fast || s.after.fast || s.outputs.safe_v <= s.config.v_max);
 
-    /// An edge at ACK ends them then.
+    /// An edge at ACK ends them then, while the position is formed.
     acknowledgement_is_heard ["SRM-ACK-002", "SRM-POS-019", "SRM-POS-020", "SRM-POSV-006"]:
-        when |s| acknowledges(&s) && s.outputs.safe_pos <= s.config.pos_max && s.outputs.safe_pos >= s.config.pos_min
+        when |s| acknowledges(&s) && s.after.phase.formed()
+            && s.outputs.safe_pos <= s.config.pos_max && s.outputs.safe_pos >= s.config.pos_min
             && s.outputs.safe_v <= s.config.v_max
             => !s.after.above && !s.after.below && !s.after.fast;
 

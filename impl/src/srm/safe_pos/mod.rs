@@ -23,7 +23,7 @@ mod velocity;
 pub use laws::*;
 
 use crate::kernel::Cycles;
-use crate::srm::common::{ErrReact, calls, diag, latch, rises};
+use crate::srm::common::{ErrReact, calls, diag, latch, multiple, rises};
 use channel::Positions;
 
 fields! {
@@ -105,7 +105,7 @@ impl Config {
             && self.v_disc_window >= 0
             && self.pos_disc_window >= 0
             && self.pos_startup_tol >= 0;
-        let uneven = self.t_sample > 0 && self.v_sync_intervall % self.t_sample != 0;
+        let uneven = !multiple(self.v_sync_intervall, self.t_sample);
         let order = self.v_max >= self.v_standstill && self.pos_max >= self.pos_min;
         diag(&[(0, !range), (1, uneven), (2, !order)])
     }
@@ -415,10 +415,19 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
     let high = after.safe_pos > config.pos_max;
     let low = after.safe_pos < config.pos_min;
     let fast = after.safe_v > config.v_max;
-    after.above = latch(state.above, formed && high, acknowledged, !high);
-    after.below = latch(state.below, formed && low, acknowledged, !low);
-    after.fast = latch(state.fast, formed && fast, acknowledged, !fast);
-    after.drifted = latch(state.drifted, formed && drifts, acknowledged, !drifts);
+    // What is supervised is the position that is formed: without one nothing is found and nothing acknowledged.
+    let supervised = |held: bool, condition: bool| {
+        latch(
+            held,
+            formed && condition,
+            acknowledged && formed,
+            !condition,
+        )
+    };
+    after.above = supervised(state.above, high);
+    after.below = supervised(state.below, low);
+    after.fast = supervised(state.fast, fast);
+    after.drifted = supervised(state.drifted, drifts);
     after.overflowed = latch(state.overflowed, overflow, acknowledged, true);
 
     let parameters = config.parameter_bits();
@@ -448,10 +457,11 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
         moves_positive: moves && after.direction == Direction::Positive,
         moves_negative: moves && after.direction == Direction::Negative,
         ack_req: after.phase == Phase::Valid
-            || after.above && !high
-            || after.below && !low
-            || after.fast && !fast
-            || after.drifted && !drifts
+            || formed
+                && (after.above && !high
+                    || after.below && !low
+                    || after.fast && !fast
+                    || after.drifted && !drifts)
             || after.overflowed && !overflow,
         error: diag & !0x80 != 0,
         diag,

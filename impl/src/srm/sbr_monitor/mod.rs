@@ -12,7 +12,7 @@ mod laws;
 
 pub use laws::*;
 
-use crate::srm::common::{ErrReact, apart, calls, diag, latch, magnitude, rises};
+use crate::srm::common::{ErrReact, apart, calls, diag, latch, magnitude, multiple, rises};
 
 fields! {
     /// Reading AMB-38: what is compared with the permitted way.
@@ -65,14 +65,14 @@ config! {
 }
 
 impl Config {
-    /// The bits that the first call reports (SRM-SBR-004 to SRM-SBR-006): 1, 3, 4, 5, 6. A quotient is asked for only where there
-    /// is one.
+    /// The bits that the first call reports (SRM-SBR-004 to SRM-SBR-006): 1, 3, 4, 5, 6. Where there is no quotient it is not whole, and
+    /// a ramp has at least one call.
     pub fn parameter_bits(&self) -> u16 {
-        let uneven = self.t_sample > 0 && self.t_ramp % self.t_sample != 0;
-        let no_step = self.t_sample > 0 && self.t_ramp >= 0 && !uneven && self.step().is_none();
+        let count = self.t_ramp.checked_div(self.t_sample.saturating_abs());
+        let whole = count.is_some_and(|count| count > 0 && multiple(self.v_max, count));
         diag(&[
-            (1, uneven),
-            (3, no_step),
+            (1, !multiple(self.t_ramp, self.t_sample)),
+            (3, !whole),
             (4, self.t_sample <= 0),
             (5, self.maxtol_v > self.v_max),
             (6, self.t_ramp < 0),
@@ -412,7 +412,7 @@ mod tests {
                     t_sample: 0,
                     ..right
                 },
-                1 << 4,
+                1 << 4 | 1 << 3 | 1 << 1,
             ),
             (
                 Config {
@@ -426,14 +426,14 @@ mod tests {
                     t_ramp: -100,
                     ..right
                 },
-                1 << 6,
+                1 << 6 | 1 << 3,
             ),
             (
                 Config {
                     t_ramp: -110,
                     ..right
                 },
-                1 << 6 | 1 << 1,
+                1 << 6 | 1 << 3 | 1 << 1,
             ),
         ] {
             assert_eq!(wrong.parameter_bits(), bits);

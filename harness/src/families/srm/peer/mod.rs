@@ -1,0 +1,40 @@
+//! The monitors of the blocks as peers of their tables.
+
+mod arithmetic;
+mod brake;
+mod first_call;
+mod same;
+mod slices;
+
+use stillpoint_monitors::mutant::Mutant;
+
+use crate::diff::peer::{Made, Params, Peers};
+
+pub(super) const PEERS: Peers = Peers {
+    machines: &[
+        same::MACHINES,
+        brake::MACHINES,
+        arithmetic::MACHINES,
+        first_call::MACHINES,
+    ],
+    systems: brake::SYSTEMS,
+    // Constants of the monitors: the width of a DInt, full load, um in a mm. Smaller values only keep a system small.
+    fixed: &[
+        ("arithmetic", "low", -2_147_483_647),
+        ("arithmetic", "high", 2_147_483_647),
+        ("load", "full", 10_000),
+        ("position", "um", 1_000),
+    ],
+    slices: slices::SLICES,
+    calm: slices::CALM,
+    make,
+};
+
+fn make(machine: &str, params: &Params, mutant: Option<Mutant>) -> Made {
+    for make in [same::make, brake::make, arithmetic::make, first_call::make] {
+        if let Some(adapter) = make(machine, params, mutant)? {
+            return Ok(Some(adapter));
+        }
+    }
+    Ok(None)
+}

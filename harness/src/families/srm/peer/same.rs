@@ -1,0 +1,232 @@
+//! The monitors of the blocks that their tables describe in the same words.
+//!
+//! Whether the first call finds the parameters right is an input of these tables (`bad`); the parameters themselves decide it here, and
+//! that check is compared apart, in `first_call`. An overflow is an input of the tables too: the numbers are kept where there is none.
+//! `DIAG` is compared bit by bit.
+
+use stillpoint_model::Domain;
+use stillpoint_monitors::kernel::Cycles;
+use stillpoint_monitors::mutant::Mutant;
+use stillpoint_monitors::srm::common::ErrReact;
+use stillpoint_monitors::srm::interpolation::{self, Curve, segments_fit};
+use stillpoint_monitors::srm::{endzone, safe_pos, sbr_monitor};
+
+use crate::diff::peer::numbers::upto;
+use crate::diff::peer::same::{Same, peers};
+use crate::diff::peer::{Made, Params};
+use crate::diff::product::Values;
+
+/// A bit of a word.
+fn bit(word: u16, place: u32) -> i64 {
+    i64::from(word >> place & 1)
+}
+
+/// The points of an envelope.
+fn curve(p: &Params) -> Curve {
+    let of = |letter: char, k: usize| p.value(&format!("{letter}_{k}"));
+    Curve {
+        x: std::array::from_fn(|k| of('x', k)),
+        v: std::array::from_fn(|k| of('v', k)),
+        x_16: of('x', 16),
+        v_16: of('v', 16),
+    }
+}
+
+fn endzone_config(p: &Params) -> endzone::Config {
+    endzone::Config {
+        vmax_release: p.value("vmax_release"),
+        interpolation: curve(p),
+        vinv_retract: endzone::VinvRetract::Stop,
+        ez_dir: endzone::EzDir::Expire,
+        err_react: ErrReact::Safe,
+    }
+}
+
+/// The table has the time of the ramp in calls.
+fn sbr_config(p: &Params) -> sbr_monitor::Config {
+    sbr_monitor::Config {
+        t_sample: p.value("t_sample"),
+        t_ramp: p.value("n").saturating_mul(p.value("t_sample")),
+        v_max: p.value("v_max"),
+        v_stop_monitoring: p.value("v_stop"),
+        maxtol_v: p.value("maxtol_v"),
+        maxtol_pos: p.value("maxtol_pos"),
+        sbr_pos: sbr_monitor::SbrPos::Cum,
+        sbr_retrig: sbr_monitor::SbrRetrig::Ignore,
+        err_react: ErrReact::Safe,
+    }
+}
+
+/// Without faults of the velocity: its counter stands and its drift has no limit. A step is 2 * V_MAX * T_SAMPLE / 60000 mm.
+fn position_config(p: &Params) -> safe_pos::Config {
+    safe_pos::Config {
+        t_sample: 1_000,
+        pos_config: p.is("three"),
+        possi_t_sample: 1_000,
+        pos_min: p.value("pos_min"),
+        pos_max: p.value("pos_max"),
+        pos_disc_window: p.value("window"),
+        pos2_disc_window: p.value("window_2"),
+        possi_disc_window: p.value("window_s"),
+        pos_startup_tol: p.value("startup_tol"),
+        v_standstill: 0,
+        v_max: p.value("step_limit").saturating_mul(30),
+        v_disc_window: i32::MAX,
+        v_sync_intervall: 1_000,
+        pos_reference: p.value("pos_reference"),
+        count_margin: Cycles::ZERO,
+        sync_pos2: safe_pos::SyncPos2::Keep,
+        count_watch: safe_pos::CountWatch::Hold,
+        err_react: ErrReact::Safe,
+    }
+}
+
+/// The whole way of a ramp, mm, and whether no product or sum on it leaves a DInt.
+fn way(p: &Params) -> Option<i32> {
+    p.value("v_max").checked_mul(p.value("t_sample"))?;
+    let all = ["n", "v_max", "t_sample"].map(|name| i128::from(p.value(name)));
+    let way = i32::try_from(all.iter().product::<i128>() / 60_000).ok()?;
+    p.value("n").checked_mul(p.value("t_sample"))?;
+    way.checked_add(p.value("maxtol_pos")).map(|_| way)
+}
+
+peers! { srm |p|
+    "min_max" => min_max
+        .named(&[
+            ("in_1", "in1"), ("in_2", "in2"), ("in_3", "in3"), ("in_4", "in4"), ("in_5", "in5"), ("in_6", "in6"),
+            ("in_7", "in7"), ("in_8", "in8"),
+        ]);
+    "interpolation" => interpolation
+        .config(interpolation::Config { curve: curve(p) })
+        .needs(segments_fit(&curve(p)), "a product of a segment must be a DInt");
+    "slp" => slp_monitor
+        .constants(&[("err_react", 0)])
+        .named(&[
+            ("pos", "safe_pos"), ("v", "safe_v"), ("way", "phase"), ("below", "low"), ("above", "high"), ("was_ack", "ack_held"),
+            ("was_release", "release_held"),
+        ])
+        .decided("bad", |config| config.wrong_velocity())
+        .hidden(&["diag"])
+        .told("diag_0", |_, o| bit(o.diag, 0))
+        .told("diag_1", |_, o| bit(o.diag, 1))
+        .told("diag_2", |_, o| bit(o.diag, 2))
+        .told("diag_4", |_, o| bit(o.diag, 4))
+        .told("diag_5", |_, o| bit(o.diag, 5))
+        .told("diag_6", |_, o| bit(o.diag, 6));
+    "endzone" => endzone
+        .config(endzone_config(p))
+        .needs(curve(p).ascends() && segments_fit(&curve(p)), "the points must ascend and a product of a segment be a DInt")
+        .named(&[
+            ("pos", "safe_pos"), ("v", "safe_v"), ("way", "phase"), ("below", "low"), ("above", "high"), ("fast", "retracts_fast"),
+            ("over", "state.fast"), ("calc", "overflowed"), ("course", "direction"), ("last", "place"), ("shown", "threshold"),
+            ("was_ack", "ack_held"), ("was_release", "release_held"),
+        ])
+        .decided("bad", |config| config.parameter_bits() != 0)
+        .without(&["overflow"])
+        .hidden(&["diag", "place"])
+        .told("diag_0", |_, o| bit(o.diag, 0))
+        .told("diag_1", |_, o| bit(o.diag, 1))
+        .told("diag_2", |_, o| bit(o.diag, 2))
+        .told("diag_5", |_, o| bit(o.diag, 5))
+        .told("diag_6", |_, o| bit(o.diag, 6))
+        .told("diag_9", |_, o| bit(o.diag, 9))
+        .told("diag_11", |_, o| bit(o.diag, 11));
+    // The table counts the calls of the ramp, the monitor its velocity and its way.
+    "sbr" => sbr_monitor
+        .config(sbr_config(p))
+        .needs(way(p).is_some(), "the way of the ramp must be a DInt")
+        .named(&[
+            ("pos", "safe_pos"), ("v", "safe_v"), ("ramp", "phase"), ("v_ramp", "state.ramp"), ("from", "start"),
+            ("broken", "violated"), ("calc", "overflowed"), ("was_execute", "execute_held"), ("was_ack", "ack_held"),
+        ])
+        .cell("state.ramp", upto(p.value("v_max")))
+        .cell("way", upto(way(p).unwrap_or(0)))
+        .cell("rest", Domain { lo: -59_999, hi: 59_999 })
+        .decided("bad", |config| config.parameter_bits() != 0)
+        .without(&["overflow"])
+        .hidden(&["diag"])
+        .told("diag_0", |_, o| bit(o.diag, 0))
+        .told("diag_11", |_, o| bit(o.diag, 11));
+    "load" => load_monitor
+        .constants(&[
+            ("err_react", 0), ("cal_value", 0), ("maxtol_cal", 0), ("t_sample", 1), ("t_test", 2), ("t_settle", 1),
+            ("calibration_overflow", 0),
+        ])
+        .named(&[
+            ("load_1", "load1"), ("load_2", "load2"), ("mode", "maxload_mode"), ("v", "safe_v"), ("retr", "retracting"),
+            ("unlike", "discrepancy"), ("static", "over_static"), ("dynamic", "over_dynamic"), ("lost", "blind"),
+            ("outside", "out_of_range"), ("calc", "overflowed"), ("was_release", "release_held"), ("was_ack", "ack_held"),
+        ])
+        .explored(&["load_1", "load_2"], Values::List(&[-1, 0, 1, 2, 3, 4, 5, 6, 10_000, 10_001]))
+        .decided("bad", |config| config.parameter_bits() != 0)
+        .without(&["overflow"])
+        .hidden(&["diag"])
+        .told("diag_0", |_, o| bit(o.diag, 0))
+        .told("diag_1", |_, o| bit(o.diag, 1))
+        .told("diag_2", |_, o| bit(o.diag, 2))
+        .told("diag_7", |_, o| bit(o.diag, 7))
+        .told("diag_9", |_, o| bit(o.diag, 9))
+        .told("diag_10", |_, o| bit(o.diag, 10))
+        .told("diag_11", |_, o| bit(o.diag, 11));
+    // ACK ends an overflow only. The kind of the test is an input of the block that the monitor has as a parameter.
+    "calibration" => load_calibration
+        .constants(&[("t_sample", 1), ("wrong_elsewhere", 0), ("inputs.ack", 0)])
+        .live("cal_mode", "step")
+        .needs(p.value("t_test") > p.value("t_settle"), "the test must be longer than its settling")
+        .named(&[
+            ("load_1", "load1"), ("load_2", "load2"), ("test", "phase"), ("t", "state.calls"), ("first_1", "from1"),
+            ("first_2", "from2"), ("long", "unsettled"), ("ok", "passed"), ("was_calibrate", "calibrate_held"),
+        ])
+        .without(&["bad"])
+        .hidden(&["diag", "overflowed", "ack_held", "ack_req"])
+        .told("diag_4", |_, o| bit(o.diag, 4))
+        .told("diag_5", |_, o| bit(o.diag, 5));
+    // The table has neither the values of the velocity nor its faults: a counter that stands, and no limit of the drift. A step is
+    // 2 * V_MAX * T_SAMPLE / 60000.
+    "position" => safe_pos
+        .config(position_config(p))
+        .constants(&[("possi_count", 0)])
+        .decided("bad", |config| config.parameter_bits() != 0)
+        .named(&[
+            ("pos_1", "pos1"), ("pos_2", "pos2"), ("pos_s", "possi"), ("valid_1", "pos1_valid"), ("valid_2", "pos2_valid"),
+            ("valid_s", "possi_valid"), ("ref", "referenced"), ("v_possible", "v_valid"), ("state", "phase"), ("off_1", "off1"),
+            ("off_s", "off_si"), ("off_2", "off2"), ("disagree", "apart"), ("drifted", "strayed"), ("apart", "unconfirmed"),
+            ("apart_2", "unconfirmed2"), ("calc", "overflowed"), ("was_reference", "reference_held"), ("was_sync", "sync_held"),
+            ("was_ack", "ack_held"),
+        ])
+        .explored(&["pos_s"], Values::List(&[0, 1_000]))
+        .without(&["overflow"])
+        .hidden(&[
+            "diag", "outputs.safe_pos", "state.safe_pos", "safe_v", "standstill", "moves_positive", "moves_negative", "saved",
+            "si_failed", "fast", "state.drifted", "direction", "seen1", "last1", "seen_si", "sample", "count", "still", "window1",
+            "window_si", "window_calls",
+        ])
+        .cell("saved", width(p))
+        .cell("safe_pos", width(p))
+        .cell("safe_v", upto(0))
+        .cell("last1", upto(p.value("p_top")))
+        .cell("sample", upto(p.value("p_top").saturating_mul(1_000)))
+        .cell("count", upto(0))
+        .cell("still", upto(2))
+        .cell("window1", upto(p.value("p_top")))
+        .cell("window_si", upto(p.value("p_top").saturating_mul(1_000)))
+        .cell("window_calls", upto(0))
+        .told("diag_3", |_, o| bit(o.diag, 3))
+        .told("diag_4", |_, o| bit(o.diag, 4))
+        .told("diag_7", |_, o| bit(o.diag, 7))
+        .told("diag_8", |_, o| bit(o.diag, 8))
+        .told("diag_9", |_, o| bit(o.diag, 9))
+        .told("diag_10", |_, o| bit(o.diag, 10))
+        .told("diag_11", |_, o| bit(o.diag, 11))
+        .told("diag_12", |_, o| bit(o.diag, 12))
+        .told("diag_13", |_, o| bit(o.diag, 13));
+}
+
+/// The values of a corrected position.
+fn width(p: &Params) -> Domain {
+    let top = p.value("p_top");
+    Domain {
+        lo: -top,
+        hi: top.saturating_add(p.value("pos_reference")),
+    }
+}

@@ -1,0 +1,5 @@
+//! Fail-safe blocks for storage and retrieval machines: generated tables and data.
+
+#![no_std]
+
+stillpoint_native::family!();
