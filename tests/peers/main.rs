@@ -8,6 +8,7 @@ mod evaluators;
 mod exports;
 mod nusmv;
 mod pair;
+mod proof;
 mod reductions;
 mod rumur;
 mod spin;

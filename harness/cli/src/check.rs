@@ -18,6 +18,7 @@ use super::cluster::ClusterOptions;
 use super::interrupt::Interruptible;
 use super::limits::LimitOptions;
 use super::progress::Line;
+use super::prove;
 use super::validate::Warnings;
 use super::values;
 use super::{Failure, emit, show, tell_data, write};
@@ -73,6 +74,20 @@ pub struct Arguments {
         "json", "markdown", "html", "certificate", "checkpoint", "resume", "readings", "processes"
     ])]
     sweep: Option<String>,
+    /// Judge the properties by this engine and tell for each one which has decided it, in place of the report; with -v also the time
+    /// of each
+    #[arg(long, value_enum, value_name = "ENGINE", conflicts_with_all = [
+        "markdown", "html", "certificate", "checkpoint", "resume", "reduce", "sweep", "interpret", "processes"
+    ])]
+    engine: Option<prove::Engine>,
+    /// Cycles that --engine bmc and kinduction look at at most
+    #[arg(
+        long,
+        value_name = "CYCLES",
+        default_value_t = 100,
+        requires = "engine"
+    )]
+    depth: usize,
     #[command(flatten)]
     warnings: Warnings,
     #[command(flatten)]
@@ -87,6 +102,22 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let subject = subject::load(&arguments.file, &choice.chosen)?;
     tell_data(subject.machine.as_ref());
     known_readings(&subject, &choice.chosen)?;
+    if let Some(engine) = arguments.engine {
+        if choice.all {
+            return Err(Failure::Other(
+                "--readings all is for the explorer's report; with --engine choose options: --readings ID=OPTION".to_owned(),
+            ));
+        }
+        let asked = prove::Asked {
+            engine,
+            depth: arguments.depth,
+            limits: &arguments.limits,
+            json: arguments.json,
+            verbose: arguments.verbose,
+        };
+        let status = prove::run(&subject, &asked)?;
+        return Ok(arguments.warnings.status(subject.machine.as_ref(), status));
+    }
     if choice.all && (arguments.checkpoint.is_some() || arguments.resume.is_some()) {
         return Err(Failure::Other(
             "--readings all makes one check for each option; keep one of them: --readings ID=OPTION"
