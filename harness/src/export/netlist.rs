@@ -184,6 +184,8 @@ impl Builder<'_, '_> {
             let keeps = word.keeps(&mut self.netlist.graph, lo, hi);
             if keeps != Lit::TRUE {
                 self.netlist.invariants.push(keeps);
+                // A start value keeps to it; any value must be told to.
+                self.netlist.start.extend(start.is_none().then_some(keeps));
             }
             self.define(self.circuit.state(k), word);
         }

@@ -60,12 +60,15 @@ impl<'a> File<'a> {
             .map(|l| (l.name.clone(), l.lit, l.init, l.next))
             .collect();
         let mut begin = Vec::new();
-        if netlist.start.iter().any(|lit| *lit != Lit::TRUE) {
+        // What holds in every cycle need not be said of the first.
+        let first = |lit: &&Lit| **lit != Lit::TRUE && !netlist.invariants.contains(lit);
+        let first: Vec<Lit> = netlist.start.iter().filter(first).copied().collect();
+        if !first.is_empty() {
             // FALSE in the first cycle, TRUE in all others.
             let later = graph.leaf();
             latches.push(("later".to_owned(), later, Some(false), Lit::TRUE));
-            for lit in &netlist.start {
-                begin.push(graph.or(later, *lit));
+            for lit in first {
+                begin.push(graph.or(later, lit));
             }
         }
         File {
