@@ -11,6 +11,7 @@ use stillpoint_engine::keep::Keep;
 use stillpoint_engine::readings::compare;
 use stillpoint_engine::subject::{self, Subject};
 use stillpoint_harness::certificate;
+use stillpoint_harness::proof::Which;
 use stillpoint_harness::report::{self, About};
 use stillpoint_harness::sweep::{Failed, sweep};
 
@@ -88,6 +89,9 @@ pub struct Arguments {
         requires = "engine"
     )]
     depth: usize,
+    /// Judge for every value of these parameters at once: NAME over its whole range or NAME=LO..HI, several with commas, or `all`
+    #[arg(long, value_name = "all|NAME[=LO..HI],...", value_parser = prove::every, requires = "engine")]
+    every: Option<Which>,
     #[command(flatten)]
     warnings: Warnings,
     #[command(flatten)]
@@ -99,7 +103,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         return swept(arguments, name);
     }
     let choice = values::readings(&arguments.readings).map_err(Failure::Other)?;
-    let subject = subject::load(&arguments.file, &choice.chosen)?;
+    let mut subject = subject::load(&arguments.file, &choice.chosen)?;
     tell_data(subject.machine.as_ref());
     known_readings(&subject, &choice.chosen)?;
     if let Some(engine) = arguments.engine {
@@ -110,12 +114,13 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         }
         let asked = prove::Asked {
             engine,
+            every: arguments.every.as_ref(),
             depth: arguments.depth,
             limits: &arguments.limits,
             json: arguments.json,
             verbose: arguments.verbose,
         };
-        let status = prove::run(&subject, &asked)?;
+        let status = prove::run(&mut subject, &asked)?;
         return Ok(arguments.warnings.status(subject.machine.as_ref(), status));
     }
     if choice.all && (arguments.checkpoint.is_some() || arguments.resume.is_some()) {

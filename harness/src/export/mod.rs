@@ -23,6 +23,7 @@ pub mod tla;
 mod types;
 mod writer;
 
+pub(crate) use folded::range_of;
 pub(crate) use netlist::Translated;
 pub use select::{select, system_names};
 

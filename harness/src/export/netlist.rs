@@ -103,17 +103,18 @@ impl<'a> Translated<'a> {
         })
     }
 
-    /// The state variables that have more than one value, as numbers, with their ranges.
-    pub fn variables(&self) -> Vec<(Word, (i64, i64))> {
-        let ranges = self.bound.states.iter().map(|range| wide(*range));
-        let variables = self.states.iter().zip(ranges);
-        variables
-            .filter(|(places, _)| !places.is_empty())
-            .map(|(places, range)| {
-                let bits = places.iter().map(|k| self.netlist.latches[*k].lit);
-                (Word::variable(bits.collect(), range.0), range)
-            })
-            .collect()
+    /// A state variable as a number, with its range.
+    pub fn variable(&self, k: usize) -> (Word, (i64, i64)) {
+        let range = wide(self.bound.states[k]);
+        let word = match range.0 == range.1 {
+            true => Word::constant(range.0),
+            false => {
+                let bits = self.states[k].iter();
+                let bits = bits.map(|place| self.netlist.latches[*place].lit);
+                Word::variable(bits.collect(), range.0)
+            }
+        };
+        (word, range)
     }
 
     /// A run of the netlist in the explorer's terms. A variable of which no bit matters has its least value, or is not told.

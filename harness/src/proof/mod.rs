@@ -4,6 +4,7 @@
 //! they have no form for is left to the explorer, or told to be open.
 
 mod decide;
+mod every;
 mod help;
 mod monitor;
 mod question;
@@ -17,11 +18,13 @@ use stillpoint_lang::ir::Form;
 use stillpoint_model::proof::{Budget, Invariant, Lit, Netlist, Run, Spent};
 use stillpoint_model::{Interrupt, Judgement, Limits, Options, Trace, Verdict};
 
+use crate::export::Unsupported;
 use decide::{Decision, Depth, decide, until};
 use help::helped;
 use monitor::Duty;
 use question::{Asked, Question, Stated};
 
+pub use every::{Every, Span, Which};
 pub use text::{Told, exit_status, to_json};
 
 /// Which engine is to judge.
@@ -108,24 +111,24 @@ pub struct Judged {
 
 /// Judges the properties of a system, then its ranges.
 pub fn judge(bound: &Bound, settings: &Settings) -> Vec<Judged> {
-    let budget = Budget {
-        until: until(settings.time),
-        interrupt: settings.interrupt.clone(),
-    };
-    let mut judge = Judge {
-        bound,
-        settings,
-        budget,
-        out: Vec::new(),
-    };
+    let mut judge = Judge::new(bound, settings);
     if settings.choice == Choice::Explorer {
         judge.explore(
             &(0..bound.system.properties.len()).collect::<Vec<_>>(),
             true,
         );
     } else {
-        judge.prove();
+        judge.prove(Asked::new(bound));
     }
+    judge.out
+}
+
+/// Judges the properties of a system for all values of its parameters. The explorer, which takes one configuration at a time, is not
+/// asked.
+pub fn judge_every(every: &Every, settings: &Settings) -> Vec<Judged> {
+    let mut judge = Judge::new(&every.bound, settings);
+    judge.leave_to_explorer = false;
+    judge.prove(Asked::every(every));
     judge.out
 }
 
@@ -133,10 +136,26 @@ struct Judge<'a> {
     bound: &'a Bound,
     settings: &'a Settings,
     budget: Budget,
+    /// Whether properties without an engine are left to the explorer.
+    leave_to_explorer: bool,
     out: Vec<Judged>,
 }
 
-impl Judge<'_> {
+impl<'a> Judge<'a> {
+    fn new(bound: &'a Bound, settings: &'a Settings) -> Self {
+        let budget = Budget {
+            until: until(settings.time),
+            interrupt: settings.interrupt.clone(),
+        };
+        Judge {
+            bound,
+            settings,
+            budget,
+            leave_to_explorer: settings.choice == Choice::Auto,
+            out: Vec::new(),
+        }
+    }
+
     fn entry(&self, id: String, text: &str) -> Judged {
         Judged {
             id,
@@ -151,8 +170,8 @@ impl Judge<'_> {
         }
     }
 
-    fn prove(&mut self) {
-        let asked = match Asked::new(self.bound) {
+    fn prove(&mut self, asked: Result<Asked, Unsupported>) {
+        let asked = match asked {
             Ok(asked) => asked,
             Err(why) => return self.unsupported(&why.0),
         };
@@ -197,7 +216,7 @@ impl Judge<'_> {
             entry.seconds = begin.elapsed().as_secs_f64();
             self.out.push(entry);
         }
-        if self.settings.choice == Choice::Auto && !left.is_empty() {
+        if self.leave_to_explorer && !left.is_empty() {
             self.explore(&left, false);
         }
     }
@@ -205,7 +224,7 @@ impl Judge<'_> {
     /// A system that is no netlist.
     fn unsupported(&mut self, why: &str) {
         let all: Vec<usize> = (0..self.bound.system.properties.len()).collect();
-        if self.settings.choice == Choice::Auto {
+        if self.leave_to_explorer {
             return self.explore(&all, true);
         }
         for property in &self.bound.system.properties {
@@ -228,7 +247,7 @@ impl Judge<'_> {
     fn decide_duty(&self, asked: &Asked, target: Lit, duty: Option<&Duty>) -> Decision {
         let help = match (duty, self.settings.choice) {
             (Some(duty), Choice::Auto | Choice::Pdr | Choice::Induction) => {
-                helped(&asked.translated, duty, &self.budget)
+                helped(asked, duty, &self.budget)
             }
             _ => Ok(None),
         };
@@ -255,7 +274,9 @@ impl Judge<'_> {
             _ => Engine::Bmc,
         });
         entry.length = Some(run.cycles.len() as u64);
-        entry.trace = Some(asked.translated.trace(run));
+        let trace = asked.translated.trace(run);
+        entry.reason = asked.configuration(&trace);
+        entry.trace = Some(trace);
     }
 
     fn seen(&self, asked: &Asked, entry: &mut Judged, goal: Lit) {

@@ -51,34 +51,50 @@ pub(super) fn until(
     broken
 }
 
+/// A bound in cycles, known or over parameters that are part of the state, and the greatest value that it can have.
+#[derive(Clone)]
+pub(super) struct Cycles {
+    pub word: Word,
+    pub most: i64,
+}
+
+impl Cycles {
+    pub(super) fn constant(cycles: i64) -> Self {
+        Cycles {
+            word: Word::constant(cycles),
+            most: cycles,
+        }
+    }
+}
+
 /// A bounded response: what breaks `goal` in one of the cycles k ..= k + within. Of several duties the oldest one counts; the cycles
 /// left are counted down.
 pub(super) fn within(
     netlist: &mut Netlist,
     fault: Lit,
     (when, goal): (Lit, Lit),
-    within: i64,
+    within: &Cycles,
 ) -> (Lit, Duty) {
     let first = netlist.latches.len();
     let pending = netlist.latch("monitor.pending".to_owned(), Some(false));
-    let most = (within - 1).max(0);
+    let most = (within.most - 1).max(0);
     let rest = counter(netlist, "monitor.rest", most);
     let graph = &mut netlist.graph;
     let over = is_zero(graph, &rest);
-    let ends = match within {
-        0 => graph.or(pending, when),
-        _ => graph.and(pending, over),
-    };
+    // A bound below 1 leaves the cycle of the trigger itself.
+    let one = Word::constant(1);
+    let at_once = within.word.less(graph, &one);
+    let late = graph.and(pending, over);
+    let now = graph.and(at_once, when);
+    let ends = graph.or(late, now);
     let broken = graph.all([ends, !goal, !fault]);
-    let starts = match within {
-        0 => Lit::FALSE,
-        _ => graph.and(!pending, when),
-    };
+    let starts = graph.all([!at_once, !pending, when]);
     let stays = graph.and(pending, !over);
     let open = graph.or(starts, stays);
     let next = graph.and(open, !goal);
-    let less = rest.minus(graph, &Word::constant(1));
-    let count = less.choice(graph, pending, &Word::constant(most));
+    let less = rest.minus(graph, &one);
+    let whole = within.word.minus(graph, &one);
+    let count = less.choice(graph, pending, &whole);
     let count = count
         .choice(graph, next, &Word::constant(0))
         .within(0, most);

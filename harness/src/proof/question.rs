@@ -2,9 +2,11 @@
 
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::ir::{Form, Property};
+use stillpoint_model::Trace;
 use stillpoint_model::proof::Lit;
 
-use super::monitor::{self, Duty};
+use super::every::Every;
+use super::monitor::{self, Cycles, Duty};
 use crate::export::{Translated, Unsupported};
 
 /// Longer bounds have no monitor: its counter would outgrow what the engines decide.
@@ -40,6 +42,10 @@ pub(super) struct Asked<'a> {
     pub translated: Translated<'a>,
     /// As the properties of the system.
     pub questions: Vec<Question>,
+    /// Parameters that are part of the state: places of their state variables.
+    pub parameters: &'a [usize],
+    /// The number of state variables that are neither parameters nor bounds over them: the first ones.
+    pub own: usize,
 }
 
 impl<'a> Asked<'a> {
@@ -47,21 +53,71 @@ impl<'a> Asked<'a> {
         let mut asked = Asked {
             translated: Translated::new(bound)?,
             questions: Vec::new(),
+            parameters: &[],
+            own: bound.states.len(),
         };
-        for property in &bound.system.properties {
-            let question = asked.question(property).unwrap_or(Question::None(
-                "an expression of it cannot be told in one cycle",
-            ));
-            asked.questions.push(question);
-        }
+        asked.ask(|_| None);
         Ok(asked)
+    }
+
+    /// The same for all values of some parameters.
+    pub(super) fn every(every: &'a Every) -> Result<Self, Unsupported> {
+        let mut asked = Asked {
+            translated: Translated::new(&every.bound)?,
+            questions: Vec::new(),
+            parameters: &every.parameters,
+            own: every.own,
+        };
+        let (always, start) = (
+            asked.conditions(&every.always)?,
+            asked.conditions(&every.start)?,
+        );
+        let assumed = asked.conditions(&every.assumed)?;
+        let netlist = &mut asked.translated.netlist;
+        netlist.start.extend(always.iter().chain(&start));
+        netlist.invariants.extend(always);
+        netlist.assumed.extend(assumed);
+        asked.ask(|k| every.within[k]);
+        Ok(asked)
+    }
+
+    /// The configuration of a run, where parameters are part of the state.
+    pub(super) fn configuration(&self, trace: &Trace) -> Option<String> {
+        let bound = self.translated.bound;
+        let value = |k: &usize| {
+            let chosen = trace.initial.iter().find(|(cell, _)| *cell as usize == *k);
+            let value = i64::from(bound.states[*k].0) + chosen.map_or(0, |(_, v)| i64::from(*v));
+            let var = &bound.system.states[*k].var;
+            format!("{} = {}", var.name, bound.system.show(var.ty, value))
+        };
+        let list: Vec<String> = self.parameters.iter().map(value).collect();
+        (!list.is_empty()).then(|| format!("with {}", list.join(", ")))
+    }
+
+    fn conditions(&self, list: &[usize]) -> Result<Vec<Lit>, Unsupported> {
+        let told = |k: &usize| {
+            let lit = self.atom(*k).filter(|lit| *lit != Lit::FALSE);
+            lit.ok_or_else(|| Unsupported("no values of its parameters go together".to_owned()))
+        };
+        list.iter().map(told).collect()
+    }
+
+    /// Asks about all properties; `bounds` has the state variable with the bound of one, if there is such.
+    fn ask(&mut self, bounds: impl Fn(usize) -> Option<usize>) {
+        let bound = self.translated.bound;
+        for (k, property) in bound.system.properties.iter().enumerate() {
+            let question = self.question(property, bounds(k));
+            self.questions.push(question.unwrap_or(Question::None(
+                "an expression of it cannot be told in one cycle",
+            )));
+        }
     }
 
     fn atom(&self, k: usize) -> Option<Lit> {
         self.translated.atoms.get(k).copied().flatten()
     }
 
-    fn question(&mut self, property: &Property) -> Option<Question> {
+    fn question(&mut self, property: &Property, variable: Option<usize>) -> Option<Question> {
         let fault = self.translated.fault;
         let graph = |asked: &mut Self, list: &[Lit]| {
             asked.translated.netlist.graph.all(list.iter().copied())
@@ -106,15 +162,20 @@ impl<'a> Asked<'a> {
                 within: Some(within),
                 ..
             } => {
-                let bound = self.translated.bound;
-                let within = bound.constant(within).max(0);
-                if within > LONGEST {
+                let within = match variable {
+                    Some(k) => {
+                        let (word, (_, most)) = self.translated.variable(k);
+                        Cycles { word, most }
+                    }
+                    None => Cycles::constant(self.translated.bound.constant(within).max(0)),
+                };
+                if within.most > LONGEST {
                     return Some(Question::None("its bound is too long to be counted"));
                 }
                 let pair = (self.atom(*when)?, self.atom(*goal)?);
                 let netlist = &mut self.translated.netlist;
-                let (broken, duty) = monitor::within(netlist, fault, pair, within);
-                let stated = self.stated(property, pair, within, (broken, &duty));
+                let (broken, duty) = monitor::within(netlist, fault, pair, &within);
+                let stated = self.stated(property, pair, within.most, (broken, &duty));
                 Question::Never {
                     broken,
                     duty: Some(duty),
@@ -148,7 +209,7 @@ impl<'a> Asked<'a> {
             let least = bound.constant(exactly).max(0);
             let (what, duty) = match least == within {
                 true => (own.0, own.1.clone()),
-                false => monitor::within(netlist, fault, pair, least),
+                false => monitor::within(netlist, fault, pair, &Cycles::constant(least)),
             };
             let otherwise = format!("the least bound recorded is {least} cycles, the one found ");
             list.push(Stated {
@@ -160,7 +221,7 @@ impl<'a> Asked<'a> {
             if least > 0 {
                 list.push(Stated {
                     seen: true,
-                    what: monitor::within(netlist, fault, pair, least - 1).0,
+                    what: monitor::within(netlist, fault, pair, &Cycles::constant(least - 1)).0,
                     duty: None,
                     otherwise: format!("{otherwise}is shorter"),
                 });

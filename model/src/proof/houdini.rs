@@ -41,6 +41,9 @@ fn at_start(problem: &Problem, candidates: &[Lit], budget: &Budget) -> Result<Ve
     }
     let mut kept = Vec::new();
     for lit in candidates {
+        if budget.spent() {
+            return Err(Spent);
+        }
         let term = encoding.term(&mut solver, problem.graph(), *lit);
         if !solver.solve(&[!term])? {
             kept.push(*lit);
@@ -66,6 +69,10 @@ fn kept_by_cycles(
         solver.clause([term]);
     }
     while !kept.is_empty() {
+        // The solvers of small questions hardly ever look at the time.
+        if budget.spent() {
+            return Err(Spent);
+        }
         let mut given: Vec<Term> = (kept.iter())
             .map(|lit| encoding.term(&mut solver, &graph, *lit))
             .collect();

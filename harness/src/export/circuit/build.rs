@@ -141,9 +141,9 @@ impl<'a> Builder<'a, '_> {
     fn write(&mut self, cell: usize, value: Id, condition: Id) -> Result<(), Unsupported> {
         let mut value = value;
         if !self.terms.is_truth(value) {
-            let (lo, hi) = self.folded.bound.states[cell];
-            let lo = self.terms.number(i64::from(lo));
-            let hi = self.terms.number(i64::from(hi));
+            let folded = self.folded;
+            let (lo, hi) = &folded.limits[cell];
+            let (lo, hi) = (self.number(lo)?, self.number(hi)?);
             let below = self.terms.binary(BinaryOp::Lt, value, lo)?;
             let above = self.terms.binary(BinaryOp::Gt, value, hi)?;
             let outside = self.terms.or(below, above);
