@@ -4,6 +4,7 @@
 mod btor2;
 mod certificates;
 mod differential;
+mod engines;
 mod evaluators;
 mod exports;
 mod nusmv;

@@ -89,8 +89,8 @@ impl<'a> File<'a> {
             last += 1;
             self.codes[lit.node()] = last << 1;
         }
-        for node in 0..self.graph.size() {
-            if needed[node] && matches!(self.graph.node(node), Node::And(..)) {
+        for (node, needed) in needed.iter().enumerate() {
+            if *needed && matches!(self.graph.node(node), Node::And(..)) {
                 last += 1;
                 self.codes[node] = last << 1;
                 self.ands.push(node);

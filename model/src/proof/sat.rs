@@ -218,10 +218,10 @@ mod tests {
         for pigeon in &holes {
             solver.clause(pigeon.iter().copied());
         }
-        for hole in 0..8 {
-            for one in 0..9 {
-                for other in 0..one {
-                    solver.clause([!holes[one][hole], !holes[other][hole]]);
+        for (one, pigeon) in holes.iter().enumerate() {
+            for other in &holes[..one] {
+                for (a, b) in pigeon.iter().zip(other) {
+                    solver.clause([!*a, !*b]);
                 }
             }
         }

@@ -85,7 +85,7 @@ impl Engine<'_> {
     fn decide(&mut self) -> Result<Reachability, Spent> {
         // A run of one cycle.
         if let Some(mut values) = self.frames.bad(0)? {
-            let first = self.to_bad(&mut values);
+            let first = self.ending(&mut values);
             return Ok(Reachability::Found(self.run(first, &values)));
         }
         loop {
@@ -93,7 +93,7 @@ impl Engine<'_> {
             let top = self.frames.top();
             self.effort.levels = top;
             while let Some(mut values) = self.frames.bad(top)? {
-                let first = self.to_bad(&mut values);
+                let first = self.ending(&mut values);
                 if let Some(run) = self.block(first, top)? {
                     return Ok(Reachability::Found(run));
                 }
@@ -106,7 +106,7 @@ impl Engine<'_> {
     }
 
     /// The obligation from values with which a state is bad.
-    fn to_bad(&mut self, values: &mut [bool]) -> usize {
+    fn ending(&mut self, values: &mut [bool]) -> usize {
         let bad = self.problem.bad;
         let cube = self
             .lift
