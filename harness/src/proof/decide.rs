@@ -80,14 +80,14 @@ fn reached(problem: &Problem, short: usize, budget: &Budget) -> Result<Decision,
         return Ok(Decision::Seen(run));
     }
     match reachability(problem, budget)?.0 {
-        Reachability::Proved(invariant) => {
-            Ok(match invariant.check(problem.netlist(), problem.bad())? {
+        Reachability::Proved(invariant) => Ok(
+            match invariant.check(problem.netlist(), problem.bad(), budget)? {
                 Ok(()) => Decision::Never(Proof::Invariant(invariant)),
                 Err(defect) => Decision::Open(format!(
                     "the engine's invariant shows nothing, {defect}: please report this"
                 )),
-            })
-        }
+            },
+        ),
         Reachability::Found(run) if !problem.shows(&run) => Ok(Decision::Seen(run)),
         Reachability::Found(run) => {
             let shorter = runs.within(run.cycles.len() - 1)?;

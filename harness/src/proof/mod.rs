@@ -10,6 +10,7 @@ mod monitor;
 mod question;
 mod text;
 
+use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
 use stillpoint_engine::{label, run as explore};
@@ -176,9 +177,12 @@ impl<'a> Judge<'a> {
             Err(why) => return self.unsupported(&why.0),
         };
         let mut left = Vec::new();
-        for (k, (property, question)) in
-            (self.bound.system.properties.iter().zip(&asked.questions)).enumerate()
-        {
+        // What may take long comes last, so that a limit leaves less open.
+        let mut order: Vec<usize> = (0..asked.questions.len()).collect();
+        order.sort_by_key(|k| matches!(asked.questions[*k], Question::Never { duty: Some(_), .. }));
+        let mut told = BTreeMap::new();
+        for k in order {
+            let (property, question) = (&self.bound.system.properties[k], &asked.questions[k]);
             let begin = Instant::now();
             let mut entry = self.entry(label(property), &property.text);
             match question {
@@ -198,8 +202,10 @@ impl<'a> Judge<'a> {
                 }
             }
             entry.seconds = begin.elapsed().as_secs_f64();
-            self.out.push(entry);
+            told.insert(k, entry);
         }
+        left.sort_unstable();
+        self.out.extend(told.into_values());
         if asked.translated.fault != Lit::FALSE {
             let begin = Instant::now();
             let mut entry = self.entry(

@@ -26,74 +26,57 @@ pub enum Defect {
 }
 
 impl Invariant {
-    /// Whether it shows that `bad` cannot be reached: by three questions to a solver, with nothing of what found it. The conditions
-    /// that the netlist calls invariants are shown with it.
+    /// Whether it shows that `bad` cannot be reached: by questions to a solver, one for each clause at the start and after a cycle, and
+    /// with nothing of what found it. The conditions that the netlist calls invariants are shown with it.
     ///
     /// # Errors
     /// The budget is spent.
-    pub fn check(&self, netlist: &Netlist, bad: Lit) -> Result<Result<(), Defect>, Spent> {
+    pub fn check(
+        &self,
+        netlist: &Netlist,
+        bad: Lit,
+        budget: &Budget,
+    ) -> Result<Result<(), Defect>, Spent> {
         let problem = &Problem::new(netlist, bad);
-        for (first, defect) in [(true, Defect::Start), (false, Defect::Cycle)] {
-            if !self.excludes(problem, first, None)? {
-                return Ok(Err(defect));
-            }
-        }
-        let safe = self.excludes(problem, false, Some(bad))?;
-        Ok(if safe { Ok(()) } else { Err(Defect::Bad) })
-    }
-
-    /// Without `bad`: whether all conditions hold at the start (`first`), or after a cycle before which they hold. With it: whether
-    /// it cannot be where they hold.
-    fn excludes(&self, problem: &Problem, first: bool, bad: Option<Lit>) -> Result<bool, Spent> {
-        let netlist = problem.netlist;
         let mut graph = netlist.graph.clone();
-        let mut given = problem.assumed.clone();
-        let own = self.over(&mut graph, netlist);
-        let mut shown = own.clone();
-        if first {
-            given.extend(&problem.start);
-            for latch in problem.cone() {
-                given.extend(latch.init.map(|init| latch.lit.flipped(!init)));
+        let own = self.over(&mut graph, |k| netlist.latches[k].lit);
+        let all = [&own[..], &problem.invariants[..]].concat();
+        let mut after = self.over(&mut graph, |k| netlist.latches[k].next);
+        after.extend(over_next(&mut graph, netlist, &problem.invariants));
+        let fixed = problem.cone().filter_map(|latch| {
+            let init = latch.init?;
+            Some(latch.lit.flipped(!init))
+        });
+        let start: Vec<Lit> = problem.start.iter().copied().chain(fixed).collect();
+        for (given, shown, defect) in [
+            (&start, &all, Defect::Start),
+            (&all, &after, Defect::Cycle),
+            (&all, &vec![!bad], Defect::Bad),
+        ] {
+            let mut solver = Solver::new(budget);
+            let mut encoding = Encoding::new(&graph);
+            for lit in given.iter().chain(&problem.assumed) {
+                let term = encoding.term(&mut solver, &graph, *lit);
+                solver.clause([term]);
             }
-            shown.extend(&problem.invariants);
-        } else {
-            given.extend(own);
-            given.extend(&problem.invariants);
-        }
-        let question = match (bad, first) {
-            (Some(bad), _) => bad,
-            (None, true) => {
-                let all = graph.all(shown);
-                !all
-            }
-            (None, false) => {
-                let mut after = Vec::new();
-                for clause in &self.clauses {
-                    let list = clause.iter();
-                    let list = list.map(|(k, v)| netlist.latches[*k].next.flipped(!*v));
-                    let list: Vec<Lit> = list.collect();
-                    after.push(graph.any(list));
+            for lit in shown {
+                let term = encoding.term(&mut solver, &graph, *lit);
+                if solver.solve(&[!term])? {
+                    return Ok(Err(defect));
                 }
-                after.extend(over_next(&mut graph, netlist, &problem.invariants));
-                !graph.all(after)
             }
-        };
-        let mut solver = Solver::new(&Budget::default());
-        let mut encoding = Encoding::new(&graph);
-        for lit in given.into_iter().chain([question]) {
-            let term = encoding.term(&mut solver, &graph, lit);
-            solver.clause([term]);
         }
-        Ok(!solver.solve(&[])?)
+        Ok(Ok(()))
     }
 
-    /// The clauses over the state before the cycle.
-    fn over(&self, graph: &mut Graph, netlist: &Netlist) -> Vec<Lit> {
-        let mut clause = |clause: &Vec<(usize, bool)>| {
-            let list = clause.iter();
-            let list = list.map(|(k, v)| netlist.latches[*k].lit.flipped(!*v));
-            graph.any(list.collect::<Vec<_>>())
-        };
-        self.clauses.iter().map(&mut clause).collect()
+    /// The clauses, where `value` gives a latch before or after the cycle.
+    fn over(&self, graph: &mut Graph, value: impl Fn(usize) -> Lit) -> Vec<Lit> {
+        let mut out = Vec::with_capacity(self.clauses.len());
+        for clause in &self.clauses {
+            let parts = clause.iter().map(|(k, v)| value(*k).flipped(!*v));
+            let parts: Vec<Lit> = parts.collect();
+            out.push(graph.any(parts));
+        }
+        out
     }
 }

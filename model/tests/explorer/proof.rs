@@ -156,7 +156,11 @@ fn engines_agree_with_enumeration_on_random_netlists() {
         match reachability(&problem, &budget).expect("time").0 {
             Reachability::Proved(invariant) => {
                 assert_eq!(known, None, "{seed}: reachability");
-                assert_eq!(invariant.check(&netlist, bad), Ok(Ok(())), "{seed}");
+                assert_eq!(
+                    invariant.check(&netlist, bad, &budget),
+                    Ok(Ok(())),
+                    "{seed}"
+                );
                 proved += 1;
                 clauses += invariant.clauses.len();
             }
@@ -235,7 +239,9 @@ fn a_weak_or_wrong_invariant_is_refused() {
     let (netlist, bad) = counter();
     let check = |clauses: &[&[(usize, bool)]]| {
         let clauses = clauses.iter().map(|c| c.to_vec()).collect();
-        Invariant { clauses }.check(&netlist, bad).expect("time")
+        Invariant { clauses }
+            .check(&netlist, bad, &Budget::default())
+            .expect("time")
     };
     assert_eq!(check(&[]), Err(Defect::Bad));
     assert_eq!(check(&[&[(1, false), (2, false)]]), Ok(()));
