@@ -24,6 +24,7 @@
 //!   finds the least predecessors.
 //! * `symmetry`, `narrow`: a system up to a group of permutations, and a part of a system; both systems again.
 //! * `distributed` (a cargo feature): the same search over several processes.
+//! * `proof`: engines that do not enumerate states, over and-inverter graphs.
 //! * `twin`: two runs side by side; `reachable`: the reachable states in order. `cycles`: those of one state, to walk by hand.
 //!
 //! A cycle whose evaluation meets a fault has no successor and is reported. A fault in a property's atom makes that atom
@@ -50,6 +51,7 @@ mod narrow;
 mod pack;
 mod parts;
 mod process;
+pub mod proof;
 mod property;
 mod reachable;
 mod report;

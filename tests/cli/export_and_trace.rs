@@ -181,6 +181,42 @@ fn btor2_can_carry_one_property() {
 }
 
 #[test]
+fn aiger_is_text_or_binary_and_can_carry_one_property() {
+    let all = [
+        "export",
+        "spec/families/sinumerik-840d/axis.toml",
+        "--system",
+        "selection",
+        "--to",
+        "aiger",
+    ];
+    let header = |text: &str| -> Vec<String> {
+        let first = text.lines().next().unwrap_or_default();
+        first.split(' ').map(str::to_owned).collect()
+    };
+    let text = stdout(&stillpoint(&all));
+    let whole = header(&text);
+    assert_eq!(whole[0], "aag");
+    assert!(whole[6].parse::<u32>().expect("a number") > 1, "{whole:?}");
+    assert!(text.lines().any(|l| l.starts_with("l0 ")), "{text}");
+    let mut one = all.to_vec();
+    one.extend(["--property", "S840D-P-08"]);
+    let text = stdout(&stillpoint(&one));
+    assert_eq!(header(&text)[6], "1");
+    assert!(text.lines().any(|l| l == "b0 S840D-P-08"), "{text}");
+    let file = File::new("selection.aig");
+    let mut binary = all.to_vec();
+    binary.extend(["--output", file.name()]);
+    let output = stillpoint(&binary);
+    assert_eq!(output.status.code(), Some(0));
+    let bytes = std::fs::read(file.name()).expect("it is there");
+    assert!(bytes.starts_with(b"aig "));
+    let end = bytes.iter().position(|b| *b == b'\n').expect("a line");
+    let first = std::str::from_utf8(&bytes[..end]).expect("text");
+    assert_eq!(header(first)[1..], whole[1..]);
+}
+
+#[test]
 fn the_matrix_is_printed_and_written() {
     let file = File::new("matrix.html");
     let output = stillpoint(&["trace", "--json", "--html", file.name()]);

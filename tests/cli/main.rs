@@ -15,6 +15,7 @@ mod export_and_trace;
 mod first_hour;
 mod heidenhain;
 mod numbers;
+mod proof;
 mod reaction;
 mod recording;
 mod report;

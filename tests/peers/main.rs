@@ -4,10 +4,12 @@
 mod btor2;
 mod certificates;
 mod differential;
+mod engines;
 mod evaluators;
 mod exports;
 mod nusmv;
 mod pair;
+mod proof;
 mod reductions;
 mod rumur;
 mod spin;

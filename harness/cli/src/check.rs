@@ -11,6 +11,7 @@ use stillpoint_engine::keep::Keep;
 use stillpoint_engine::readings::compare;
 use stillpoint_engine::subject::{self, Subject};
 use stillpoint_harness::certificate;
+use stillpoint_harness::proof::Which;
 use stillpoint_harness::report::{self, About};
 use stillpoint_harness::sweep::{Failed, sweep};
 
@@ -18,6 +19,7 @@ use super::cluster::ClusterOptions;
 use super::interrupt::Interruptible;
 use super::limits::LimitOptions;
 use super::progress::Line;
+use super::prove;
 use super::validate::Warnings;
 use super::values;
 use super::{Failure, emit, show, tell_data, write};
@@ -73,6 +75,23 @@ pub struct Arguments {
         "json", "markdown", "html", "certificate", "checkpoint", "resume", "readings", "processes"
     ])]
     sweep: Option<String>,
+    /// Judge the properties by this engine and tell for each one which has decided it, in place of the report; with -v also the time
+    /// of each
+    #[arg(long, value_enum, value_name = "ENGINE", conflicts_with_all = [
+        "markdown", "html", "certificate", "checkpoint", "resume", "reduce", "sweep", "interpret", "processes"
+    ])]
+    engine: Option<prove::Engine>,
+    /// Cycles that --engine bmc and kinduction look at at most
+    #[arg(
+        long,
+        value_name = "CYCLES",
+        default_value_t = 100,
+        requires = "engine"
+    )]
+    depth: usize,
+    /// Judge for every value of these parameters at once: NAME over its whole range or NAME=LO..HI, several with commas, or `all`
+    #[arg(long, value_name = "all|NAME[=LO..HI],...", value_parser = prove::every, requires = "engine")]
+    every: Option<Which>,
     #[command(flatten)]
     warnings: Warnings,
     #[command(flatten)]
@@ -84,9 +103,26 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         return swept(arguments, name);
     }
     let choice = values::readings(&arguments.readings).map_err(Failure::Other)?;
-    let subject = subject::load(&arguments.file, &choice.chosen)?;
+    let mut subject = subject::load(&arguments.file, &choice.chosen)?;
     tell_data(subject.machine.as_ref());
     known_readings(&subject, &choice.chosen)?;
+    if let Some(engine) = arguments.engine {
+        if choice.all {
+            return Err(Failure::Other(
+                "--readings all is for the explorer's report; with --engine choose options: --readings ID=OPTION".to_owned(),
+            ));
+        }
+        let asked = prove::Asked {
+            engine,
+            every: arguments.every.as_ref(),
+            depth: arguments.depth,
+            limits: &arguments.limits,
+            json: arguments.json,
+            verbose: arguments.verbose,
+        };
+        let status = prove::run(&mut subject, &asked)?;
+        return Ok(arguments.warnings.status(subject.machine.as_ref(), status));
+    }
     if choice.all && (arguments.checkpoint.is_some() || arguments.resume.is_some()) {
         return Err(Failure::Other(
             "--readings all makes one check for each option; keep one of them: --readings ID=OPTION"

@@ -4,9 +4,8 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use stillpoint_engine::subject::{self, Task};
-use stillpoint_harness::export::{
-    btor2, dot, json, murphi, promela, select, smv, tla, write_atomically,
-};
+use stillpoint_harness::atomic::write_with;
+use stillpoint_harness::export::{aiger, btor2, dot, json, murphi, promela, select, smv, tla};
 use stillpoint_model::Options;
 
 use super::{Failure, emit};
@@ -21,7 +20,7 @@ pub struct Arguments {
     /// Which system, where the file has several; NAME:AXIS where one system runs for several axes
     #[arg(long, value_name = "NAME")]
     system: Option<String>,
-    /// With btor2: only this `always` or `never` property, for checkers that take one (`range`: no value leaves its range)
+    /// With aiger and btor2: only this `always` or `never` property, for checkers that take one (`range`: no value leaves its range)
     #[arg(long, value_name = "ID")]
     property: Option<String>,
     /// Write to this file instead of stdout
@@ -39,6 +38,9 @@ enum Format {
     Smv,
     /// Bit-vectors for word-level checkers: `always` and `never` properties as `bad`, `reachable` ones as `output`
     Btor2,
+    /// And-inverter graph for bit-level checkers: `always` and `never` properties as `bad`, `reachable` ones as outputs; in the binary
+    /// form if the name of --output ends in .aig, else ASCII
+    Aiger,
     /// TLA+ module with TLC's configurations (beside FILE.tla FILE.cfg with all that must hold, and FILE.PROPERTY.cfg for each
     /// property alone): `always`, `never` and `reachable` properties
     Tla,
@@ -53,9 +55,9 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let task = select(&subject, arguments.system.as_deref()).map_err(Failure::Other)?;
     let fail =
         |e: &dyn std::fmt::Display| Failure::Other(format!("{}: {e}", task.bound.system.name));
-    if arguments.property.is_some() && !matches!(arguments.to, Format::Btor2) {
+    if arguments.property.is_some() && !matches!(arguments.to, Format::Btor2 | Format::Aiger) {
         return Err(Failure::Other(
-            "--property is for --to btor2; the other formats carry all properties side by side"
+            "--property is for --to aiger and btor2; the other formats carry all properties side by side"
                 .to_owned(),
         ));
     }
@@ -68,6 +70,19 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         Format::Smv => smv::smv(bound, title).map_err(|e| fail(&e))?,
         Format::Btor2 => {
             btor2::btor2(bound, title, arguments.property.as_deref()).map_err(|e| fail(&e))?
+        }
+        Format::Aiger => {
+            let only = arguments.property.as_deref();
+            let path = arguments.output.as_deref();
+            let binary = path.is_some_and(|p| p.extension().is_some_and(|e| e == "aig"));
+            let file = aiger::aiger(bound, title, only, binary).map_err(|e| fail(&e))?;
+            return match path {
+                None => {
+                    emit(&String::from_utf8_lossy(&file));
+                    Ok(0)
+                }
+                Some(path) => write_bytes(path, &file).map(|()| 0),
+            };
         }
         Format::Tla => return tla(arguments, task),
         Format::Dot => dot::dot(bound, title, &Options::default()).map_err(|e| fail(&e))?,
@@ -115,6 +130,10 @@ fn tla(arguments: &Arguments, task: &Task) -> Result<u8, Failure> {
 }
 
 fn write(path: &Path, text: &str) -> Result<(), Failure> {
-    write_atomically(path, text)
+    write_bytes(path, text.as_bytes())
+}
+
+fn write_bytes(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    write_with(path, |out| out.write_all(bytes))
         .map_err(|e| Failure::Other(format!("{} cannot be written: {e}", path.display())))
 }

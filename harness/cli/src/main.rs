@@ -15,6 +15,7 @@ mod new;
 mod pages;
 mod params;
 mod progress;
+mod prove;
 mod reaction;
 mod simulate;
 mod trace;

@@ -29,6 +29,8 @@ pub struct Folded<'a> {
     pub ranges: Vec<(i64, i64)>,
     /// Atoms of the properties.
     pub atoms: Vec<Node>,
+    /// Least and greatest value of each state variable: constants, unless parameters are state variables themselves.
+    pub limits: Vec<(Node, Node)>,
 }
 
 impl<'a> Folded<'a> {
@@ -47,12 +49,17 @@ impl<'a> Folded<'a> {
             rules.push(list.collect());
         }
         let atoms = system.atoms.iter().map(|n| folder.node(n)).collect();
+        let vars = system.states.iter().map(|s| &s.var);
+        let limits = vars
+            .map(|var| (folder.node(&var.lo), folder.node(&var.hi)))
+            .collect();
         let mut folded = Self {
             bound,
             rules,
             lazies,
             ranges: Vec::new(),
             atoms,
+            limits,
         };
         folded.ranges = folded.check()?;
         Ok(folded)
@@ -94,6 +101,23 @@ impl<'a> Folded<'a> {
             .map(|k| ranges.of(&Node::Lazy(k as u32)))
             .collect()
     }
+}
+
+/// Possible values of an expression that reads no named ones, over every value of the cells.
+///
+/// # Errors
+/// As [`Folded::new`].
+pub(crate) fn range_of(bound: &Bound, node: &Node) -> Result<Range, Unsupported> {
+    let folded = &Folded {
+        bound,
+        rules: Vec::new(),
+        lazies: Vec::new(),
+        ranges: Vec::new(),
+        atoms: Vec::new(),
+        limits: Vec::new(),
+    };
+    let lazies = Vec::new();
+    Ranges { folded, lazies }.of(node)
 }
 
 /// Possible values of expressions, over every value of the cells.

@@ -4,6 +4,7 @@
 //! [`json`](fn@json::json) the resolved system for anything else.
 
 mod about;
+pub mod aiger;
 pub mod btor2;
 mod circuit;
 pub mod dot;
@@ -12,6 +13,7 @@ pub mod json;
 mod known;
 pub mod murphi;
 mod names;
+mod netlist;
 pub mod promela;
 mod select;
 pub mod smv;
@@ -21,6 +23,8 @@ pub mod tla;
 mod types;
 mod writer;
 
+pub(crate) use folded::range_of;
+pub(crate) use netlist::Translated;
 pub use select::{select, system_names};
 
 use std::path::Path;

@@ -2,6 +2,7 @@
 
 mod common;
 
+mod aiger;
 mod checkpoint;
 mod cycles;
 #[cfg(feature = "distributed")]
@@ -12,6 +13,7 @@ mod larger;
 mod limits;
 mod liveness;
 mod parts;
+mod proof;
 mod random;
 mod scale;
 mod twin;

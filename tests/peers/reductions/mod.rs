@@ -12,7 +12,7 @@ use stillpoint_lang::eval::Frame;
 use stillpoint_lang::ir::Form;
 use stillpoint_model::{Options, Verdict, Way};
 
-mod random;
+pub(crate) mod random;
 pub(crate) mod shipped;
 mod small;
 mod timers;
@@ -105,7 +105,13 @@ pub(crate) fn compare(bound: &Bound, whole: &Outcome, part: &Outcome, context: &
 }
 
 /// The run is one of the whole system, and it shows what it is said to show.
-fn real(bound: &Bound, k: usize, trace: &stillpoint_model::Trace, part: &Outcome, name: &str) {
+pub(crate) fn real(
+    bound: &Bound,
+    k: usize,
+    trace: &stillpoint_model::Trace,
+    part: &Outcome,
+    name: &str,
+) {
     let cycles = replay(bound, trace);
     assert_eq!(
         cycles.len(),

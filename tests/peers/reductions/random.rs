@@ -159,7 +159,8 @@ impl Random {
     }
 }
 
-fn text(seed: u64) -> String {
+/// The specification of a random system.
+pub(crate) fn text(seed: u64) -> String {
     let r = &mut Random(seed);
     let axes = 2 + r.below(2);
     let axis: &[(&str, u64)] = &[

@@ -6,8 +6,8 @@ use super::{Circuit, Claim, Id, Op, Terms};
 use crate::export::Unsupported;
 use crate::export::folded::Folded;
 
-/// The circuit of a system.
-pub(super) fn circuit<'a>(folded: &Folded<'a>) -> Result<Circuit<'a>, Unsupported> {
+/// The circuit of a system, if `whole` with the atoms of all properties.
+pub(super) fn circuit<'a>(folded: &Folded<'a>, whole: bool) -> Result<Circuit<'a>, Unsupported> {
     let bound = folded.bound;
     let system = &bound.system;
     let mut terms = Terms::default();
@@ -30,7 +30,7 @@ pub(super) fn circuit<'a>(folded: &Folded<'a>) -> Result<Circuit<'a>, Unsupporte
     for k in 0..system.instances.len() {
         builder.rules(k)?;
     }
-    builder.properties(now)
+    builder.properties(now, whole)
 }
 
 /// The state as the rules have changed it, and whether a value has left its range.
@@ -141,9 +141,9 @@ impl<'a> Builder<'a, '_> {
     fn write(&mut self, cell: usize, value: Id, condition: Id) -> Result<(), Unsupported> {
         let mut value = value;
         if !self.terms.is_truth(value) {
-            let (lo, hi) = self.folded.bound.states[cell];
-            let lo = self.terms.number(i64::from(lo));
-            let hi = self.terms.number(i64::from(hi));
+            let folded = self.folded;
+            let (lo, hi) = &folded.limits[cell];
+            let (lo, hi) = (self.number(lo)?, self.number(hi)?);
             let below = self.terms.binary(BinaryOp::Lt, value, lo)?;
             let above = self.terms.binary(BinaryOp::Gt, value, hi)?;
             let outside = self.terms.or(below, above);
@@ -157,7 +157,7 @@ impl<'a> Builder<'a, '_> {
         Ok(())
     }
 
-    fn properties(mut self, now: Vec<Id>) -> Result<Circuit<'a>, Unsupported> {
+    fn properties(mut self, now: Vec<Id>, whole: bool) -> Result<Circuit<'a>, Unsupported> {
         let bound = self.folded.bound;
         let next = self.values.now.clone();
         let fault = self.values.fault;
@@ -185,6 +185,8 @@ impl<'a> Builder<'a, '_> {
                 _ => {}
             }
         }
+        let all = 0..if whole { self.folded.atoms.len() } else { 0 };
+        let atoms = all.map(|k| self.atom(k).ok()).collect();
         let fault = (self.terms.op(fault) != Op::Truth(false)).then_some(fault);
         Ok(Circuit {
             bound,
@@ -194,6 +196,7 @@ impl<'a> Builder<'a, '_> {
             fault,
             claims,
             goals,
+            atoms,
         })
     }
 

@@ -53,6 +53,8 @@ pub struct Circuit<'a> {
     pub claims: Vec<Claim<'a>>,
     /// The `reachable` properties. Each must hold in some cycle without a range fault.
     pub goals: Vec<Claim<'a>>,
+    /// The atoms of the properties, where all are asked for; none for one that cannot be a term.
+    pub atoms: Vec<Option<Id>>,
 }
 
 impl<'a> Circuit<'a> {
@@ -61,7 +63,15 @@ impl<'a> Circuit<'a> {
     /// # Errors
     /// Values that need more than 32 bits.
     pub fn new(folded: &Folded<'a>) -> Result<Self, Unsupported> {
-        build::circuit(folded)
+        build::circuit(folded, false)
+    }
+
+    /// The circuit with the atoms of all properties.
+    ///
+    /// # Errors
+    /// As [`Circuit::new`].
+    pub fn whole(folded: &Folded<'a>) -> Result<Self, Unsupported> {
+        build::circuit(folded, true)
     }
 
     /// The state variables that have more than one value.

@@ -1,0 +1,139 @@
+//! `stillpoint check --engine`.
+
+use std::time::Instant;
+
+use clap::ValueEnum;
+use stillpoint_engine::subject::{Subject, Task};
+use stillpoint_harness::proof::{
+    Choice, Every, Settings, Span, Told, Which, exit_status, judge, judge_every, to_json,
+};
+
+use super::interrupt::Interruptible;
+use super::limits::LimitOptions;
+use super::progress::Line;
+use super::{Failure, emit, show};
+
+/// What judges the properties.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Engine {
+    /// All reachable states are enumerated
+    Explorer,
+    /// Bounded model checking: shortest runs of up to --depth cycles; proves nothing
+    Bmc,
+    /// k-induction with k up to --depth
+    Kinduction,
+    /// Property-directed reachability (IC3): runs and proofs of any length
+    Pdr,
+    /// Each property by the engine that has a form for it: pdr after a look at short runs, else the explorer
+    Auto,
+}
+
+impl Engine {
+    fn choice(self) -> Choice {
+        match self {
+            Engine::Explorer => Choice::Explorer,
+            Engine::Bmc => Choice::Bmc,
+            Engine::Kinduction => Choice::Induction,
+            Engine::Pdr => Choice::Pdr,
+            Engine::Auto => Choice::Auto,
+        }
+    }
+}
+
+/// How it is asked for.
+pub struct Asked<'a> {
+    pub engine: Engine,
+    /// Parameters that are to have every value.
+    pub every: Option<&'a Which>,
+    pub depth: usize,
+    pub limits: &'a LimitOptions,
+    pub json: bool,
+    pub verbose: bool,
+}
+
+/// Reads `--every`.
+pub fn every(text: &str) -> Result<Which, String> {
+    if text == "all" {
+        return Ok(Which::All);
+    }
+    let one = |part: &str| {
+        let (name, values) = match part.split_once('=') {
+            None => (part, None),
+            Some((name, values)) => {
+                let pair = (values.split_once(".."))
+                    .and_then(|(lo, hi)| Some((lo.trim().parse().ok()?, hi.trim().parse().ok()?)));
+                let pair = pair.ok_or_else(|| {
+                    format!("`{values}` is no range: write NAME=LO..HI with whole numbers, times in cycles")
+                })?;
+                (name, Some(pair))
+            }
+        };
+        let name = name.trim().to_owned();
+        Ok(Span { name, values })
+    };
+    let list = text.split(',').map(one);
+    list.collect::<Result<_, _>>().map(Which::Named)
+}
+
+/// All values of some parameters in place of those of the file.
+fn set_free(subject: &mut Subject, which: &Which) -> Result<Vec<Every>, Failure> {
+    if let Which::Named(list) = which {
+        for span in list {
+            let has = |task: &Task| {
+                let mut params = task.bound.system.params.iter();
+                params.any(|p| p.var.name.split('[').next() == Some(&span.name))
+            };
+            if !subject.tasks.iter().any(has) {
+                return Err(Failure::Other(format!(
+                    "--every: no system of {} has a parameter `{}`; `check -v` lists them",
+                    subject.name, span.name
+                )));
+            }
+        }
+    }
+    let mut all = Vec::new();
+    for task in &mut subject.tasks {
+        let every = Every::new(&task.bound, which).map_err(Failure::Other)?;
+        task.title = format!("{}\n  for every {}", task.title, every.text());
+        task.bound = every.bound.clone();
+        all.push(every);
+    }
+    Ok(all)
+}
+
+/// Judges every property and tells by what.
+pub fn run(subject: &mut Subject, asked: &Asked) -> Result<u8, Failure> {
+    let every = match asked.every {
+        Some(which) => Some(set_free(subject, which)?),
+        None => None,
+    };
+    let interrupt = Interruptible::begin()?;
+    let start = Instant::now();
+    let mut judged = Vec::new();
+    for (k, task) in subject.tasks.iter().enumerate() {
+        let line = Line::new(&task.title);
+        let settings = Settings {
+            choice: asked.engine.choice(),
+            depth: asked.depth,
+            time: asked.limits.time.map(|t| t.saturating_sub(start.elapsed())),
+            memory: asked.limits.memory,
+            threads: asked.limits.threads,
+            interrupt: Some(interrupt.handle()),
+        };
+        judged.push(match every.as_ref().and_then(|all| all.get(k)) {
+            Some(every) => judge_every(every, &settings),
+            None => judge(&task.bound, &settings),
+        });
+        drop(line);
+    }
+    let told = Told {
+        subject,
+        judged: &judged,
+    };
+    if asked.json {
+        emit(&format!("{:#}\n", to_json(&told)));
+    } else {
+        show(&told.text(asked.verbose));
+    }
+    Ok(exit_status(&told))
+}

@@ -1,0 +1,455 @@
+//! `check --engine`: properties judged by the proof engines of the model, without enumerating states.
+//!
+//! Each property becomes a question about a netlist (`question`), longer duties by a monitor (`monitor`); `decide` asks the engines. What
+//! they have no form for is left to the explorer, or told to be open.
+
+mod decide;
+mod every;
+mod help;
+mod monitor;
+mod question;
+mod text;
+
+use std::collections::BTreeMap;
+use std::time::{Duration, Instant};
+
+use stillpoint_engine::{label, run as explore};
+use stillpoint_lang::bind::Bound;
+use stillpoint_lang::ir::Form;
+use stillpoint_model::proof::{Budget, Invariant, Lit, Netlist, Run, Spent};
+use stillpoint_model::{Interrupt, Judgement, Limits, Options, Trace, Verdict};
+
+use crate::export::Unsupported;
+use decide::{Decision, Depth, decide, until};
+use help::helped;
+use monitor::Duty;
+use question::{Asked, Question, Stated};
+
+pub use every::{Every, Span, Which};
+pub use text::{Told, exit_status, to_json};
+
+/// Which engine is to judge.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Choice {
+    /// The explorer, for every property.
+    Explorer,
+    /// Runs of rising length: finds shortest runs, proves nothing.
+    Bmc,
+    /// k-induction.
+    Induction,
+    /// Property-directed reachability.
+    Pdr,
+    /// For each property the engine that decides it: property-directed reachability after short runs; the explorer where that has no
+    /// form.
+    Auto,
+}
+
+/// How to judge.
+#[derive(Debug, Clone)]
+pub struct Settings {
+    /// Which engine.
+    pub choice: Choice,
+    /// Cycles that BMC and k-induction look at.
+    pub depth: usize,
+    /// Wall time for everything.
+    pub time: Option<Duration>,
+    /// Bytes for the explorer.
+    pub memory: Option<u64>,
+    /// Threads of the explorer.
+    pub threads: usize,
+    /// Ends everything from outside.
+    pub interrupt: Option<Interrupt>,
+}
+
+/// What shows that something is never seen.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Proof {
+    /// It is FALSE whatever the state.
+    Nothing,
+    /// So many good cycles are followed by another one.
+    Induction(usize),
+    /// This invariant, checked.
+    Invariant(Invariant),
+    /// All states were enumerated: so many.
+    States(u64),
+}
+
+/// Who judged.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Engine {
+    /// The explorer.
+    Explorer,
+    /// Bounded model checking.
+    Bmc,
+    /// k-induction.
+    Induction,
+    /// Property-directed reachability.
+    Pdr,
+}
+
+/// A property and what was found.
+#[derive(Debug, Clone)]
+pub struct Judged {
+    /// Its id with the number of its copy; `range` for the ranges of all assignments.
+    pub id: String,
+    /// In plain words.
+    pub text: String,
+    /// The verdict.
+    pub verdict: Verdict,
+    /// Cycles of the shortest counterexample or witness.
+    pub length: Option<u64>,
+    /// Who judged; none if nobody has.
+    pub engine: Option<Engine>,
+    /// Of what holds (or is vacuous or unreachable): the proof.
+    pub proof: Option<Proof>,
+    /// The shortest counterexample or witness.
+    pub trace: Option<Trace>,
+    /// Why there is no verdict, or why what is recorded of the bound is refuted.
+    pub reason: Option<String>,
+    /// Wall time.
+    pub seconds: f64,
+}
+
+/// Judges the properties of a system, then its ranges.
+pub fn judge(bound: &Bound, settings: &Settings) -> Vec<Judged> {
+    let mut judge = Judge::new(bound, settings);
+    if settings.choice == Choice::Explorer {
+        judge.explore(
+            &(0..bound.system.properties.len()).collect::<Vec<_>>(),
+            true,
+        );
+    } else {
+        judge.prove(Asked::new(bound));
+    }
+    judge.out
+}
+
+/// Judges the properties of a system for all values of its parameters. The explorer, which takes one configuration at a time, is not
+/// asked.
+pub fn judge_every(every: &Every, settings: &Settings) -> Vec<Judged> {
+    let mut judge = Judge::new(&every.bound, settings);
+    judge.leave_to_explorer = false;
+    judge.prove(Asked::every(every));
+    judge.out
+}
+
+struct Judge<'a> {
+    bound: &'a Bound,
+    settings: &'a Settings,
+    budget: Budget,
+    /// Whether properties without an engine are left to the explorer.
+    leave_to_explorer: bool,
+    out: Vec<Judged>,
+}
+
+impl<'a> Judge<'a> {
+    fn new(bound: &'a Bound, settings: &'a Settings) -> Self {
+        let budget = Budget {
+            until: until(settings.time),
+            interrupt: settings.interrupt.clone(),
+        };
+        Judge {
+            bound,
+            settings,
+            budget,
+            leave_to_explorer: settings.choice == Choice::Auto,
+            out: Vec::new(),
+        }
+    }
+
+    fn entry(&self, id: String, text: &str) -> Judged {
+        Judged {
+            id,
+            text: text.to_owned(),
+            verdict: Verdict::Inconclusive,
+            length: None,
+            engine: None,
+            proof: None,
+            trace: None,
+            reason: None,
+            seconds: 0.0,
+        }
+    }
+
+    fn prove(&mut self, asked: Result<Asked, Unsupported>) {
+        let asked = match asked {
+            Ok(asked) => asked,
+            Err(why) => return self.unsupported(&why.0),
+        };
+        let mut left = Vec::new();
+        // What may take long comes last, so that a limit leaves less open.
+        let mut order: Vec<usize> = (0..asked.questions.len()).collect();
+        order.sort_by_key(|k| matches!(asked.questions[*k], Question::Never { duty: Some(_), .. }));
+        let mut told = BTreeMap::new();
+        for k in order {
+            let (property, question) = (&self.bound.system.properties[k], &asked.questions[k]);
+            let begin = Instant::now();
+            let mut entry = self.entry(label(property), &property.text);
+            match question {
+                Question::None(why) => {
+                    entry.reason = Some((*why).to_owned());
+                    left.push(k);
+                }
+                Question::Seen(goal) => self.seen(&asked, &mut entry, *goal),
+                Question::Never {
+                    broken,
+                    duty,
+                    first,
+                    stated,
+                } => {
+                    let broken = (*broken, duty.as_ref());
+                    self.never(&asked, &mut entry, broken, *first, stated);
+                }
+            }
+            entry.seconds = begin.elapsed().as_secs_f64();
+            told.insert(k, entry);
+        }
+        left.sort_unstable();
+        self.out.extend(told.into_values());
+        if asked.translated.fault != Lit::FALSE {
+            let begin = Instant::now();
+            let mut entry = self.entry(
+                "range".to_owned(),
+                "no assignment leaves the range of its variable",
+            );
+            self.never(
+                &asked,
+                &mut entry,
+                (asked.translated.fault, None),
+                None,
+                &[],
+            );
+            entry.seconds = begin.elapsed().as_secs_f64();
+            self.out.push(entry);
+        }
+        if self.leave_to_explorer && !left.is_empty() {
+            self.explore(&left, false);
+        }
+    }
+
+    /// A system that is no netlist.
+    fn unsupported(&mut self, why: &str) {
+        let all: Vec<usize> = (0..self.bound.system.properties.len()).collect();
+        if self.leave_to_explorer {
+            return self.explore(&all, true);
+        }
+        for property in &self.bound.system.properties {
+            let mut entry = self.entry(label(property), &property.text);
+            entry.reason = Some(why.to_owned());
+            self.out.push(entry);
+        }
+    }
+
+    fn decide(&self, asked: &Asked, target: Lit) -> Decision {
+        self.ask(&asked.translated.netlist, target)
+    }
+
+    fn ask(&self, netlist: &Netlist, target: Lit) -> Decision {
+        let (choice, depth) = (self.settings.choice, Depth(self.settings.depth));
+        decide(netlist, target, choice, depth, &self.budget)
+    }
+
+    /// The same with help, where it is about a duty.
+    fn decide_duty(&self, asked: &Asked, target: Lit, duty: Option<&Duty>) -> Decision {
+        let help = match (duty, self.settings.choice) {
+            (Some(duty), Choice::Auto | Choice::Pdr | Choice::Induction) => {
+                helped(asked, duty, &self.budget)
+            }
+            _ => Ok(None),
+        };
+        match help {
+            Ok(Some(netlist)) => self.ask(&netlist, target),
+            Ok(None) => self.decide(asked, target),
+            Err(Spent) => Decision::Open("the limit was reached first".to_owned()),
+        }
+    }
+
+    fn engine(&self, proof: &Proof) -> Engine {
+        match (proof, self.settings.choice) {
+            (Proof::Induction(_), _) | (Proof::Nothing, Choice::Induction) => Engine::Induction,
+            (Proof::Nothing, Choice::Bmc) => Engine::Bmc,
+            _ => Engine::Pdr,
+        }
+    }
+
+    /// A run was found: by which engine, its length, the run itself.
+    fn found(&self, asked: &Asked, entry: &mut Judged, run: &Run) {
+        entry.engine = Some(match self.settings.choice {
+            Choice::Induction => Engine::Induction,
+            // The shortest run is always one that bounded model checking has looked for.
+            _ => Engine::Bmc,
+        });
+        entry.length = Some(run.cycles.len() as u64);
+        let trace = asked.translated.trace(run);
+        entry.reason = asked.configuration(&trace);
+        entry.trace = Some(trace);
+    }
+
+    fn seen(&self, asked: &Asked, entry: &mut Judged, goal: Lit) {
+        match self.decide(asked, goal) {
+            Decision::Seen(run) => {
+                entry.verdict = Verdict::Reached;
+                self.found(asked, entry, &run);
+            }
+            Decision::Never(proof) => {
+                entry.verdict = Verdict::Unreachable;
+                entry.engine = Some(self.engine(&proof));
+                entry.proof = Some(proof);
+            }
+            Decision::Open(why) => entry.reason = Some(why),
+        }
+    }
+
+    fn never(
+        &self,
+        asked: &Asked,
+        entry: &mut Judged,
+        (broken, duty): (Lit, Option<&Duty>),
+        first: Option<Lit>,
+        stated: &[Stated],
+    ) {
+        let proof = match self.decide_duty(asked, broken, duty) {
+            Decision::Seen(run) => {
+                entry.verdict = Verdict::Violated;
+                return self.found(asked, entry, &run);
+            }
+            Decision::Open(why) => {
+                entry.reason = Some(why);
+                return;
+            }
+            Decision::Never(proof) => proof,
+        };
+        entry.engine = Some(self.engine(&proof));
+        entry.proof = Some(proof);
+        if let Some(first) = first {
+            match self.decide(asked, first) {
+                Decision::Seen(run) => {
+                    entry.length = Some(run.cycles.len() as u64);
+                    entry.trace = Some(asked.translated.trace(&run));
+                }
+                Decision::Never(proof) => {
+                    entry.verdict = Verdict::Vacuous;
+                    entry.proof = Some(proof);
+                    return;
+                }
+                Decision::Open(why) => {
+                    entry.reason = Some(format!("it is not broken, but may say nothing: {why}"));
+                    return;
+                }
+            }
+        }
+        entry.verdict = Verdict::Holds;
+        for fact in stated {
+            let right = match self.decide_duty(asked, fact.what, fact.duty.as_ref()) {
+                Decision::Seen(_) => fact.seen,
+                Decision::Never(_) => !fact.seen,
+                Decision::Open(why) => {
+                    entry.verdict = Verdict::Inconclusive;
+                    entry.reason = Some(format!("what is recorded of its bound is open: {why}"));
+                    return;
+                }
+            };
+            if !right {
+                entry.verdict = Verdict::Violated;
+                entry.length = None;
+                entry.trace = None;
+                entry.reason = Some(fact.otherwise.clone());
+                return;
+            }
+        }
+    }
+
+    /// Leaves some properties to the explorer, with `ranges` also those.
+    fn explore(&mut self, numbers: &[usize], ranges: bool) {
+        let mut part = self.bound.clone();
+        part.system.properties = (numbers.iter())
+            .map(|k| self.bound.system.properties[*k].clone())
+            .collect();
+        let options = Options {
+            limits: Limits {
+                memory: self.settings.memory,
+                threads: self.settings.threads,
+                time: (self.budget.until).map(|t| t.saturating_duration_since(Instant::now())),
+            },
+            interrupt: self.settings.interrupt.clone(),
+            ..Options::default()
+        };
+        let properties = &part.system.properties;
+        let outcome = match explore(&part, &options, false, &mut ()) {
+            Ok(outcome) => outcome,
+            Err(error) => {
+                for (property, k) in properties.iter().zip(numbers) {
+                    let mut entry = self.entry(label(property), &property.text);
+                    entry.reason = Some(error.to_string());
+                    self.place(*k, entry);
+                }
+                return;
+            }
+        };
+        let report = &outcome.report;
+        for (n, (property, judged)) in properties.iter().zip(&report.properties).enumerate() {
+            let mut entry = self.entry(label(property), &property.text);
+            entry.seconds = report.seconds;
+            self.explored(&mut entry, judged, report.states);
+            entry.reason = entry.reason.or(outcome.refuted.get(&n).cloned());
+            // A property that the engines have no form for keeps the reason.
+            self.place(numbers[n], entry);
+        }
+        if ranges && !self.bound.system.sites.is_empty() {
+            let mut entry = self.entry(
+                "range".to_owned(),
+                "no assignment leaves the range of its variable",
+            );
+            entry.engine = Some(Engine::Explorer);
+            entry.seconds = report.seconds;
+            match report
+                .faults
+                .iter()
+                .filter_map(|f| Some((f.length?, f)))
+                .min_by_key(|f| f.0)
+            {
+                Some((length, fault)) => {
+                    entry.verdict = Verdict::Violated;
+                    entry.length = Some(length);
+                    entry.trace = fault.trace.clone();
+                }
+                None if report.complete => {
+                    entry.verdict = Verdict::Holds;
+                    entry.proof = Some(Proof::States(report.states));
+                }
+                None => entry.reason = Some("the limit was reached first".to_owned()),
+            }
+            self.out.push(entry);
+        }
+    }
+
+    fn explored(&self, entry: &mut Judged, judged: &Judgement, states: u64) {
+        entry.verdict = judged.verdict;
+        entry.length = judged.length;
+        entry.trace = judged.trace.clone();
+        match judged.verdict {
+            Verdict::Inconclusive => entry.reason = Some("the limit was reached first".to_owned()),
+            Verdict::Holds | Verdict::Vacuous | Verdict::Unreachable => {
+                entry.engine = Some(Engine::Explorer);
+                entry.proof = Some(Proof::States(states));
+            }
+            _ => entry.engine = Some(Engine::Explorer),
+        }
+    }
+
+    fn place(&mut self, k: usize, entry: Judged) {
+        match self.out.get_mut(k) {
+            Some(old) => *old = entry,
+            None => self.out.push(entry),
+        }
+    }
+}
+
+/// Whether the engines have a form for this one.
+pub fn has_engine(form: &Form) -> bool {
+    match form {
+        Form::Always { .. } | Form::Reachable { .. } | Form::Unless { .. } => true,
+        Form::LeadsTo { within, .. } => within.is_some(),
+        Form::CanAlwaysReach { .. } | Form::Independent { .. } => false,
+    }
+}

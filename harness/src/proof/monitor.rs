@@ -1,0 +1,143 @@
+//! Monitors: latches that turn a duty over several cycles into something that must not be seen in one.
+//!
+//! In a cycle in which a value leaves its range nothing is judged and a monitor stays as it is, as the state does.
+
+use stillpoint_model::proof::{Graph, Lit, Netlist, Word};
+
+/// The latches of a bounded response: whether a duty is open, and the cycles left to it.
+#[derive(Clone)]
+pub(super) struct Duty {
+    pub pending: Lit,
+    pub rest: Word,
+}
+
+/// Gives latches their next values, which they keep where a value leaves its range.
+fn set(netlist: &mut Netlist, fault: Lit, first: usize, next: &[Lit]) {
+    for (latch, next) in netlist.latches[first..].iter_mut().zip(next) {
+        latch.next = netlist.graph.choice(fault, latch.lit, *next);
+    }
+}
+
+/// A counter from 0 to `most`, 0 at the start; its latches are the last ones.
+fn counter(netlist: &mut Netlist, name: &str, most: i64) -> Word {
+    let size = Word::needed(0, most);
+    let bits = (0..size).map(|k| netlist.latch(format!("{name}.{k}"), Some(false)));
+    let word = Word::variable(bits.collect(), 0);
+    let keeps = word.keeps(&mut netlist.graph, 0, most);
+    if keeps != Lit::TRUE {
+        netlist.invariants.push(keeps);
+    }
+    word
+}
+
+fn is_zero(graph: &mut Graph, word: &Word) -> Lit {
+    word.equals(graph, &Word::constant(0))
+}
+
+/// A weak until: what breaks `holds` before `unless`, from a cycle with `when` on.
+pub(super) fn until(
+    netlist: &mut Netlist,
+    fault: Lit,
+    (when, holds, unless): (Lit, Lit, Lit),
+) -> Lit {
+    let first = netlist.latches.len();
+    let pending = netlist.latch("monitor.pending".to_owned(), Some(false));
+    let graph = &mut netlist.graph;
+    let duty = graph.or(pending, when);
+    let open = graph.and(duty, !unless);
+    let kept = graph.and(open, holds);
+    let broken = graph.all([open, !holds, !fault]);
+    set(netlist, fault, first, &[kept]);
+    broken
+}
+
+/// A bound in cycles, known or over parameters that are part of the state, and the greatest value that it can have.
+#[derive(Clone)]
+pub(super) struct Cycles {
+    pub word: Word,
+    pub most: i64,
+}
+
+impl Cycles {
+    pub(super) fn constant(cycles: i64) -> Self {
+        Cycles {
+            word: Word::constant(cycles),
+            most: cycles,
+        }
+    }
+}
+
+/// A bounded response: what breaks `goal` in one of the cycles k ..= k + within. Of several duties the oldest one counts; the cycles
+/// left are counted down.
+pub(super) fn within(
+    netlist: &mut Netlist,
+    fault: Lit,
+    (when, goal): (Lit, Lit),
+    within: &Cycles,
+) -> (Lit, Duty) {
+    let first = netlist.latches.len();
+    let pending = netlist.latch("monitor.pending".to_owned(), Some(false));
+    let most = (within.most - 1).max(0);
+    let rest = counter(netlist, "monitor.rest", most);
+    let graph = &mut netlist.graph;
+    let over = is_zero(graph, &rest);
+    // A bound below 1 leaves the cycle of the trigger itself.
+    let one = Word::constant(1);
+    let at_once = within.word.less(graph, &one);
+    let late = graph.and(pending, over);
+    let now = graph.and(at_once, when);
+    let ends = graph.or(late, now);
+    let broken = graph.all([ends, !goal, !fault]);
+    let starts = graph.all([!at_once, !pending, when]);
+    let stays = graph.and(pending, !over);
+    let open = graph.or(starts, stays);
+    let next = graph.and(open, !goal);
+    let less = rest.minus(graph, &one);
+    let whole = within.word.minus(graph, &one);
+    let count = less.choice(graph, pending, &whole);
+    let count = count
+        .choice(graph, next, &Word::constant(0))
+        .within(0, most);
+    let mut list = vec![next];
+    list.extend((0..Word::needed(0, most)).map(|k| count.bit(k)));
+    set(netlist, fault, first, &list);
+    (broken, Duty { pending, rest })
+}
+
+/// The fastest response: what shows a cycle with the goal fewer than `cycles`, and one exactly so many after one with `when`, with no
+/// goal between. Of several duties the youngest one counts.
+pub(super) fn fastest(
+    netlist: &mut Netlist,
+    fault: Lit,
+    (when, goal): (Lit, Lit),
+    cycles: i64,
+) -> (Lit, Lit) {
+    let first = netlist.latches.len();
+    let waiting = netlist.latch("monitor.waiting".to_owned(), Some(false));
+    // Cycles since the trigger; `most` says that they are more than `cycles`.
+    let most = cycles + 1;
+    let age = counter(netlist, "monitor.age", most);
+    let graph = &mut netlist.graph;
+    let limit = Word::constant(cycles);
+    let (less, exactly) = (age.less(graph, &limit), age.equals(graph, &limit));
+    let at_once = graph.all([when, goal, !fault]);
+    let later = graph.all([waiting, goal, !when, !fault]);
+    let (sooner, just) = (graph.and(later, less), graph.and(later, exactly));
+    let (early, right) = match cycles {
+        0 => (Lit::FALSE, at_once),
+        _ => (graph.or(at_once, sooner), just),
+    };
+    let begun = graph.or(waiting, when);
+    let next = graph.and(begun, !goal);
+    let last = age.equals(graph, &Word::constant(most));
+    let older = age.plus(graph, &Word::constant(1));
+    let older = age.choice(graph, last, &older);
+    let count = Word::constant(1).choice(graph, when, &older);
+    let count = count
+        .choice(graph, next, &Word::constant(0))
+        .within(0, most);
+    let mut list = vec![next];
+    list.extend((0..Word::needed(0, most)).map(|k| count.bit(k)));
+    set(netlist, fault, first, &list);
+    (early, right)
+}

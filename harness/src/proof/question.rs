@@ -1,0 +1,250 @@
+//! Properties as questions to the engines: what must not be seen, or must be seen, in one cycle.
+
+use stillpoint_lang::bind::Bound;
+use stillpoint_lang::ir::{Form, Property};
+use stillpoint_model::Trace;
+use stillpoint_model::proof::Lit;
+
+use super::every::Every;
+use super::monitor::{self, Cycles, Duty};
+use crate::export::{Translated, Unsupported};
+
+/// Longer bounds have no monitor: its counter would outgrow what the engines decide.
+const LONGEST: i64 = 1 << 20;
+
+/// What is asked about one property.
+pub(super) enum Question {
+    /// What breaks it, and what must be seen for it to say something.
+    Never {
+        broken: Lit,
+        /// Of a bounded response.
+        duty: Option<Duty>,
+        first: Option<Lit>,
+        stated: Vec<Stated>,
+    },
+    /// What shows it.
+    Seen(Lit),
+    /// No engine here has an answer, and why.
+    None(&'static str),
+}
+
+/// What a property states of its bound, as what must not be seen or must be seen.
+pub(super) struct Stated {
+    pub seen: bool,
+    pub what: Lit,
+    pub duty: Option<Duty>,
+    /// What it says, if it is not so.
+    pub otherwise: String,
+}
+
+/// A system, and what is asked about its properties and about ranges.
+pub(super) struct Asked<'a> {
+    pub translated: Translated<'a>,
+    /// As the properties of the system.
+    pub questions: Vec<Question>,
+    /// Parameters that are part of the state: places of their state variables.
+    pub parameters: &'a [usize],
+    /// The number of state variables that are neither parameters nor bounds over them: the first ones.
+    pub own: usize,
+}
+
+impl<'a> Asked<'a> {
+    pub(super) fn new(bound: &'a Bound) -> Result<Self, Unsupported> {
+        let mut asked = Asked {
+            translated: Translated::new(bound)?,
+            questions: Vec::new(),
+            parameters: &[],
+            own: bound.states.len(),
+        };
+        asked.ask(|_| None);
+        Ok(asked)
+    }
+
+    /// The same for all values of some parameters.
+    pub(super) fn every(every: &'a Every) -> Result<Self, Unsupported> {
+        let mut asked = Asked {
+            translated: Translated::new(&every.bound)?,
+            questions: Vec::new(),
+            parameters: &every.parameters,
+            own: every.own,
+        };
+        let (always, start) = (
+            asked.conditions(&every.always)?,
+            asked.conditions(&every.start)?,
+        );
+        let assumed = asked.conditions(&every.assumed)?;
+        let netlist = &mut asked.translated.netlist;
+        netlist.start.extend(always.iter().chain(&start));
+        netlist.invariants.extend(always);
+        netlist.assumed.extend(assumed);
+        asked.ask(|k| every.within[k]);
+        Ok(asked)
+    }
+
+    /// The configuration of a run, where parameters are part of the state.
+    pub(super) fn configuration(&self, trace: &Trace) -> Option<String> {
+        let bound = self.translated.bound;
+        let value = |k: &usize| {
+            let chosen = trace.initial.iter().find(|(cell, _)| *cell as usize == *k);
+            let value = i64::from(bound.states[*k].0) + chosen.map_or(0, |(_, v)| i64::from(*v));
+            let var = &bound.system.states[*k].var;
+            format!("{} = {}", var.name, bound.system.show(var.ty, value))
+        };
+        let list: Vec<String> = self.parameters.iter().map(value).collect();
+        (!list.is_empty()).then(|| format!("with {}", list.join(", ")))
+    }
+
+    fn conditions(&self, list: &[usize]) -> Result<Vec<Lit>, Unsupported> {
+        let told = |k: &usize| {
+            let lit = self.atom(*k).filter(|lit| *lit != Lit::FALSE);
+            lit.ok_or_else(|| Unsupported("no values of its parameters go together".to_owned()))
+        };
+        list.iter().map(told).collect()
+    }
+
+    /// Asks about all properties; `bounds` has the state variable with the bound of one, if there is such.
+    fn ask(&mut self, bounds: impl Fn(usize) -> Option<usize>) {
+        let bound = self.translated.bound;
+        for (k, property) in bound.system.properties.iter().enumerate() {
+            let question = self.question(property, bounds(k));
+            self.questions.push(question.unwrap_or(Question::None(
+                "an expression of it cannot be told in one cycle",
+            )));
+        }
+    }
+
+    fn atom(&self, k: usize) -> Option<Lit> {
+        self.translated.atoms.get(k).copied().flatten()
+    }
+
+    fn question(&mut self, property: &Property, variable: Option<usize>) -> Option<Question> {
+        let fault = self.translated.fault;
+        let graph = |asked: &mut Self, list: &[Lit]| {
+            asked.translated.netlist.graph.all(list.iter().copied())
+        };
+        Some(match &property.form {
+            Form::Always { when, then } => {
+                let then = self.atom(*then)?;
+                let first = match when {
+                    Some(when) => Some(self.atom(*when)?),
+                    None => None,
+                };
+                let when = first.unwrap_or(Lit::TRUE);
+                Question::Never {
+                    broken: graph(self, &[!fault, when, !then]),
+                    duty: None,
+                    first: first.map(|first| graph(self, &[!fault, first])),
+                    stated: Vec::new(),
+                }
+            }
+            Form::Reachable { goal } => {
+                let goal = self.atom(*goal)?;
+                Question::Seen(graph(self, &[!fault, goal]))
+            }
+            Form::Unless {
+                when,
+                holds,
+                unless,
+            } => {
+                let (when, holds) = (self.atom(*when)?, self.atom(*holds)?);
+                let unless = self.atom(*unless)?;
+                let netlist = &mut self.translated.netlist;
+                Question::Never {
+                    broken: monitor::until(netlist, fault, (when, holds, unless)),
+                    duty: None,
+                    first: Some(graph(self, &[!fault, when])),
+                    stated: Vec::new(),
+                }
+            }
+            Form::LeadsTo {
+                when,
+                goal,
+                within: Some(within),
+                ..
+            } => {
+                let within = match variable {
+                    Some(k) => {
+                        let (word, (_, most)) = self.translated.variable(k);
+                        Cycles { word, most }
+                    }
+                    None => Cycles::constant(self.translated.bound.constant(within).max(0)),
+                };
+                if within.most > LONGEST {
+                    return Some(Question::None("its bound is too long to be counted"));
+                }
+                let pair = (self.atom(*when)?, self.atom(*goal)?);
+                let netlist = &mut self.translated.netlist;
+                let (broken, duty) = monitor::within(netlist, fault, pair, &within);
+                let stated = self.stated(property, pair, within.most, (broken, &duty));
+                Question::Never {
+                    broken,
+                    duty: Some(duty),
+                    first: Some(graph(self, &[!fault, pair.0])),
+                    stated,
+                }
+            }
+            Form::LeadsTo { .. } => {
+                Question::None("a response without a bound is about runs without an end")
+            }
+            Form::CanAlwaysReach { .. } => {
+                Question::None("what can always be reached is not decided by the worst run")
+            }
+            Form::Independent { .. } => Question::None("independence is about two runs"),
+        })
+    }
+
+    /// What a bounded response states of the least bound and the fastest reaction.
+    fn stated(
+        &mut self,
+        property: &Property,
+        pair: (Lit, Lit),
+        within: i64,
+        own: (Lit, &Duty),
+    ) -> Vec<Stated> {
+        let bound = self.translated.bound;
+        let fault = self.translated.fault;
+        let netlist = &mut self.translated.netlist;
+        let mut list = Vec::new();
+        if let Some(exactly) = &property.stated.exactly {
+            let least = bound.constant(exactly).max(0);
+            let (what, duty) = match least == within {
+                true => (own.0, own.1.clone()),
+                false => monitor::within(netlist, fault, pair, &Cycles::constant(least)),
+            };
+            let otherwise = format!("the least bound recorded is {least} cycles, the one found ");
+            list.push(Stated {
+                seen: false,
+                what,
+                duty: Some(duty),
+                otherwise: format!("{otherwise}is longer"),
+            });
+            if least > 0 {
+                list.push(Stated {
+                    seen: true,
+                    what: monitor::within(netlist, fault, pair, &Cycles::constant(least - 1)).0,
+                    duty: None,
+                    otherwise: format!("{otherwise}is shorter"),
+                });
+            }
+        }
+        if let Some(fastest) = &property.stated.fastest {
+            let fastest = bound.constant(fastest).max(0);
+            let (early, right) = monitor::fastest(netlist, fault, pair, fastest);
+            let otherwise =
+                format!("the fastest reaction recorded is {fastest} cycles, the one found ");
+            list.push(Stated {
+                seen: false,
+                what: early,
+                duty: None,
+                otherwise: format!("{otherwise}is shorter"),
+            });
+            list.push(Stated {
+                seen: true,
+                what: right,
+                duty: None,
+                otherwise: format!("{otherwise}is longer, or there is none"),
+            });
+        }
+        list
+    }
+}

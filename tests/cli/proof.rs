@@ -1,0 +1,79 @@
+//! `check --engine`: what it prints and its exit status.
+
+use crate::common::{messages, status, stderr, stdout, stillpoint};
+
+const BROKEN: &str = "tests/must-fail/stop-b-without-timer.toml";
+const GOOD: &str = "spec/families/sinumerik-840d/axis.toml";
+
+fn lines_with(text: &str, what: &str) -> usize {
+    text.lines().filter(|line| line.contains(what)).count()
+}
+
+#[test]
+fn a_broken_property_is_shown_by_a_shortest_run() {
+    for engine in ["auto", "pdr", "bmc", "kinduction", "explorer"] {
+        let output = stillpoint(&["check", BROKEN, "--engine", engine]);
+        let text = stdout(&output);
+        assert_eq!(status(&output), 1, "{engine}: {text}{}", stderr(&output));
+        assert!(text.contains("VIOLATED  S840D-P-05"), "{engine}: {text}");
+        assert!(text.contains("broken after 4 cycles"), "{engine}: {text}");
+        assert!(
+            text.contains("a shortest run, 4 cycles:"),
+            "{engine}: {text}"
+        );
+    }
+}
+
+#[test]
+fn each_property_tells_its_engine() {
+    let output = stillpoint(&["check", GOOD, "--engine", "auto"]);
+    let text = stdout(&output);
+    assert_eq!(status(&output), 0, "{text}{}", stderr(&output));
+    assert!(lines_with(&text, "holds        pdr ") > 10, "{text}");
+    assert!(lines_with(&text, "reached      bmc ") > 0, "{text}");
+    assert!(lines_with(&text, "holds        explorer ") > 0, "{text}");
+    assert!(text.contains("clauses, checked"), "{text}");
+    assert!(!text.contains("inconclusive"), "{text}");
+}
+
+#[test]
+fn what_an_engine_cannot_decide_is_open_with_its_reason() {
+    let output = stillpoint(&["check", GOOD, "--engine", "bmc", "--depth", "4"]);
+    let text = stdout(&output);
+    assert_eq!(status(&output), 3, "{text}");
+    assert!(text.contains("no run of up to 4 cycles"), "{text}");
+    let output = stillpoint(&["check", GOOD, "--engine", "pdr"]);
+    let text = stdout(&output);
+    assert_eq!(status(&output), 3, "{text}");
+    let reason = "what can always be reached is not decided by the worst run";
+    assert!(text.contains(reason), "{text}");
+}
+
+#[test]
+fn the_same_is_told_twice() {
+    let once = || stdout(&stillpoint(&["check", GOOD, "--engine", "pdr"]));
+    assert_eq!(once(), once());
+}
+
+#[test]
+fn options_of_the_report_are_refused() {
+    let output = stillpoint(&["check", GOOD, "--engine", "pdr", "--html", "page.html"]);
+    assert_eq!(status(&output), 2);
+    assert!(messages(&output).contains("cannot be used with"));
+    let output = stillpoint(&["check", GOOD, "--depth", "4"]);
+    assert_eq!(status(&output), 2);
+}
+
+#[test]
+fn json_has_verdict_engine_and_proof() {
+    let output = stillpoint(&["check", BROKEN, "--engine", "pdr", "--json"]);
+    let json: serde_json::Value = serde_json::from_str(&stdout(&output)).expect("JSON");
+    let all = json["runs"][0]["properties"].as_array().expect("a list");
+    let broken = all
+        .iter()
+        .find(|p| p["id"] == "S840D-P-05")
+        .expect("the property");
+    assert_eq!(broken["verdict"], "violated");
+    assert_eq!(broken["length"], 4);
+    assert_eq!(broken["engine"], "bmc");
+}

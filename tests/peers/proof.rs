@@ -1,0 +1,295 @@
+//! The proof engines against the explorer: the same verdicts and the same shortest lengths, and runs that are real. A test, no proof.
+//!
+//! The systems are those whose reductions are compared, so that the explorer is asked once for all tests.
+
+use std::collections::BTreeMap;
+use std::time::{Duration, Instant};
+
+use stillpoint_engine::Outcome;
+use stillpoint_harness::proof::{
+    Choice, Engine, Every, Judged, Settings, Span, Which, has_engine, judge, judge_every,
+};
+use stillpoint_lang::bind::Bound;
+use stillpoint_model::Verdict;
+use stillpoint_tests::peer::each;
+
+use super::reductions::shipped::{must_fail, shipped};
+use super::reductions::{full, random, real, systems};
+
+/// Shipped systems with more states are left to the deep test.
+const MOST: u64 = 500;
+
+/// What a system may take. Properties that are open then are counted; more than one in twenty fail the test.
+const LIMIT: Duration = Duration::from_secs(10);
+
+fn settings(choice: Choice) -> Settings {
+    Settings {
+        choice,
+        depth: 60,
+        time: Some(LIMIT),
+        memory: None,
+        threads: 1,
+        interrupt: None,
+    }
+}
+
+/// Compares what the engines say with what the explorer says; the answer tells how many properties they have decided, and how many of
+/// these hold.
+fn compare(bound: &Bound, whole: &Outcome, judged: &[Judged], context: &str) -> (usize, usize) {
+    let mut told = (0, 0);
+    let both = whole.report.properties.iter().zip(judged);
+    for (k, (property, (a, b))) in bound.system.properties.iter().zip(both).enumerate() {
+        let name = format!("{} of {context}", a.id);
+        assert_eq!(a.id, b.id);
+        if b.verdict == Verdict::Inconclusive {
+            let reason = b.reason.as_deref().unwrap_or_default();
+            assert!(
+                reason.contains("the limit was reached first"),
+                "{name}: {reason}"
+            );
+            println!("{name}: open");
+            continue;
+        }
+        assert_eq!((a.verdict, a.length), (b.verdict, b.length), "{name}");
+        if !has_engine(&property.form) {
+            assert_eq!(b.engine, Some(Engine::Explorer), "{name}");
+            continue;
+        }
+        assert!(
+            matches!(
+                b.engine,
+                Some(Engine::Pdr | Engine::Bmc | Engine::Induction)
+            ),
+            "{name}: {:?}",
+            b.engine
+        );
+        told.0 += 1;
+        told.1 += usize::from(b.verdict == Verdict::Holds);
+        if let (Some(trace), Verdict::Violated | Verdict::Reached) = (&b.trace, b.verdict) {
+            real(bound, k, trace, whole, &name);
+        }
+    }
+    let least = whole.report.faults.iter().filter_map(|f| f.length).min();
+    let range = judged.get(bound.system.properties.len());
+    let length = range.and_then(|r| r.length);
+    let open = range.is_some_and(|r| r.verdict == Verdict::Inconclusive);
+    assert!(open || length == least, "ranges of {context}");
+    if let Some(range) = range.filter(|_| !open) {
+        let right = match least {
+            Some(_) => Verdict::Violated,
+            None => Verdict::Holds,
+        };
+        assert_eq!(
+            (range.id.as_str(), range.verdict),
+            ("range", right),
+            "{context}"
+        );
+    }
+    told
+}
+
+fn check(systems: &[&(Bound, Outcome)], choice: Choice) -> (usize, usize) {
+    let told = each(systems, |(bound, whole)| {
+        let begin = Instant::now();
+        let judged = judge(bound, &settings(choice));
+        let told = compare(bound, whole, &judged, &bound.system.name);
+        println!(
+            "{}: {} decided in {:.2} s, the explorer {:.2} s",
+            bound.system.name,
+            told.0,
+            begin.elapsed().as_secs_f64(),
+            whole.report.seconds
+        );
+        told
+    });
+    told.into_iter().fold((0, 0), |a, b| (a.0 + b.0, a.1 + b.1))
+}
+
+/// Compares the shipped systems of at most so many states; of so many properties at least nearly all must be decided.
+fn check_shipped(most: u64, least: usize) {
+    let systems: Vec<_> = (shipped().iter())
+        .filter(|(_, whole)| whole.report.states <= most)
+        .collect();
+    let (decided, hold) = check(&systems, Choice::Auto);
+    let properties = systems
+        .iter()
+        .flat_map(|(bound, _)| &bound.system.properties);
+    let all = properties.filter(|p| has_engine(&p.form)).count();
+    println!(
+        "{} systems: {decided} of {all} decided, {hold} hold",
+        systems.len()
+    );
+    assert!(all > least && hold * 2 > least && decided * 20 >= all * 19);
+}
+
+#[test]
+fn shipped_systems_have_the_verdicts_of_the_explorer() {
+    check_shipped(MOST, 50);
+}
+
+#[test]
+#[ignore = "deep: the larger systems too"]
+fn all_shipped_systems_have_the_verdicts_of_the_explorer() {
+    check_shipped(u64::MAX, 100);
+}
+
+/// One configuration after the other, and all at once: where none breaks a property it holds for all, and a run for all is one of a
+/// configuration that breaks it.
+#[test]
+fn all_configurations_at_once_are_each_by_itself() {
+    let bound = systems(COUNTDOWN).remove(0);
+    let which = Which::Named(vec![Span {
+        name: "t".to_owned(),
+        values: None,
+    }]);
+    let every = Every::new(&bound, &which).expect("its parameter can be free");
+    let judged = judge_every(&every, &settings(Choice::Pdr));
+    let mut broken = vec![false; bound.system.properties.len()];
+    for t in 0..=6 {
+        let values = [("t".to_owned(), vec![t])].into();
+        let one = Bound::new(bound.system.clone(), &values, &BTreeMap::new());
+        let whole = full(&one.expect("in its range"), true);
+        for (broken, judged) in broken.iter_mut().zip(&whole.report.properties) {
+            *broken |= judged.verdict == Verdict::Violated;
+        }
+        assert_eq!(whole.report.faults.is_empty(), t < 6);
+    }
+    assert_eq!(broken, [false, false, true, true]);
+    for (broken, judged) in broken.iter().zip(&judged) {
+        let verdict = match broken {
+            true => Verdict::Violated,
+            false => Verdict::Holds,
+        };
+        assert_eq!(
+            judged.verdict, verdict,
+            "{}: {:?}",
+            judged.id, judged.reason
+        );
+    }
+    let range = judged.last().expect("the ranges");
+    assert_eq!(
+        (range.id.as_str(), range.verdict),
+        ("range", Verdict::Violated)
+    );
+}
+
+/// A timer whose range, start and bound depend on a parameter. With 6 it leaves its range.
+const COUNTDOWN: &str = r#"
+spec   = "t"
+title  = "t"
+source = "t"
+
+[machine.timer]
+text      = "t"
+order     = "priority"
+otherwise = "stay"
+
+[machine.timer.param]
+t = { type = "INT(0..6)", default = 2 }
+
+[machine.timer.input]
+start = "BOOL"
+
+[machine.timer.state]
+left = { type = "INT(0..MIN(t, 5))", init = "MIN(t, 5)" }
+on   = { type = "BOOL", init = false }
+
+[[machine.timer.rule]]
+name = "start"
+note = "t"
+when = "start AND NOT on"
+then = "left := t; on := TRUE;"
+
+[[machine.timer.rule]]
+name = "tick"
+note = "t"
+when = "on AND left > 0"
+then = "left := left - 1;"
+
+[[machine.timer.rule]]
+name = "end"
+note = "t"
+when = "on"
+then = "on := FALSE;"
+
+[system.t]
+text  = "t"
+cycle = "12 ms"
+
+[system.t.instance]
+timer = { machine = "timer" }
+
+[system.t.free]
+ports = ["timer.start"]
+
+[[system.t.property]]
+id     = "KEEPS"
+text   = "t"
+always = "timer.left <= t"
+
+[[system.t.property]]
+id       = "ENDS"
+text     = "t"
+when     = "timer.on AND NOT PREV(timer.on)"
+leads_to = "NOT timer.on"
+within   = "t + 1"
+
+[[system.t.property]]
+id       = "SOONER"
+text     = "t"
+when     = "timer.on AND NOT PREV(timer.on)"
+leads_to = "NOT timer.on"
+within   = "t"
+
+[[system.t.property]]
+id     = "SHORT"
+text   = "t"
+always = "timer.left < 4"
+"#;
+
+#[test]
+fn must_fail_systems_have_the_shortest_runs_of_the_explorer() {
+    let systems: Vec<_> = must_fail().iter().collect();
+    let (decided, _) = check(&systems, Choice::Auto);
+    assert!(decided > 15, "{decided} decided");
+}
+
+/// Random systems by each engine; what the bounded ones leave open is no error, what they say is compared.
+fn random(seeds: std::ops::Range<u64>) {
+    let mut decided = [0; 3];
+    let mut faulty = 0;
+    for seed in seeds {
+        let text = random::text(seed);
+        for bound in systems(&text) {
+            let whole = full(&bound, true);
+            faulty += usize::from(!whole.report.faults.is_empty());
+            let context = format!("seed {seed}:\n{text}");
+            let judged = judge(&bound, &settings(Choice::Auto));
+            decided[0] += compare(&bound, &whole, &judged, &context).0;
+            for (place, choice) in [(1, Choice::Induction), (2, Choice::Bmc)] {
+                let judged = judge(&bound, &settings(choice));
+                for (a, b) in whole.report.properties.iter().zip(&judged) {
+                    if b.verdict != Verdict::Inconclusive {
+                        assert_eq!((a.verdict, a.length), (b.verdict, b.length), "{context}");
+                        decided[place] += 1;
+                    }
+                }
+            }
+        }
+    }
+    println!("{decided:?} decided, {faulty} systems with a fault");
+    // k-induction with k up to the number of states decides as much; what holds is beyond bounded runs.
+    assert!(decided[0] >= decided[1] && decided[1] > decided[2] && decided[2] > 0);
+    assert!(faulty > 0);
+}
+
+#[test]
+fn random_systems_have_the_verdicts_of_the_explorer() {
+    random(0..60);
+}
+
+#[test]
+#[ignore = "deep: 5000 random systems"]
+fn many_random_systems_have_the_verdicts_of_the_explorer() {
+    random(1000..6000);
+}
