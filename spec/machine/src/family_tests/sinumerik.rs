@@ -229,7 +229,7 @@ pub(super) const EXAMPLES: [(&str, &str, &str); 73] = [
         "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_IN_ADDRESS = [0x050003FE, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]\ncontrol.PROFISAFE_IN_ASSIGN = [4001, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]\naxis.X = { kind = \"linear\", functions = [\"SBH/SG\"] }\ndoor.A = { axes = [\"X\"], contact = \"INSE[4]\", bus_timeout = \"100 ms\" }",
     ),
     (
-        "comes from an F module (connection 0), and nothing says how soon it is 0",
+        "the contact of the door comes from an F module",
         "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_IN_ADDRESS = [0x050003FE, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]\ncontrol.PROFISAFE_IN_ASSIGN = [4001, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]\naxis.X = { kind = \"linear\", functions = [\"SBH/SG\"] }\ndoor.A = { axes = [\"X\"], contact = \"INSE[4]\" }",
         "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_IN_ADDRESS = [0x050003FE, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]\ncontrol.PROFISAFE_IN_ASSIGN = [4001, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]\naxis.X = { kind = \"linear\", functions = [\"SBH/SG\"] }\ndoor.A = { axes = [\"X\"], contact = \"INSE[5]\" }",
     ),
