@@ -9,6 +9,9 @@ use crate::properties::{self, Subject};
 use crate::sampling::Tape;
 use crate::source::Verdict;
 
+/// What the enumeration of a draw leaves out, for each list of numbers that are tied.
+pub type LeftOut = fn(&[Vec<Tied>]) -> Vec<Found>;
+
 /// One harness: a property with its engines.
 pub struct Entry {
     /// The name of the harness; also the name of its Kani harness.
@@ -38,7 +41,7 @@ pub struct Entry {
     /// Tries every choice.
     pub enumerate: fn(&Subject) -> Count,
     /// What the enumeration of a contract leaves out whose draw is written by hand.
-    pub by_hand: Option<fn(&[Vec<Tied>]) -> Vec<Found>>,
+    pub by_hand: Option<LeftOut>,
     /// Makes one random run.
     pub sample: fn(&mut Tape<'_>, &Subject) -> Verdict,
 }

@@ -1,5 +1,7 @@
 //! Fail-safe blocks for storage and retrieval machines: generated tables and data.
 
 #![no_std]
+// Nearly all of it is generated, and some lints take minutes for a long condition.
+#![allow(clippy::all)]
 
 stillpoint_native::family!();
