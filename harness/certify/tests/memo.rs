@@ -132,23 +132,46 @@ fn compare(bound: &Bound, radix: &Radix, atoms: &[usize], random: &mut Random) -
     (compared, whole)
 }
 
-#[test]
-fn what_is_looked_up_is_what_the_interpreter_does() {
-    let (mut systems, mut compared, mut whole) = (0, 0, 0);
-    let mut random = Random(88_172_645_463_325_252);
-    for bound in subjects().iter().flat_map(|subject| &subject.bounds) {
+/// Compares every so many-th system from one on: systems, cycles, states of which all cycles were compared.
+fn share(bounds: &[&Bound], from: usize, step: usize) -> [usize; 3] {
+    let mut count = [0; 3];
+    for (k, bound) in bounds.iter().enumerate().skip(from).step_by(step) {
         let Some(radix) = Radix::new(bound) else {
             continue;
         };
+        let mut random = Random(88_172_645_463_325_252 + k as u64);
         let all: Vec<usize> = (0..bound.system.atoms.len()).collect();
         // The fewer atoms are asked, the more cycles are the same.
         for atoms in [&all[..], &all[..all.len().min(1)]] {
             let (cycles, states) = compare(bound, &radix, atoms, &mut random);
-            compared += cycles;
-            whole += states;
+            count[1] += cycles;
+            count[2] += states;
         }
-        systems += 1;
+        count[0] += 1;
     }
+    count
+}
+
+#[test]
+fn what_is_looked_up_is_what_the_interpreter_does() {
+    let subjects = subjects();
+    let bounds: Vec<&Bound> = subjects.iter().flat_map(|s| &s.bounds).collect();
+    let processors = std::thread::available_parallelism().map_or(1, usize::from);
+    let [systems, compared, whole] = std::thread::scope(|scope| {
+        let shares: Vec<_> = (0..processors)
+            .map(|from| {
+                scope.spawn({
+                    let bounds = &bounds;
+                    move || share(bounds, from, processors)
+                })
+            })
+            .collect();
+        shares.into_iter().fold([0; 3], |mut sum, one| {
+            let one = one.join().expect("no difference");
+            sum.iter_mut().zip(one).for_each(|(sum, one)| *sum += one);
+            sum
+        })
+    });
     println!("{systems} systems, {compared} cycles, all of {whole} states");
     assert!(
         systems > 200 && compared > 50_000 && whole > 2_000,
