@@ -323,10 +323,11 @@ fn every_parameter_of_a_table_reaches_its_monitor() {
 
 #[test]
 fn random_runs_find_every_wrong_monitor() {
-    for (mutant, machines) in mutants() {
-        let found = differs(mutant, &machines);
-        assert!(found, "random runs miss {mutant:?}");
-    }
+    let missed: BTreeSet<String> = mutants()
+        .filter(|(mutant, machines)| !differs(*mutant, machines))
+        .map(|(mutant, _)| mutant.name.to_owned())
+        .collect();
+    assert_eq!(missed, exceptions("random"), "random runs miss these");
 }
 
 /// What the fuzz target does with its bytes: the production monitors agree, a wrong one is found.

@@ -1,5 +1,5 @@
 //! Interpreter and generated code are one function: every reachable state and every input of every shipped system but the
-//! exceptions; of systems with more than [`STEP`] reachable cycles a share of the states, picked by their values, which
+//! exceptions; of systems with more than [`STEP`] reachable cycles or [`VALUES`] values a share of the states, picked by their values, which
 //! shrinks as more are compared: a test, no proof.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -46,6 +46,8 @@ fn bind(system: ir::System, params: &[(&str, i64)]) -> Bound {
 
 /// So many reachable cycles are all compared; after each further so many, half as many states are picked.
 const STEP: u64 = 25_000;
+/// The same for single values: an expression is compared with every value of the inputs that it reads.
+const VALUES: u64 = 5_000_000;
 
 /// Both evaluators, cycle by cycle.
 struct Both<'a> {
@@ -113,7 +115,9 @@ impl<'a> Both<'a> {
         let mix = |hash: u64, cell: &i32| {
             (hash ^ u64::from(*cell as u32)).wrapping_mul(0x9E37_79B9_7F4A_7C15)
         };
-        let share = 1 << (self.compared.load(Ordering::Relaxed) / STEP).min(40);
+        let cycles = self.compared.load(Ordering::Relaxed) / STEP;
+        let values = self.values.load(Ordering::Relaxed) / VALUES;
+        let share = 1 << cycles.max(values).min(40);
         (state.iter().fold(0, mix) >> 20) % share == 0
     }
 
@@ -295,7 +299,7 @@ fn compare(bound: &Bound) -> u64 {
     explore_both(&both);
     let [cycles, compared, values] =
         [&both.cycles, &both.compared, &both.values].map(|number| number.load(Ordering::Relaxed));
-    assert!(compared == cycles || compared >= STEP);
+    assert!(compared == cycles || compared >= STEP || values >= VALUES);
     println!(
         "{}: {cycles} cycles, {compared} of them compared, {values} values",
         bound.system.name
