@@ -69,11 +69,9 @@ fn wrong(entry: &inventory::Entry) -> Vec<String> {
     let Some(by_hand) = entry.by_hand else {
         return Vec::new();
     };
-    let own: Vec<usize> = (0..TIED.len())
-        .filter(|place| TIED.get(*place).is_some_and(|row| row.0 == entry.id))
-        .collect();
+    let own = || (TIED.iter().enumerate()).filter(|(_, row)| row.0 == entry.id);
     let lists: Vec<_> = std::iter::once(None)
-        .chain(own.iter().copied().map(Some))
+        .chain(own().map(|(place, _)| Some(place)))
         .map(|without| rows(entry.id, without))
         .collect();
     let mut found = by_hand(&lists).into_iter();
@@ -92,7 +90,7 @@ fn wrong(entry: &inventory::Entry) -> Vec<String> {
             "{id}: {missed} of {steps} steps are never drawn: {example}"
         ));
     }
-    for (row, found) in own.iter().filter_map(|place| TIED.get(*place)).zip(found) {
+    for ((_, row), found) in own().zip(found) {
         if found.missed == 0 {
             wrong.push(format!(
                 "{id}, parts {:?}: {} leaves nothing out",

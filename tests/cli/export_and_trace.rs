@@ -148,16 +148,15 @@ fn tla_is_a_module_and_its_configuration() {
     );
 }
 
+/// Exports the selection of an axis.
+fn selection(format: &str) -> [&str; 6] {
+    let file = "spec/families/sinumerik-840d/axis.toml";
+    ["export", file, "--system", "selection", "--to", format]
+}
+
 #[test]
 fn btor2_can_carry_one_property() {
-    let all = [
-        "export",
-        "spec/families/sinumerik-840d/axis.toml",
-        "--system",
-        "selection",
-        "--to",
-        "btor2",
-    ];
+    let all = selection("btor2");
     let bad = |text: &str| {
         text.lines()
             .filter(|l| l.split(' ').nth(1) == Some("bad"))
@@ -182,14 +181,7 @@ fn btor2_can_carry_one_property() {
 
 #[test]
 fn aiger_is_text_or_binary_and_can_carry_one_property() {
-    let all = [
-        "export",
-        "spec/families/sinumerik-840d/axis.toml",
-        "--system",
-        "selection",
-        "--to",
-        "aiger",
-    ];
+    let all = selection("aiger");
     let header = |text: &str| -> Vec<String> {
         let first = text.lines().next().unwrap_or_default();
         first.split(' ').map(str::to_owned).collect()

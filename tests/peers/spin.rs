@@ -181,6 +181,9 @@ fn shipped_systems_have_the_same_states() {
 #[test]
 #[ignore = "deep: minutes"]
 fn large_systems_have_the_same_states() {
+    if !tools(&TOOLS) {
+        return;
+    }
     let large = exceptions("spin, minutes");
     let optimising = Compiler::Optimising;
     let all = each(&shipped(), |path| {

@@ -18,6 +18,17 @@ fn set(netlist: &mut Netlist, fault: Lit, first: usize, next: &[Lit]) {
     }
 }
 
+/// The next values of a latch that says whether something is counted and of the counter behind it, from 0 to `most`: this count while it
+/// is, else 0.
+fn keep(netlist: &mut Netlist, fault: Lit, first: usize, counts: Lit, count: &Word, most: i64) {
+    let count = count
+        .choice(&mut netlist.graph, counts, &Word::constant(0))
+        .within(0, most);
+    let mut list = vec![counts];
+    list.extend((0..Word::needed(0, most)).map(|k| count.bit(k)));
+    set(netlist, fault, first, &list);
+}
+
 /// A counter from 0 to `most`, 0 at the start; its latches are the last ones.
 fn counter(netlist: &mut Netlist, name: &str, most: i64) -> Word {
     let size = Word::needed(0, most);
@@ -95,12 +106,7 @@ pub(super) fn within(
     let less = rest.minus(graph, &one);
     let whole = within.word.minus(graph, &one);
     let count = less.choice(graph, pending, &whole);
-    let count = count
-        .choice(graph, next, &Word::constant(0))
-        .within(0, most);
-    let mut list = vec![next];
-    list.extend((0..Word::needed(0, most)).map(|k| count.bit(k)));
-    set(netlist, fault, first, &list);
+    keep(netlist, fault, first, next, &count, most);
     (broken, Duty { pending, rest })
 }
 
@@ -133,11 +139,6 @@ pub(super) fn fastest(
     let older = age.plus(graph, &Word::constant(1));
     let older = age.choice(graph, last, &older);
     let count = Word::constant(1).choice(graph, when, &older);
-    let count = count
-        .choice(graph, next, &Word::constant(0))
-        .within(0, most);
-    let mut list = vec![next];
-    list.extend((0..Word::needed(0, most)).map(|k| count.bit(k)));
-    set(netlist, fault, first, &list);
+    keep(netlist, fault, first, next, &count, most);
     (early, right)
 }

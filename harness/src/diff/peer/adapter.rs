@@ -86,22 +86,24 @@ impl Adapter {
     /// Restricts inputs to the values they have at this interface.
     pub(crate) fn only(mut self, inputs: &[&str], values: Values) -> Self {
         let ports = self.ports(inputs);
-        self.allowed.extend(ports.map(|port| (port, values)));
+        self.allowed
+            .extend(ports.into_iter().map(|port| (port, values)));
         self
     }
 
     /// Restricts wide inputs to some of their values in an exploration; random runs have all.
     pub(crate) fn explored(mut self, inputs: &[&str], values: Values) -> Self {
         let ports = self.ports(inputs);
-        self.explored.extend(ports.map(|port| (port, values)));
+        self.explored
+            .extend(ports.into_iter().map(|port| (port, values)));
         self
     }
 
     /// The numbers of the inputs of these names.
-    fn ports(&self, inputs: &[&str]) -> impl Iterator<Item = usize> + use<> {
+    fn ports(&self, inputs: &[&str]) -> Vec<usize> {
         let ports = self.inputs.iter().enumerate();
         let found = ports.filter(|(_, name)| inputs.contains(name));
-        found.map(|(port, _)| port).collect::<Vec<_>>().into_iter()
+        found.map(|(port, _)| port).collect()
     }
 
     /// A cell that starts with the value of a state variable of the table: non-volatile state.

@@ -27,6 +27,9 @@ type Make = fn(&[i32]) -> i64;
 /// An output that the table has and the monitor does not: what it is made of.
 type Told<M> = fn(&<M as Contract>::State, &<M as Contract>::Outputs) -> i64;
 
+/// A word of the outputs of a monitor.
+type Word<M> = fn(&<M as Contract>::Outputs) -> u16;
+
 /// The peer of `M` as far as it is known.
 pub(crate) struct Same<'a, M: Contract> {
     params: &'a Params<'a>,
@@ -41,6 +44,8 @@ pub(crate) struct Same<'a, M: Contract> {
     /// Where it is not made of the parameters by their names.
     config: Option<M::Config>,
     told: Vec<(&'static str, Told<M>)>,
+    /// Outputs that are each a bit of a word.
+    bits: Vec<(&'static str, Word<M>, u32)>,
     made: Vec<(&'static str, &'static [&'static str], Make)>,
     cells: Vec<(&'static str, Domain)>,
     kept: Vec<(&'static str, &'static str, &'static str)>,
@@ -67,6 +72,7 @@ impl<'a, M: Contract> Same<'a, M> {
             lacks: None,
             config: None,
             told: Vec::new(),
+            bits: Vec::new(),
             made: Vec::new(),
             cells: Vec::new(),
             kept: Vec::new(),
@@ -116,6 +122,14 @@ impl<'a, M: Contract> Same<'a, M> {
     /// An output that the table has in other words.
     pub(crate) fn told(mut self, name: &'static str, told: Told<M>) -> Self {
         self.told.push((name, told));
+        self
+    }
+
+    /// Outputs that the table has one by one and the monitor as the bits of a word, each with its place.
+    pub(crate) fn bits(mut self, word: Word<M>, places: &'static [(&'static str, u32)]) -> Self {
+        let places = places.iter();
+        self.bits
+            .extend(places.map(|(name, place)| (*name, word, *place)));
         self
     }
 
@@ -340,6 +354,8 @@ impl<'a, M: Contract> Same<'a, M> {
         }
         let told: Vec<Told<M>> = self.told.iter().map(|(_, told)| *told).collect();
         outputs.extend(self.told.iter().map(|(name, _)| *name));
+        let bits = self.bits;
+        outputs.extend(bits.iter().map(|(name, ..)| *name));
         let next = self.next;
         let step = move |cells: &mut [i32], ports: &[i32], said: &mut super::Numbers| {
             let state = load(cells);
@@ -365,6 +381,8 @@ impl<'a, M: Contract> Same<'a, M> {
                 }
             });
             said.extend(told.iter().map(|told| told(&after, &outputs)));
+            let bit = |(_, word, place): &(_, Word<M>, u32)| i64::from(word(&outputs) >> place & 1);
+            said.extend(bits.iter().map(bit));
         };
         let mut adapter =
             Adapter::of(ports, outputs, domains, stored(M::INITIAL), step).without(self.unused);

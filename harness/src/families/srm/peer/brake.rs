@@ -50,20 +50,20 @@ const NAMED: &[(&str, &str)] = &[
     ("was_ack", "ack_held"),
 ];
 
-/// Whether a bit of `DIAG` is set.
-fn bit(outputs: &brake_test::Outputs, place: u32) -> i64 {
-    i64::from(outputs.diag >> place & 1)
-}
-
 /// What both tables show alike. Times are those of calls: T_SAMPLE is 1.
 fn same<'a>(p: &'a Params<'a>, mutant: Option<Mutant>) -> Same<'a, brake_test::Monitor> {
-    Same::new(p, mutant)
+    Same::<brake_test::Monitor>::new(p, mutant)
         .named(NAMED)
         .cell("faults", upto(i32::from(brake_test::TEST_BITS)))
-        .told("diag_2", |_, o| bit(o, 2))
-        .told("diag_11", |_, o| bit(o, 11))
-        .told("diag_14", |_, o| bit(o, 14))
-        .told("diag_15", |_, o| bit(o, 15))
+        .bits(
+            |o| o.diag,
+            &[
+                ("diag_2", 2),
+                ("diag_11", 11),
+                ("diag_14", 14),
+                ("diag_15", 15),
+            ],
+        )
 }
 
 pub(super) fn make(machine: &str, p: &Params, mutant: Option<Mutant>) -> Made {
@@ -99,14 +99,19 @@ pub(super) fn make(machine: &str, p: &Params, mutant: Option<Mutant>) -> Made {
             .decided("wrong", |config| config.parameter_bits() != 0)
             .without(&["overflow"])
             .hidden(&["diag", "test_req", "faults", "tried"])
-            .told("time_1", |_, o| bit(o, 0))
-            .told("time_2", |_, o| bit(o, 1))
-            .told("moved", |_, o| bit(o, 3))
-            .told("implausible", |_, o| bit(o, 6))
-            .told("no_enable", |_, o| bit(o, 7))
-            .told("no_position", |_, o| bit(o, 8))
-            .told("not_selected", |_, o| bit(o, 9))
-            .told("no_request", |_, o| bit(o, 10))
+            .bits(
+                |o| o.diag,
+                &[
+                    ("time_1", 0),
+                    ("time_2", 1),
+                    ("moved", 3),
+                    ("implausible", 6),
+                    ("no_enable", 7),
+                    ("no_position", 8),
+                    ("not_selected", 9),
+                    ("no_request", 10),
+                ],
+            )
             .peer()?,
         _ => return Ok(None),
     }))

@@ -16,11 +16,6 @@ use crate::diff::peer::same::{Same, peers};
 use crate::diff::peer::{Made, Params};
 use crate::diff::product::Values;
 
-/// A bit of a word.
-fn bit(word: u16, place: u32) -> i64 {
-    i64::from(word >> place & 1)
-}
-
 /// The points of an envelope.
 fn curve(p: &Params) -> Curve {
     let of = |letter: char, k: usize| p.value(&format!("{letter}_{k}"));
@@ -107,12 +102,7 @@ peers! { srm |p|
         ])
         .decided("bad", |config| config.wrong_velocity())
         .hidden(&["diag"])
-        .told("diag_0", |_, o| bit(o.diag, 0))
-        .told("diag_1", |_, o| bit(o.diag, 1))
-        .told("diag_2", |_, o| bit(o.diag, 2))
-        .told("diag_4", |_, o| bit(o.diag, 4))
-        .told("diag_5", |_, o| bit(o.diag, 5))
-        .told("diag_6", |_, o| bit(o.diag, 6));
+        .bits(|o| o.diag, &[("diag_0", 0), ("diag_1", 1), ("diag_2", 2), ("diag_4", 4), ("diag_5", 5), ("diag_6", 6)]);
     "endzone" => endzone
         .config(endzone_config(p))
         .needs(curve(p).ascends() && segments_fit(&curve(p)), "the points must ascend and a product of a segment be a DInt")
@@ -124,13 +114,7 @@ peers! { srm |p|
         .decided("bad", |config| config.parameter_bits() != 0)
         .without(&["overflow"])
         .hidden(&["diag", "place"])
-        .told("diag_0", |_, o| bit(o.diag, 0))
-        .told("diag_1", |_, o| bit(o.diag, 1))
-        .told("diag_2", |_, o| bit(o.diag, 2))
-        .told("diag_5", |_, o| bit(o.diag, 5))
-        .told("diag_6", |_, o| bit(o.diag, 6))
-        .told("diag_9", |_, o| bit(o.diag, 9))
-        .told("diag_11", |_, o| bit(o.diag, 11));
+        .bits(|o| o.diag, &[("diag_0", 0), ("diag_1", 1), ("diag_2", 2), ("diag_5", 5), ("diag_6", 6), ("diag_9", 9), ("diag_11", 11)]);
     // The table counts the calls of the ramp, the monitor its velocity and its way.
     "sbr" => sbr_monitor
         .config(sbr_config(p))
@@ -145,8 +129,7 @@ peers! { srm |p|
         .decided("bad", |config| config.parameter_bits() != 0)
         .without(&["overflow"])
         .hidden(&["diag"])
-        .told("diag_0", |_, o| bit(o.diag, 0))
-        .told("diag_11", |_, o| bit(o.diag, 11));
+        .bits(|o| o.diag, &[("diag_0", 0), ("diag_11", 11)]);
     "load" => load_monitor
         .constants(&[
             ("err_react", 0), ("cal_value", 0), ("maxtol_cal", 0), ("t_sample", 1), ("t_test", 2), ("t_settle", 1),
@@ -161,13 +144,7 @@ peers! { srm |p|
         .decided("bad", |config| config.parameter_bits() != 0)
         .without(&["overflow"])
         .hidden(&["diag"])
-        .told("diag_0", |_, o| bit(o.diag, 0))
-        .told("diag_1", |_, o| bit(o.diag, 1))
-        .told("diag_2", |_, o| bit(o.diag, 2))
-        .told("diag_7", |_, o| bit(o.diag, 7))
-        .told("diag_9", |_, o| bit(o.diag, 9))
-        .told("diag_10", |_, o| bit(o.diag, 10))
-        .told("diag_11", |_, o| bit(o.diag, 11));
+        .bits(|o| o.diag, &[("diag_0", 0), ("diag_1", 1), ("diag_2", 2), ("diag_7", 7), ("diag_9", 9), ("diag_10", 10), ("diag_11", 11)]);
     // ACK ends an overflow only. The kind of the test is an input of the block that the monitor has as a parameter.
     "calibration" => load_calibration
         .constants(&[("t_sample", 1), ("wrong_elsewhere", 0), ("inputs.ack", 0)])
@@ -179,8 +156,7 @@ peers! { srm |p|
         ])
         .without(&["bad"])
         .hidden(&["diag", "overflowed", "ack_held", "ack_req"])
-        .told("diag_4", |_, o| bit(o.diag, 4))
-        .told("diag_5", |_, o| bit(o.diag, 5));
+        .bits(|o| o.diag, &[("diag_4", 4), ("diag_5", 5)]);
     // The table has neither the values of the velocity nor its faults: a counter that stands, and no limit of the drift. A step is
     // 2 * V_MAX * T_SAMPLE / 60000.
     "position" => safe_pos
@@ -211,15 +187,7 @@ peers! { srm |p|
         .cell("window1", upto(p.value("p_top")))
         .cell("window_si", upto(p.value("p_top").saturating_mul(1_000)))
         .cell("window_calls", upto(0))
-        .told("diag_3", |_, o| bit(o.diag, 3))
-        .told("diag_4", |_, o| bit(o.diag, 4))
-        .told("diag_7", |_, o| bit(o.diag, 7))
-        .told("diag_8", |_, o| bit(o.diag, 8))
-        .told("diag_9", |_, o| bit(o.diag, 9))
-        .told("diag_10", |_, o| bit(o.diag, 10))
-        .told("diag_11", |_, o| bit(o.diag, 11))
-        .told("diag_12", |_, o| bit(o.diag, 12))
-        .told("diag_13", |_, o| bit(o.diag, 13));
+        .bits(|o| o.diag, &[("diag_3", 3), ("diag_4", 4), ("diag_7", 7), ("diag_8", 8), ("diag_9", 9), ("diag_10", 10), ("diag_11", 11), ("diag_12", 12), ("diag_13", 13)]);
 }
 
 /// The values of a corrected position.
