@@ -16,35 +16,63 @@ pub type Case<M> = (
     <M as Contract>::Inputs,
 );
 
-/// Draws each number that it is shown, from all values of its kind.
-struct Any<'a, S>(&'a mut S);
+/// The numbers of which Kani takes only some: name, the least and the greatest. What it leaves out so stands in the inventory.
+pub type Few = &'static [(&'static str, i64, i64)];
+
+/// Draws each number that it is shown, from all values of its kind, or from few.
+struct Any<'a, S> {
+    source: &'a mut S,
+    few: Few,
+    // Numbers of a list have the name of the list.
+    list: &'static str,
+}
 
 impl<S: Source> Visitor for Any<'_, S> {
-    fn number(&mut self, _: &'static str, kind: Kind, _: i64) -> i64 {
+    fn open(&mut self, name: &'static str) {
+        self.list = name;
+    }
+
+    fn close(&mut self) {
+        self.list = "";
+    }
+
+    fn number(&mut self, name: &'static str, kind: Kind, _: i64) -> i64 {
         match kind {
-            Kind::Truth => i64::from(self.0.any_bool()),
-            Kind::Choice(variants) => self.0.any_choice(variants),
-            Kind::Whole(low, high) => self.0.any_whole(low, high),
+            Kind::Truth => i64::from(self.source.any_bool()),
+            Kind::Choice(variants) => self.source.any_choice(variants),
+            Kind::Whole(low, high) => {
+                for (few, least, greatest) in self.few {
+                    if *few == name || *few == self.list {
+                        return self.source.any_few(low, high, *least, *greatest);
+                    }
+                }
+                self.source.any_whole(low, high)
+            }
         }
     }
 }
 
 /// Any value of a type.
 pub fn any<T: Fields, S: Source>(source: &mut S) -> T {
+    any_but(source, &[])
+}
+
+fn any_but<T: Fields, S: Source>(source: &mut S, few: Few) -> T {
     let mut value = T::ANY;
-    value.visit("", &mut Any(source));
+    let list = "";
+    value.visit("", &mut Any { source, few, list });
     value
 }
 
-/// Any step of a monitor; none where the numbers drawn make none.
-pub fn step<M: Contract, S: Source>(source: &mut S) -> Option<Case<M>> {
-    let config = any(source);
+/// Any step of a monitor, but for the numbers of which there are few; none where the numbers drawn make none.
+pub fn step<M: Contract, S: Source>(source: &mut S, few: Few) -> Option<Case<M>> {
+    let config = any_but(source, few);
     if !M::accepted(&config) {
         return None;
     }
-    let state = any(source);
+    let state = any_but(source, few);
     if !M::invariant(&state, &config) {
         return None;
     }
-    Some((state, config, any(source)))
+    Some((state, config, any_but(source, few)))
 }

@@ -90,6 +90,10 @@ impl Source for Symbolic {
         }
     }
 
+    fn any_few(&mut self, _: i64, _: i64, least: i64, greatest: i64) -> i64 {
+        least + i64::from(self.any_in(0, (greatest - least) as u32))
+    }
+
     fn any_part(&mut self, _: u32) -> u32 {
         self.part
     }

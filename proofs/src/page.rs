@@ -48,7 +48,7 @@ pub fn render(results: &[(&Entry, Count)], kani: &Results) -> String {
             verdict(count),
             answer(entry, kani),
             entry.bound,
-            entry.caveat,
+            caveat(entry),
         );
     }
     for (entry, count) in results {
@@ -147,6 +147,23 @@ fn answer(entry: &Entry, kani: &Results) -> String {
         text.push_str(", older");
     }
     text
+}
+
+/// What a reader must know, and of which numbers Kani takes only some.
+fn caveat(entry: &Entry) -> String {
+    if entry.few.is_empty() {
+        return entry.caveat.to_owned();
+    }
+    let few = entry
+        .few
+        .iter()
+        .map(|(name, least, greatest)| format!("`{name}` {least} to {greatest}"));
+    let few: Vec<String> = few.collect();
+    let few = format!("under Kani {}", few.join(", "));
+    match entry.caveat {
+        "none" => few,
+        caveat => format!("{caveat}; {few}"),
+    }
 }
 
 fn stands_for(entry: &Entry) -> String {

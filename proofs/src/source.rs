@@ -51,6 +51,11 @@ pub trait Source {
     /// Any whole number from `low` to `high`, both included, which are in 32 bits or the ends of 64.
     fn any_whole(&mut self, low: i64, high: i64) -> i64;
 
+    /// As [`Source::any_whole`], but Kani takes only those from `_least` to `_greatest`.
+    fn any_few(&mut self, low: i64, high: i64, _least: i64, _greatest: i64) -> i64 {
+        self.any_whole(low, high)
+    }
+
     /// As [`Source::any_u32`], but Kani takes only the numbers of `bits` bits: for the factors and divisors of arithmetic that
     /// it cannot decide at full width. Each use is a caveat of the harness.
     fn any_cut(&mut self, reach: u32, highest: u32, _bits: u32) -> u32 {

@@ -8,9 +8,10 @@
 use stillpoint_native::Family;
 
 /// Every family, and what is no family but has tables.
-pub static FAMILIES: [Family; 4] = [
+pub static FAMILIES: [Family; 5] = [
     stillpoint_tables_sinumerik_840d::FAMILY,
     stillpoint_tables_heidenhain_fs::FAMILY,
     stillpoint_tables_srm_fblocks::FAMILY,
+    stillpoint_tables_sinamics_s120::FAMILY,
     stillpoint_tables_bench::FAMILY,
 ];

@@ -1,9 +1,10 @@
 //! Running other tools on exported systems.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, OnceLock};
 
 use stillpoint_engine::check::{Settings, check};
 use stillpoint_engine::subject::{self, Readings, Subject, Task};
@@ -176,11 +177,30 @@ pub fn load(path: &Path) -> Subject {
     subject::load(path, &Readings::new()).unwrap_or_else(|e| panic!("{e}"))
 }
 
-/// The exploration of one system of a file, complete.
+/// The explorations so far: of each file and task the report, once it is there.
+type Reports = BTreeMap<(PathBuf, String, String), Arc<OnceLock<Report>>>;
+
+/// The exploration of one system of a file, complete; made once for all tools that are compared with it.
 ///
 /// # Panics
 /// If it fails or is not complete.
 pub fn explored(subject: &Subject, task: &Task) -> Report {
+    static REPORTS: Mutex<Reports> = Mutex::new(BTreeMap::new());
+    let key = (
+        subject.path.clone(),
+        task.title.clone(),
+        task.bound.system.name.clone(),
+    );
+    let place = REPORTS
+        .lock()
+        .expect("nothing panics under it")
+        .entry(key)
+        .or_default()
+        .clone();
+    place.get_or_init(|| explored_now(subject, task)).clone()
+}
+
+fn explored_now(subject: &Subject, task: &Task) -> Report {
     let alone = Subject {
         tasks: vec![task.clone()],
         ..subject.clone()

@@ -36,6 +36,8 @@ pub struct Entry {
     pub file: Option<&'static str>,
     /// The attributes of the Kani harness, with spaces as the compiler prints them: solver, stubs. Empty for the defaults.
     pub kani: &'static str,
+    /// The numbers of which Kani takes only some: name, the least and the greatest.
+    pub few: crate::draw::Few,
     /// The clauses of a contract: name, text, requirements. Empty for runs.
     pub clauses: fn() -> Vec<ClauseText>,
     /// Tries every choice.
@@ -65,6 +67,7 @@ impl Entry {
             caveat,
             file: None,
             kani: "",
+            few: &[],
             clauses: properties::clauses::<M>,
             enumerate: |_| Count::default(),
             by_hand: None,
@@ -109,7 +112,7 @@ fn requirements_of(clauses: Vec<ClauseText>) -> Vec<&'static str> {
 
 macro_rules! entry {
     (contract $([$($how:tt)*])? $id:ident on $family:ident::$monitor:ident {
-        property: $property:literal, tries: $tries:literal, caveat: $caveat:literal $(,)?
+        property: $property:literal, tries: $tries:literal, $(few: $few:tt,)? caveat: $caveat:literal $(,)?
     }) => {{
         use stillpoint_monitors::$family::$monitor::Monitor;
         static TRIES: std::sync::OnceLock<$crate::tries::Tries> = std::sync::OnceLock::new();
@@ -121,6 +124,7 @@ macro_rules! entry {
         }
         $crate::inventory::Entry {
             kani: concat!($(stringify!($($how)*))?),
+            $(few: &$few,)?
             domain: || $crate::tries::in_words($tries),
             enumerate: |subject| {
                 let case = |source: &mut $crate::enumeration::Odometer| tries().step::<Monitor, _>(source);
@@ -172,6 +176,7 @@ macro_rules! entry {
             caveat: $caveat,
             file: Some(concat!("properties/", stringify!($family), "/", stringify!($module), ".rs")),
             kani: concat!($(stringify!($($how)*))?),
+            few: &[],
             clauses: Vec::new,
             by_hand: None,
             enumerate: |subject| {
@@ -198,8 +203,11 @@ macro_rules! kani_proof {
 /// The step that Kani starts from: any that the types of the monitor allow, or one drawn by hand.
 #[cfg(kani)]
 macro_rules! kani_case {
+    ($family:ident $monitor:ident $source:ident { property: $property:literal, tries: $tries:literal, few: $few:tt, $($rest:tt)* }) => {
+        crate::draw::step::<stillpoint_monitors::$family::$monitor::Monitor, _>(&mut $source, &$few)
+    };
     ($family:ident $monitor:ident $source:ident { property: $property:literal, tries: $($rest:tt)* }) => {
-        crate::draw::step::<stillpoint_monitors::$family::$monitor::Monitor, _>(&mut $source)
+        crate::draw::step::<stillpoint_monitors::$family::$monitor::Monitor, _>(&mut $source, &[])
     };
     ($family:ident $monitor:ident $source:ident $rest:tt) => {
         crate::arbitrary::$family::$monitor(&mut $source)

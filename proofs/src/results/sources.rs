@@ -50,7 +50,7 @@ pub fn fingerprint(entry: &Entry) -> String {
             .flatten()
             .cloned(),
     );
-    texts.push(format!("{} {}", entry.id, entry.kani));
+    texts.push(format!("{} {} {:?}", entry.id, entry.kani, entry.few));
     hash(&texts)
 }
 

@@ -175,6 +175,6 @@ inventory! {
         domain: NARROW,
         domain_text: "300 kHz to 300.003 kHz and 420 kHz; cycles 24.998 to 25 ms and 1 us; small encoders and gears, and the largest",
         bound: "results of 32 bits; others are refused",
-        caveat: "Kani decides no division by a product of wide variables: it takes encoders, gears and pitches of 2 or 3 bits, cycles to 32 us and 300 to 300.255 kHz, and leaves out the reduction to lowest terms",
+        caveat: "Kani decides no division by a product of wide variables: it takes encoders, gears and pitches of 2 or 3 bits, cycles to 32 us and 300 to 300.063 kHz, and leaves out the reduction to lowest terms",
     }]
 }

@@ -14,11 +14,13 @@ inventory! {
     [contract [kani(solver(kissat))] srm_mul_dint_contract on srm::mul_dint {
         property: "every clause of LFMulDInt: the exact product, or 0 with the flag",
         tries: "operand1 operand2: -2147483648 -2147483647 -3..3 2147483646 2147483647 1073741824 -1073741824 46340 46341 -46341 65536 32768 -65536",
+        few: [("operand2", -128, 127)],
         caveat: "none",
     }]
     [contract [kani(solver(kissat))] srm_div_dint_contract on srm::div_dint {
         property: "every clause of LFDivDInt: the quotient toward zero, or 0 with the flag",
         tries: "operand1 operand2: -2147483648 -2147483647 -9..9 2147483646 2147483647 46340",
+        few: [("operand2", -128, 127)],
         caveat: "none",
     }]
     [contract srm_min_max_contract on srm::min_max {

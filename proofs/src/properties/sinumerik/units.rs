@@ -328,7 +328,7 @@ pub fn encoder_position_rounds_down<S: Source>(source: &mut S, _subject: &Subjec
 ///
 /// Cover 0: an extended limit frequency.
 pub fn encoder_speed_rounds_down<S: Source>(source: &mut S, _subject: &Subject) -> Verdict {
-    let hz = 300_000 + cut(source, 3, 120_000, 8);
+    let hz = 300_000 + cut(source, 3, 120_000, 6);
     let Ok(frequency) = LimitFrequency::new(hz, true) else {
         return Verdict::Broken("permitted_frequency_is_accepted");
     };

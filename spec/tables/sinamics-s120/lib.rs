@@ -1,0 +1,7 @@
+//! SINAMICS S120 Safety Integrated: generated tables and data.
+
+#![no_std]
+// Nearly all of it is generated, and some lints take minutes for a long condition.
+#![allow(clippy::all)]
+
+stillpoint_native::family!();
