@@ -115,6 +115,12 @@ fn heidenhain_fs() {
     run_family("heidenhain-fs", heidenhain::RUNNERS);
 }
 
+/// Every printed number of the manual of the SINAMICS S120 that is a case holds.
+#[test]
+fn sinamics_s120() {
+    run_family("sinamics-s120", &[]);
+}
+
 /// The frame itself: a wrong number, a key nobody reads and an answer that is missing are found.
 #[test]
 fn frame_finds_what_is_wrong() {
@@ -137,7 +143,7 @@ fn frame_finds_what_is_wrong() {
     assert_eq!(judged("{ value = 2, more = 1 }", "{ twice = 4 }"), 1);
     assert_eq!(judged("{ value = 2 }", "{ thrice = 6 }"), 1);
     assert_eq!(judged("{ }", "{ twice = 4 }"), 1);
-    for family in ["heidenhain-fs", "sinumerik-840d"] {
+    for family in ["heidenhain-fs", "sinamics-s120", "sinumerik-840d"] {
         let last = case::last_line(family);
         let mut one = case("{ value = 2 }", "{ twice = 4 }");
         one.lines = last.to_string();
