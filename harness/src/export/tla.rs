@@ -68,6 +68,9 @@ fn is_name(name: &str) -> bool {
         && !name.starts_with("SF_")
 }
 
+/// The variable of a system without any, which TLC does not run: its one state. No name of the tables has this form.
+const ONLY: &str = "only__state";
+
 struct Plus;
 
 impl Syntax for Plus {
@@ -126,6 +129,7 @@ fn declarations(out: &mut String, writer: &Writer<Plus>) {
         .map(|k| writer.states[k].as_str())
         .collect();
     if names.is_empty() {
+        let _ = writeln!(out, "VARIABLES\n  {ONLY}\n\nstate == <<{ONLY}>>");
         return;
     }
     out.push_str("VARIABLES\n");
@@ -163,8 +167,8 @@ fn initial(out: &mut String, writer: &Writer<Plus>) {
         let _ = writeln!(types, "  /\\ {name} \\in {set}");
     }
     if !any {
-        out.push_str("  TRUE\n");
-        types.push_str("  TRUE\n");
+        let _ = writeln!(out, "  {ONLY} = 0");
+        let _ = writeln!(types, "  {ONLY} = 0");
     }
     let _ = write!(out, "\nTypes ==\n{types}");
 }
@@ -208,10 +212,9 @@ fn next(out: &mut String, writer: &Writer<Plus>) {
         );
     }
     if variables.is_empty() {
-        out.push_str("    TRUE\n");
-    } else {
-        out.push_str("\nSpec == Init /\\ [][Next]_state\n");
+        let _ = writeln!(out, "    /\\ {ONLY}' = {ONLY}");
     }
+    out.push_str("\nSpec == Init /\\ [][Next]_state\n");
 }
 
 /// The invariants; the answer is the configuration that names those that must hold, and one for each.
