@@ -239,7 +239,7 @@ impl Making<'_> {
             let Param { value, span, .. } = given(call, output)?;
             let Actual::Bit(bit) = value else { return None };
             let of = Box::new(name(block, span));
-            let value = expr(ExprKind::Member(of, word(output, span)), span);
+            let value = expr(ExprKind::Member(of, word(*output, span)), span);
             self.set_bit(*bit, value, span)
         });
         given.collect()
