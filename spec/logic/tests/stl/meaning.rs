@@ -406,9 +406,9 @@ fn the_brake_test() {
     let feedback = ["a", "db33_dbx71_0", "c", "db33_dbx64_6", "db33_dbx62_5"];
     let inputs = |cycle: usize, known: usize, active: i32| {
         let mut list = vec![("fb11_1_ready", 1), ("db33_dbx63_1", 1)];
-        let there = cycle.min(known).min(feedback.len());
-        list.extend(feedback.iter().take(there).map(|name| (*name, 1)));
-        list.extend((active == 0).then_some(("db33_dbx71_0", 0)));
+        let there = feedback.iter().take(cycle.min(known));
+        let there = there.filter(|name| active == 1 || **name != "db33_dbx71_0");
+        list.extend(there.map(|name| (*name, 1)));
         list
     };
     // From the cycle of the start on: 1 selected, 2 closes, 3 commanded, 4 runs, 5 holds for six cycles, then it is deselected.
