@@ -28,7 +28,7 @@ fn to_a_clean_verdict(
     assert_eq!(status(&output), 0, "{said}");
     let report: Value = serde_json::from_str(&stdout(&output)).expect("JSON");
     let guarantees = report["guarantees"].as_array().expect("guarantees");
-    assert!(guarantees.len() >= 6);
+    assert!(guarantees.len() >= 4);
     assert!(guarantees.iter().all(|g| g["verdict"] == "holds"), "{said}");
     // Another value, and the verdict is another one.
     let worse = text.replacen("within  = \"", "within  = \"0.", 1);
@@ -96,7 +96,7 @@ after    = \"any single fault of a channel or contact\"
 
 #[test]
 fn a_lathe_from_nothing_to_a_clean_verdict() {
-    let options = ["--name", "lathe", "--linear", "X,Z", "--spindles", "S"];
+    let options = ["--name", "lathe", "--linear", "X,Z"];
     to_a_clean_verdict(
         "sinumerik-840d",
         &options,
@@ -109,9 +109,15 @@ fn a_lathe_from_nothing_to_a_clean_verdict() {
             let valid = stillpoint(&["validate", file, "--deny-warnings"]);
             let said = stdout(&valid);
             assert_eq!(status(&valid), 1, "{said}");
-            for warning in ["axis-not-served", "axis-always-held"] {
-                assert_eq!(said.matches(warning).count(), 3, "{said}");
-            }
+            assert!(
+                said.contains("axis-not-served") && said.contains("axis-always-held"),
+                "{said}"
+            );
+            let told = stderr(&valid);
+            assert!(
+                told.starts_with("error: 4 warnings about the values"),
+                "{told}"
+            );
             let served = "SS_DISABLE_INPUT    = \"OUTSI[3]\"
 VELO_SELECT_INPUT   = [\"OUTSI[4]\", \"OUTSI[4]\"]
 EXT_STOP_INPUT      = [\"OUTSI[1]\", \"OUTSI[2]\", \"1\", \"1\"]
