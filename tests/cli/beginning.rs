@@ -6,22 +6,31 @@ use crate::common::{Folder, command, messages, session, status, stderr, stdout, 
 
 const MILLING: &str = "spec/machines/milling-840d.toml";
 
-/// A machine of each family from nothing to a clean verdict, as its user goes.
-fn to_a_clean_verdict(family: &str, options: &[&str], guarantee: &str) {
+/// A machine of each family from nothing to a clean verdict, as its user goes: what `new` writes, then what is the user's `own`.
+fn to_a_clean_verdict(
+    family: &str,
+    options: &[&str],
+    guarantee: &str,
+    own: impl Fn(&Folder, &str, &str) -> String,
+) {
     let folder = Folder::new(&format!("new-{family}"));
     let file = folder.file("machine.toml");
     let mut arguments = vec!["new", family, "--output", file.as_str()];
     arguments.extend(options);
     let written = stillpoint(&arguments);
     assert_eq!(status(&written), 0, "{}", stderr(&written));
+    let text = std::fs::read_to_string(&file).expect("the file");
+    std::fs::write(&file, own(&folder, &file, &text)).expect("written");
+    let valid = stillpoint(&["validate", &file, "--deny-warnings"]);
+    assert_eq!(status(&valid), 0, "{}{}", stdout(&valid), stderr(&valid));
     let output = stillpoint(&["check", &file, "--json"]);
-    assert_eq!(status(&output), 0, "{}", stdout(&output));
+    let said = format!("{}{}", stdout(&output), stderr(&output));
+    assert_eq!(status(&output), 0, "{said}");
     let report: Value = serde_json::from_str(&stdout(&output)).expect("JSON");
     let guarantees = report["guarantees"].as_array().expect("guarantees");
-    assert!(guarantees.len() >= 3);
-    assert!(guarantees.iter().all(|g| g["verdict"] == "holds"));
+    assert!(guarantees.len() >= 4);
+    assert!(guarantees.iter().all(|g| g["verdict"] == "holds"), "{said}");
     // Another value, and the verdict is another one.
-    let text = std::fs::read_to_string(&file).expect("the file");
     let worse = text.replacen("within  = \"", "within  = \"0.", 1);
     assert_ne!(text, worse);
     std::fs::write(&file, worse).expect("written");
@@ -31,16 +40,124 @@ fn to_a_clean_verdict(family: &str, options: &[&str], guarantee: &str) {
     assert!(stdout(&output).contains(&format!("{guarantee} (violated)")));
 }
 
-#[test]
-fn a_lathe_from_nothing_to_a_clean_verdict() {
-    let options = ["--name", "lathe", "--linear", "X,Z", "--spindles", "S"];
-    to_a_clean_verdict("sinumerik-840d", &options, "front_axes");
+/// The program of the lathe: behind the open door its axes stand, and nothing moves before its key is pressed anew.
+const LATHE: &str = "\
+%_N_SAFE_SPF
+DEFINE DOOR_SHUT AS $A_INSE[1]
+DEFINE ESTOP_FREE AS $A_INSE[2]
+DEFINE KEY AS $A_INSE[3]
+DEFINE STOP_A_OFF AS $A_OUTSI[1]
+DEFINE STOP_C_OFF AS $A_OUTSI[2]
+DEFINE SBH_OFF AS $A_OUTSI[3]
+DEFINE SG_BITS AS $A_OUTSI[4]
+DEFINE PULSE AS $A_MARKERSI[1]
+DEFINE WAS_UP AS $A_MARKERSI[2]
+DEFINE RELEASED AS $A_MARKERSI[3]
+DEFINE CONFIRMED AS $A_MARKERSI[4]
+IDS=10 DO PULSE = KEY AND WAS_UP
+IDS=11 DO WAS_UP = NOT KEY
+IDS=12 DO RELEASED = ESTOP_FREE AND (RELEASED OR PULSE)
+IDS=13 DO CONFIRMED = RELEASED AND DOOR_SHUT AND (CONFIRMED OR PULSE)
+IDS=14 DO STOP_A_OFF = 1
+IDS=15 DO STOP_C_OFF = RELEASED
+IDS=16 DO SBH_OFF = CONFIRMED
+IDS=17 DO SG_BITS = CONFIRMED
+M17
+";
+
+/// A program beside the file, with its guarantees, and the contacts that it reads.
+fn programmed(text: &str) -> String {
+    let text = text.replace(
+        "open          =",
+        "contact       = \"INSE[1]\"\nopen          =",
+    );
+    let text = text.replace("stop    =", "contact = \"INSE[2]\"\nstop    =");
+    let more = "
+[logic.spl]
+source = \"lathe.spf\"
+
+[guarantee.no_start]
+pattern = \"no_start\"
+door    = \"front\"
+axes    = [\"X\", \"Z\"]
+key     = \"INSE[3]\"
+after   = \"any single fault of a channel or contact\"
+
+[guarantee.key]
+pattern  = \"reset\"
+axes     = [\"X\", \"Z\"]
+contact  = \"INSE[2]\"
+contacts = 2
+key      = \"INSE[3]\"
+after    = \"any single fault of a channel or contact\"
+";
+    text + more
 }
 
 #[test]
+fn a_lathe_from_nothing_to_a_clean_verdict() {
+    let options = ["--name", "lathe", "--linear", "X,Z"];
+    to_a_clean_verdict(
+        "sinumerik-840d",
+        &options,
+        "front_axes",
+        |folder, file, text| {
+            folder.write("lathe.spf", LATHE);
+            let text = programmed(text);
+            // An axis that the program does not serve never moves: each guarantee about it would hold.
+            std::fs::write(file, &text).expect("written");
+            let valid = stillpoint(&["validate", file, "--deny-warnings"]);
+            let said = stdout(&valid);
+            assert_eq!(status(&valid), 1, "{said}");
+            assert!(
+                said.contains("axis-not-served") && said.contains("axis-always-held"),
+                "{said}"
+            );
+            let told = stderr(&valid);
+            assert!(
+                told.starts_with("error: 4 warnings about the values"),
+                "{told}"
+            );
+            let served = "SS_DISABLE_INPUT    = \"OUTSI[3]\"
+VELO_SELECT_INPUT   = [\"OUTSI[4]\", \"OUTSI[4]\"]
+EXT_STOP_INPUT      = [\"OUTSI[1]\", \"OUTSI[2]\", \"1\", \"1\"]
+functions =";
+            text.replace("functions =", served)
+        },
+    );
+}
+
+/// The reset button of the press in its safe PLC program, and the contactors of its drive.
+#[test]
 fn a_press_from_nothing_to_a_clean_verdict() {
     let options = ["--name", "press", "--linear", "Y"];
-    to_a_clean_verdict("heidenhain-fs", &options, "front_axes_som_1");
+    to_a_clean_verdict(
+        "heidenhain-fs",
+        &options,
+        "front_axes_som_1",
+        |folder, _, text| {
+            let button = crate::common::root().join("tests/machines/reset-button.st");
+            let button = std::fs::read_to_string(button).expect("the program");
+            folder.write("reset.st", &button);
+            let text = text.replace(
+                "[guarantee.reset]",
+                "[guarantee.reset]\nbutton_contacts = 2",
+            );
+            let more = "
+[logic.reset_logic]
+source = \"reset.st\"
+
+[guarantee.drive]
+pattern    = \"contactor\"
+axes       = [\"Y\"]
+contactors = 2
+switching  = \"60 ms\"
+within     = \"66 ms\"
+after      = \"any single fault of a channel or contact\"
+";
+            text + more
+        },
+    );
 }
 
 /// What it writes is plausible for every kind of machine, without warnings but those that only the builder can answer.

@@ -69,7 +69,7 @@ type Case = (
     &'static [(&'static str, &'static str)],
 );
 
-const PRINTED: [Case; 4] = [
+const PRINTED: [Case; 6] = [
     (
         "emergency-stop-840d",
         "restart",
@@ -90,9 +90,15 @@ const PRINTED: [Case; 4] = [
         "valve",
         &[("FIRST-BY-KEY", "IE02_SCHUTZTUER_OK")],
     ),
+    ("brake-test-840d", "test_ends", &[("ENDS", "M 110.7")]),
+    (
+        "brake-test-840d",
+        "brake_closes",
+        &[("brake_closes", "UN M 111.1; = A 85.0")],
+    ),
 ];
 
-const MENDED: [(&str, &str); 8] = [
+const MENDED: [(&str, &str); 14] = [
     ("emergency-stop-840d", "standstill"),
     ("emergency-stop-840d", "stage"),
     ("emergency-stop-relay-840d", "restart"),
@@ -101,6 +107,12 @@ const MENDED: [(&str, &str); 8] = [
     ("forced-checking-own-840d", "next_test"),
     ("profisafe-command-840d", "valve"),
     ("profisafe-command-840d", "valve_in_both"),
+    ("brake-test-840d", "next_test"),
+    ("brake-test-840d", "load_on_closed_brake"),
+    ("brake-test-own-840d", "test_ends"),
+    ("brake-test-own-840d", "next_test"),
+    ("brake-test-own-840d", "brake_closes"),
+    ("brake-test-own-840d", "load_on_closed_brake"),
 ];
 
 /// What is missing in an answer: the property broken, by a run, with a line that has this piece.
@@ -120,7 +132,8 @@ fn none(wrong: Vec<Vec<String>>) {
 
 /// The findings about the printed programs: S840D-EXAMPLE-730 (a request of the PLC alone releases after power-on), S840D-EXAMPLE-731
 /// (only the last interruption counts), S840D-EXAMPLE-732 (the acknowledgement is a level), S840D-TESTSTOP-720 (the acknowledgement of
-/// the PLC stays), S840D-TESTSTOP-721 (an aborted test is the last one), S840D-PSAFE-719 (closing the door switches on).
+/// the PLC stays), S840D-TESTSTOP-721 (an aborted test is the last one), S840D-PSAFE-719 (closing the door switches on). Of the brake test:
+/// one whose axis is not given to the PLC has no end (S840D-BRAKE-710), and its brake closes for the test alone (S840D-BRAKE-716).
 #[test]
 fn the_weaknesses_of_the_printed_programs_are_found() {
     none(each(&PRINTED, |(name, guarantee, broken)| {
@@ -133,7 +146,7 @@ fn the_weaknesses_of_the_printed_programs_are_found() {
 }
 
 /// S840D-EXAMPLE-701, S840D-EXAMPLE-702, S840D-EXAMPLE-730, S840D-EXAMPLE-731, S840D-EXAMPLE-732, S840D-TESTSTOP-714,
-/// S840D-TESTSTOP-720, S840D-TESTSTOP-721.
+/// S840D-TESTSTOP-720, S840D-TESTSTOP-721, S840D-BRAKE-708, S840D-BRAKE-716.
 #[test]
 fn the_mended_programs_keep_what_they_guarantee() {
     none(each(&MENDED, |(name, guarantee)| {

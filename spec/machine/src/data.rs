@@ -5,6 +5,7 @@ use std::path::Path;
 use super::AxisKind;
 use super::family::{Param, Quantity};
 use super::family_file;
+use super::guarantee::About;
 use stillpoint_lang::diag::Result;
 
 /// What machine files of a family may say.
@@ -110,12 +111,22 @@ pub fn load(folder: &Path) -> Result<FamilyData> {
         let needed = |argument: &&String| pattern.required.contains(argument);
         let all = pattern.arguments.keys();
         let (required, optional) = all.partition::<Vec<_>, _>(needed);
+        let (first, then): (&[&str], &[&str]) = match pattern.about {
+            About::Axis => (&["axes"], &[]),
+            About::Door => (&["door"], &["axes"]),
+            About::Logic => (&["when", "then"], &[]),
+        };
+        let told = |keys: &[&str], arguments: Vec<&String>| {
+            let arguments = arguments.into_iter().map(String::as_str);
+            let all = keys.iter().copied().chain(arguments);
+            all.map(str::to_owned).collect()
+        };
         Told {
             name: name.clone(),
             text: pattern.text.clone(),
             source: pattern.source.clone(),
-            required: required.into_iter().cloned().collect(),
-            optional: optional.into_iter().cloned().collect(),
+            required: told(first, required),
+            optional: told(then, optional),
         }
     });
     Ok(FamilyData {

@@ -99,7 +99,7 @@ struct LimitsData {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct RuleData {
+pub(super) struct RuleData {
     of: Scope,
     #[serde(deserialize_with = "stillpoint_lang::catalogue::once")]
     id: Vec<String>,
@@ -447,7 +447,8 @@ impl Check {
         Some(Formula { text, expr })
     }
 
-    fn rule(&mut self, data: RuleData, known: &Known) -> Option<Rule> {
+    /// What one entry of `[[plausibility]]` says.
+    pub fn rule(&mut self, data: RuleData, known: &Known) -> Option<Rule> {
         let known = match data.of {
             Scope::Control => &known.control,
             Scope::Axis => &known.axis,

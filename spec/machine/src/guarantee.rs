@@ -11,8 +11,8 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::eval::Values;
-use super::family::{Explore, Family, Formula, Known, Param, Quantity};
-use super::family_file::{Check, ExploreData, ParamData};
+use super::family::{Explore, Family, Formula, Known, Param, Quantity, Rule};
+use super::family_file::{Check, ExploreData, ParamData, RuleData};
 use super::ground::{About as Subjects, DataFile, grounds};
 use super::own::Own;
 use super::plausible::{Judged, evaluate, insert};
@@ -73,6 +73,8 @@ pub(super) struct Pattern {
     pub needs_program: bool,
     /// Parameters that count only after a fault.
     pub of_faults: Vec<String>,
+    /// What must not be said of such a guarantee.
+    pub rules: Vec<Rule>,
     pub explore: Vec<Explore>,
 }
 
@@ -122,6 +124,8 @@ struct PatternData {
     required: Vec<Spanned<String>>,
     #[serde(default)]
     needs_program: bool,
+    #[serde(default)]
+    plausibility: Vec<RuleData>,
     explore: Vec<ExploreData>,
 }
 
@@ -209,6 +213,8 @@ impl Context<'_> {
                 check.findings.add(name.span(), message, "", help);
             }
         }
+        let rules = data.plausibility.into_iter();
+        let rules = rules.filter_map(|rule| check.rule(rule, &known)).collect();
         let explore = data.explore.into_iter();
         Pattern {
             about: data.about,
@@ -217,6 +223,7 @@ impl Context<'_> {
             required: data.required.into_iter().map(Spanned::into_inner).collect(),
             needs_program: data.needs_program,
             of_faults: self.of_faults.to_vec(),
+            rules,
             explore: explore.filter_map(|e| check.explore(e, &known)).collect(),
             arguments,
         }

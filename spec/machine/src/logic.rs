@@ -400,7 +400,9 @@ impl Machine {
         let Basis { family, logic, .. } = &*self.basis;
         let mut spec = logic.spec(&run.file, &run.wiring)?;
         if let Some(asks) = &run.asks {
-            let slots: Vec<&str> = family.logic.keys().map(String::as_str).collect();
+            let slots = family.logic.iter();
+            let slots = slots.flat_map(|(name, slot)| [Some(name), slot.plc.as_ref()]);
+            let slots: Vec<&str> = slots.flatten().map(String::as_str).collect();
             let names = logic.names(&spec, &run.system, &run.wiring, &slots);
             own::ask(&mut spec, &run.system, asks, &names, logic)?;
         }

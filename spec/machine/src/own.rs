@@ -87,7 +87,7 @@ fn named(text: &str, names: &BTreeMap<String, String>) -> String {
     rewritten(text, &mut |word| names.get(word).cloned())
 }
 
-/// An expression in which each word with its index, `OUTSI[3]`, or without it is replaced by what `find` gives for it.
+/// An expression in which each word with its index, `OUTSI[3]`, with its bit, `M211.0`, or alone is replaced by what `find` gives for it.
 fn rewritten(text: &str, find: &mut impl FnMut(&str) -> Option<String>) -> String {
     let mut out = String::new();
     let mut rest = text;
@@ -98,10 +98,12 @@ fn rewritten(text: &str, find: &mut impl FnMut(&str) -> Option<String>) -> Strin
             rest = &rest[first.len_utf8()..];
             continue;
         }
-        let end = rest.find(|c: char| !is_word(c)).unwrap_or(rest.len());
+        let until = |stops: &dyn Fn(char) -> bool| rest.find(stops).unwrap_or(rest.len());
+        let end = until(&|c| !is_word(c));
+        let dotted = until(&|c| !is_word(c) && c != '.');
         let index = rest[end..].strip_prefix('[').and_then(|t| t.find(']'));
         let whole = index.map_or(end, |k| end + k + 2);
-        let found = [whole, end].into_iter().find_map(|to| {
+        let found = [whole, dotted, end].into_iter().find_map(|to| {
             let word = &rest[..to];
             let name = find(word.strip_prefix("$A_").unwrap_or(word))?;
             Some((name, to))
@@ -123,6 +125,8 @@ mod tests {
             ("INSE[1]", "spl.inse_1"),
             ("DOOR", "spl.inse_1"),
             ("OUTSI[12]", "spl.outsi_12"),
+            ("A85.0", "plc.output_85_0"),
+            ("DB33.DBX111.4", "plc.db33_dbx111_4"),
         ];
         let names = pairs.map(|(a, b)| (a.to_owned(), b.to_owned())).into();
         let of = |text: &str| named(text, &names);
@@ -134,6 +138,10 @@ mod tests {
         assert_eq!(
             of("PREV(OUTSI[12]) = OUTSI[1]"),
             "PREV(spl.outsi_12) = OUTSI[1]"
+        );
+        assert_eq!(
+            of("NOT A85.0 OR DB33.DBX111.4 OR A85.1"),
+            "NOT plc.output_85_0 OR plc.db33_dbx111_4 OR A85.1"
         );
         assert_eq!(of("ä = 1"), "ä = 1");
     }

@@ -3,6 +3,7 @@
 use super::document::Findings;
 use super::eval::{Values, eval};
 use super::family::{Family, Formula, Rule, Scope};
+use super::guarantee::Guarantee;
 use super::read::Draft;
 use super::whole::{Whole, add_before};
 use super::{Axis, AxisKind, Door, Group, Place, Settings};
@@ -99,6 +100,9 @@ pub(super) fn judge(
             }
         }
     }
+    for guarantee in &draft.guarantees {
+        judge.guarantee(guarantee, draft, &axes, settings)?;
+    }
     let doors = draft.doors.iter().map(|door| whole.door(door, &groups));
     let doors = doors.collect();
     let mut machine = whole.machine(&groups);
@@ -192,6 +196,14 @@ impl<'a> Subject<'a> {
         }
     }
 
+    fn of_guarantee(guarantee: &'a Guarantee, axis: &'a Axis, control: &'a Settings) -> Self {
+        let name = format!("guarantee {}", guarantee.name);
+        Self {
+            place: Some(guarantee.place.clone()),
+            ..Self::new(&name, &[&guarantee.values, &axis.values, control])
+        }
+    }
+
     fn of_door(door: &'a Door, axis: &'a Axis) -> Self {
         let named = door.axes.iter().find(|name| *name.get_ref() == axis.name);
         Self {
@@ -273,10 +285,46 @@ struct Judge<'a> {
 impl Judge<'_> {
     fn rules(&mut self, scope: Scope, values: &mut Values, subject: &Subject<'_>) -> Result<()> {
         let family = self.family;
-        for rule in family.rules.iter().filter(|r| r.of == scope) {
+        let rules = family.rules.iter().filter(|r| r.of == scope);
+        self.each(rules, values, subject)
+    }
+
+    /// The rules of the pattern; what they read is the same for each axis of one guarantee.
+    fn guarantee(
+        &mut self,
+        guarantee: &Guarantee,
+        draft: &Draft,
+        axes: &[Values],
+        control: &Settings,
+    ) -> Result<()> {
+        let family = self.family;
+        let pattern = family.patterns.get(&guarantee.pattern);
+        let first = guarantee.axes.first().map(toml::Spanned::get_ref);
+        let mut all = draft.axes.iter().zip(axes);
+        let found = all.find(|(axis, _)| Some(&axis.name) == first);
+        let (Some(pattern), Some((axis, values))) = (pattern, found) else {
+            return Ok(());
+        };
+        let mut values = values.clone();
+        let mut doors = draft.doors.iter();
+        if let Some(door) = doors.find(|door| Some(&door.name) == guarantee.door.as_ref()) {
+            insert(&mut values, &door.values);
+        }
+        insert(&mut values, &guarantee.values);
+        let subject = Subject::of_guarantee(guarantee, axis, control);
+        self.each(pattern.rules.iter(), &mut values, &subject)
+    }
+
+    fn each<'r>(
+        &mut self,
+        rules: impl Iterator<Item = &'r Rule>,
+        values: &mut Values,
+        subject: &Subject<'_>,
+    ) -> Result<()> {
+        for rule in rules {
             for k in &rule.each {
                 values.insert("k".to_owned(), vec![*k]);
-                if evaluate(family, &rule.when, values, self.cycle)? != 0 {
+                if evaluate(self.family, &rule.when, values, self.cycle)? != 0 {
                     self.violated(rule, *k, values, subject);
                 }
             }

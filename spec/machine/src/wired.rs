@@ -121,17 +121,26 @@ impl Wired {
         }
     }
 
-    /// Its signals by all their names, `INSE[3]` and those that it defines: the variable, and whether the program gives it. Those of
-    /// the half in the PLC have the names of the other half.
+    /// Its signals by all their names, `INSE[3]`, `M211.0` and those that it defines: the variable, and whether the program gives it.
     pub fn signals(&self) -> BTreeMap<String, (String, bool)> {
         let mut all = BTreeMap::new();
-        let Program::Spf(program) = &self.program else {
-            return all;
+        let mut add = |names: Vec<String>, variable: String, given: bool| {
+            for name in names.into_iter().chain([variable.clone()]) {
+                all.insert(name, (variable.clone(), given));
+            }
         };
-        for used in program.variables() {
-            let variable = used.variable.to_string();
-            for name in used.names.iter().chain([&variable]) {
-                all.insert(name.clone(), (variable.clone(), used.writes));
+        match &self.program {
+            Program::Spf(program) => {
+                for used in program.variables() {
+                    add(used.names.clone(), used.variable.to_string(), used.writes);
+                }
+            }
+            Program::Stl(program) => {
+                for used in program.bits() {
+                    // `"SPL".NOT_HALT` is `SPL.NOT_HALT` in an expression.
+                    let name = used.name.map(|name| name.replace('"', ""));
+                    add(Vec::from_iter(name), used.bit.to_string(), used.writes);
+                }
             }
         }
         all

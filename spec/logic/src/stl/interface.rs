@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::ast::{Actual, Logic, Op, Source};
-use super::known::{Kind, known};
+use super::known::{Kind, known, signals_of_axis};
 use super::operand::{Area, Cell};
 use super::{Bit, Program, line_of};
 use crate::fault::Span;
@@ -132,6 +132,11 @@ impl Program {
                     let Some(known) = known(&call.block) else {
                         continue;
                     };
+                    if known.kind == Kind::BrakeTest {
+                        for bit in signals_of_axis(call).into_iter().flatten() {
+                            uses.bit(bit, &call.span, false);
+                        }
+                    }
                     for param in &call.params {
                         let name = param.name.text.to_uppercase();
                         let writes = known.has_output(&name);

@@ -1,6 +1,8 @@
 //! Blocks that the control, its basic program or its manufacturer provides, as far as the safe logic calls them.
 
-use super::ast::Block;
+use super::Bit;
+use super::ast::{Actual, Block, Call};
+use super::operand::Area;
 
 /// A block that does not stand in the file.
 pub(super) struct Known {
@@ -20,6 +22,8 @@ pub(super) struct Known {
 pub(super) enum Kind {
     /// The safety relay.
     Relay,
+    /// The brake test.
+    BrakeTest,
     /// It transfers a byte to the NCK.
     Transfer,
     /// It changes nothing that the safe logic names.
@@ -84,7 +88,7 @@ pub(super) const KNOWN: [Known; 8] = [
         start: "START",
         inputs: &["START", "QUIT", "BCLOSED", "AXIS", "TIMERNO", "TV_*"],
         outputs: &["CLOSEBRAKE", "MOVEAXIS", "DONE", "ERROR", "STATE"],
-        kind: Kind::Free,
+        kind: Kind::BrakeTest,
     },
     Known {
         number: Block::Fc(18),
@@ -110,6 +114,26 @@ pub(super) fn known(block: &Block) -> Option<&'static Known> {
         Block::Symbol(name) => known.symbol == name,
         other => known.number == *other,
     })
+}
+
+/// The data block of the first axis is that behind it.
+const BEFORE_AXES: u16 = 30;
+
+/// No control has more axes.
+const MOST_AXES: i64 = 31;
+
+/// What the brake test reads in the data block of its axis (S840D-BRAKE-708, S840D-BRAKE-710): controlled by the PLC, test active, the
+/// traversing command in either direction, fixed stop reached. None: the call names no axis by its number.
+pub(super) fn signals_of_axis(call: &Call) -> Option<[Bit; 5]> {
+    let axis = call
+        .params
+        .iter()
+        .find(|p| p.name.text.eq_ignore_ascii_case("AXIS"))?;
+    let Actual::Int(number @ 1..=MOST_AXES) = axis.value else {
+        return None;
+    };
+    let area = Area::Data(BEFORE_AXES + u16::try_from(number).ok()?);
+    Some([(63, 1), (71, 0), (64, 6), (64, 7), (62, 5)].map(|(byte, bit)| Bit { area, byte, bit }))
 }
 
 impl Known {

@@ -33,8 +33,9 @@ fn told(name: &str) -> String {
     )
 }
 
-const NAMES: [&str; 6] = [
+const NAMES: [&str; 7] = [
     "brake",
+    "brake-test",
     "emergency-stop",
     "forced-checking",
     "key-and-door",

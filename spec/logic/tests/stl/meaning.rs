@@ -393,6 +393,78 @@ fn the_second_acknowledgement_has_no_limit_in_the_plc() {
     assert!(out(1, 0, 1), "after two seconds");
 }
 
+/// The steps of FB11 in their order, each left at the latest when its time is over: S840D-BRAKE-708, S840D-BRAKE-709, S840D-BRAKE-710.
+#[test]
+fn the_brake_test() {
+    let plc = |outputs: &str| {
+        let text = format!(
+            "CALL FB 11 (\nStart := E 0.0,\nQuit := E 0.1,\nBclosed := E 0.2,\nAxis := 3,\nTV_BTactiv := T#20MS,\nTV_Bclose := T#30MS,\nTV_FeedCommand := T#40MS,\nTV_FXSreached := T#50MS,\nTV_FXShold := T#60MS,\n{outputs})"
+        );
+        Plc::new(&text, &interface(), 10_000)
+    };
+    // What is there from each cycle on: the start, then the feedback of each step.
+    let feedback = ["a", "db33_dbx71_0", "c", "db33_dbx64_6", "db33_dbx62_5"];
+    let inputs = |cycle: usize, known: usize, active: i32| {
+        let mut list = vec![("fb11_1_ready", 1), ("db33_dbx63_1", 1)];
+        let there = feedback.iter().take(cycle.min(known));
+        let there = there.filter(|name| active == 1 || **name != "db33_dbx71_0");
+        list.extend(there.map(|name| (*name, 1)));
+        list
+    };
+    // From the cycle of the start on: 1 selected, 2 closes, 3 commanded, 4 runs, 5 holds for six cycles, then it is deselected.
+    let (mut moves, mut ends) = (
+        plc("CloseBrake := A 4.0,\nMoveAxis := A 4.1"),
+        plc("Done := A 4.0,\nError := A 4.1"),
+    );
+    for cycle in 0..14 {
+        let now = inputs(cycle, 5, i32::from(cycle < 12));
+        assert_eq!(
+            moves.step(&now),
+            [(2..11).contains(&cycle), (3..11).contains(&cycle)],
+            "{cycle}"
+        );
+        assert_eq!(ends.step(&now), [cycle >= 12, false], "{cycle}");
+    }
+    // A feedback that does not come, and the longest time of its step.
+    for (known, longest) in [(1, 2), (2, 3), (3, 4), (4, 5)] {
+        ends.restart();
+        for cycle in 0..20 {
+            let failed = cycle >= known + longest;
+            assert_eq!(
+                ends.step(&inputs(cycle, known, 1)),
+                [false, failed],
+                "{known}, {cycle}"
+            );
+        }
+        // Acknowledged, and a start that stays is none.
+        let mut quit = inputs(20, known, 1);
+        quit.push(("b", 1));
+        assert_eq!(ends.step(&quit), [false, false]);
+        assert_eq!(ends.step(&inputs(21, known, 1)), [false, false]);
+    }
+    // A test that stays selected, a brake that gives way, an axis that is not the PLC's.
+    ends.restart();
+    for cycle in 0..20 {
+        assert_eq!(
+            ends.step(&inputs(cycle, 5, 1)),
+            [false, cycle >= 13],
+            "{cycle}"
+        );
+    }
+    ends.restart();
+    for cycle in 0..20 {
+        let known = if cycle < 8 { 5 } else { 4 };
+        assert_eq!(
+            ends.step(&inputs(cycle, known, 1)),
+            [false, cycle >= 8],
+            "{cycle}"
+        );
+    }
+    ends.restart();
+    ends.step(&[]);
+    assert_eq!(ends.step(&[("a", 1), ("fb11_1_ready", 1)]), [false, true]);
+}
+
 /// What a block of the control gives is free while it is started, and 0 else.
 #[test]
 fn blocks_that_are_not_read_can_give_anything() {

@@ -1,6 +1,7 @@
 //! The data of the shipped families against the tables of the manuals, and every plausibility rule against examples.
 
 mod heidenhain;
+mod modules;
 mod sinumerik;
 mod values;
 
@@ -17,7 +18,10 @@ fn examples() -> [(&'static str, Vec<Example>); 2] {
     let sinumerik =
         sinumerik::EXAMPLES.map(|(rule, bad, good)| (rule, bad.to_owned(), good.to_owned()));
     [
-        ("sinumerik-840d", sinumerik.to_vec()),
+        (
+            "sinumerik-840d",
+            sinumerik.into_iter().chain(modules::examples()).collect(),
+        ),
         ("heidenhain-fs", heidenhain::examples()),
     ]
 }
@@ -109,7 +113,9 @@ fn each_rule_refuses_its_example_and_nothing_beside_it() {
 #[test]
 fn each_rule_has_an_example() {
     for (name, examples) in examples() {
-        for rule in family(name).rules {
+        let family = family(name);
+        let of_patterns = family.patterns.values().flat_map(|pattern| &pattern.rules);
+        for rule in family.rules.iter().chain(of_patterns) {
             let mut known = examples.iter();
             let has = known.any(|(text, _, _)| rule.text.starts_with(text));
             assert!(has, "no example violates '{}'", rule.text);

@@ -1,7 +1,7 @@
 //! Calls: of blocks of the file, which stand where they are called, and of blocks of the control.
 
 use super::super::ast::{Actual, Block, Call, Param};
-use super::super::known::{Kind, Known, known};
+use super::super::known::{Kind, Known, known, signals_of_axis};
 use super::super::operand::Area;
 use super::Making;
 use crate::fault::{Checked, Fault, Span};
@@ -46,6 +46,7 @@ impl Making<'_> {
         match known.kind {
             Kind::Silent => Ok(Vec::new()),
             Kind::Relay => self.relay(call, span),
+            Kind::BrakeTest => self.brake_test(call, span),
             Kind::Transfer => self.transfers(call, known, span),
             Kind::Free => {
                 let start = self.flag(call, known.start, false, span)?;
@@ -158,34 +159,10 @@ impl Making<'_> {
             ("T2", "TIMEVALUE2"),
             ("T3", "TIMEVALUE3"),
         ] {
-            let us = match given(call, param) {
-                None => 0,
-                Some(param) => match param.value {
-                    Actual::Time(us) => i64::try_from(us).unwrap_or(i64::MAX),
-                    _ => {
-                        return Err(Fault::new(
-                            &param.span,
-                            format!("{} is a time", param.name.text),
-                            "write `T#1S500MS`",
-                        ));
-                    }
-                },
-            };
-            inputs.push((port, time(us, span)));
+            inputs.push((port, time(duration(call, param)?, span)));
         }
         let mut made = vec![call_block(&block, inputs, span)];
-        for output in ["OUT0", "OUT1", "OUT2", "OUT3"] {
-            if let Some(Param {
-                value: Actual::Bit(bit),
-                span,
-                ..
-            }) = given(call, output)
-            {
-                let of = Box::new(name(&block, span));
-                let value = expr(ExprKind::Member(of, word(output, span)), span);
-                made.extend(self.set_bit(*bit, value, span));
-            }
-        }
+        made.extend(self.results(call, &block, &["OUT0", "OUT1", "OUT2", "OUT3"]));
         if let Some(Param {
             value: Actual::Bit(bit),
             span,
@@ -195,6 +172,93 @@ impl Making<'_> {
             made.extend(self.set_bit(*bit, truth(false, span), span));
         }
         Ok(made)
+    }
+
+    /// FB11. Whether the axis is ready for a test, and what ends one before its time, is free.
+    fn brake_test(&mut self, call: &Call, span: &Span) -> Checked<Vec<Stmt>> {
+        let Some(signals) = signals_of_axis(call) else {
+            return Err(Fault::new(
+                &call.span,
+                "the brake test names no axis".to_owned(),
+                "write the number of an axis, from 1 to 31: `Axis := 3` (alarm 411101)",
+            ));
+        };
+        let [plc, active, plus, minus, stop] = signals.map(|bit| self.bit(bit, &call.span));
+        let mut inputs = vec![
+            ("START", self.flag(call, "START", false, span)?),
+            ("QUIT", self.flag(call, "QUIT", false, span)?),
+            ("CLOSED", self.flag(call, "BCLOSED", false, span)?),
+            ("PLC_AXIS", plc),
+            ("ACTIVE", active),
+            ("COMMAND", binary(BinaryOp::Or, plus, minus, span)),
+            ("FIXED_STOP", stop),
+        ];
+        let number = self.calls;
+        let mut free = |what: &str, title: &str| {
+            let base = format!("fb11_{number}_{what}");
+            let title = format!("{title} (FB 11)");
+            name(
+                &self.wiring.added(&base, term::Ty::Bool, (0, 1), title),
+                span,
+            )
+        };
+        inputs.push(("READY", free("ready", "the axis is ready for a test")));
+        inputs.push(("ABORTED", free("aborted", "the test ends before its time")));
+        let mut longest = 0;
+        for (port, param) in [
+            ("T_ACTIVE", "TV_BTACTIV"),
+            ("T_CLOSE", "TV_BCLOSE"),
+            ("T_COMMAND", "TV_FEEDCOMMAND"),
+            ("T_REACHED", "TV_FXSREACHED"),
+            ("T_HOLD", "TV_FXSHOLD"),
+        ] {
+            let us = duration(call, param)?;
+            if us == 0 {
+                return Err(Fault::new(
+                    &call.span,
+                    format!("the brake test has no time {param}"),
+                    format!("write `{param} := S5T#1S`"),
+                ));
+            }
+            longest = longest.max(us);
+            inputs.push((port, time(us, span)));
+        }
+        inputs.push(("T_MAX", time(longest, span)));
+        let block = self.wiring.fresh(&format!("fb11_{number}"));
+        let ty = TypeKind::Named("BRAKE_TEST".to_owned());
+        self.kept.push(variable(&block, None, ty, None, span));
+        let mut made = vec![call_block(&block, inputs, span)];
+        let outputs = ["CLOSEBRAKE", "MOVEAXIS", "DONE", "ERROR"];
+        made.extend(self.results(call, &block, &outputs));
+        Ok(made)
+    }
+
+    /// The bits that a call gives to outputs of its block.
+    fn results(&self, call: &Call, block: &str, outputs: &[&str]) -> Vec<Stmt> {
+        let given = outputs.iter().filter_map(|output| {
+            let Param { value, span, .. } = given(call, output)?;
+            let Actual::Bit(bit) = value else { return None };
+            let of = Box::new(name(block, span));
+            let value = expr(ExprKind::Member(of, word(*output, span)), span);
+            self.set_bit(*bit, value, span)
+        });
+        given.collect()
+    }
+}
+
+/// A parameter of type TIME in microseconds; 0 where it is left out.
+fn duration(call: &Call, name: &str) -> Checked<i64> {
+    match given(call, name) {
+        None => Ok(0),
+        Some(Param {
+            value: Actual::Time(us),
+            ..
+        }) => Ok(i64::try_from(*us).unwrap_or(i64::MAX)),
+        Some(param) => Err(Fault::new(
+            &param.span,
+            format!("{} is a time", param.name.text),
+            "write `T#1S500MS`",
+        )),
     }
 }
 

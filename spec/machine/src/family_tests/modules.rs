@@ -1,0 +1,79 @@
+//! Examples for the rules about what an F module reads or switches: a guarantee about it needs its time-out.
+
+use super::Example;
+
+/// The rule by its text, the pattern, what stands in the guarantee beside the signal, the signal, its time-out.
+const RULES: [(&str, &str, &str, &str, &str); 6] = [
+    (
+        "the contact that asks for the stop comes from an F module",
+        "stop_request",
+        "stop = \"STOP A\", within = \"1 s\"",
+        "contact = \"INSE[4]\"",
+        "bus_timeout",
+    ),
+    (
+        "the enabling device comes from an F module",
+        "enabling",
+        "door = \"front\", within = \"1 s\"",
+        "enabling = \"INSE[4]\"",
+        "device_timeout",
+    ),
+    (
+        "the contact behind which the key acknowledges comes from an F module",
+        "reset",
+        "key = \"INSE[5]\"",
+        "contact = \"INSE[4]\"",
+        "bus_timeout",
+    ),
+    (
+        "the key that acknowledges comes from an F module",
+        "reset",
+        "contact = \"INSE[5]\"",
+        "key = \"INSE[1]\"",
+        "bus_timeout",
+    ),
+    (
+        "the key that starts comes from an F module",
+        "no_start",
+        "door = \"front\"",
+        "key = \"INSE[4]\"",
+        "",
+    ),
+    (
+        "the contactors are switched by an F module",
+        "contactor",
+        "feedback = \"INSE[7]\", within = \"1 s\"",
+        "coil = \"OUTSE[4]\"",
+        "bus_timeout",
+    ),
+];
+
+/// A machine with a module for the first four inputs and outputs, and the guarantee.
+fn machine(pattern: &str, guarantee: &str, door: &str) -> String {
+    let rest = ", 0".repeat(15);
+    let axes = match guarantee.contains("door") {
+        true => "",
+        false => "axes = [\"Y\"], ",
+    };
+    format!(
+        "control = {{ SYSCLOCK_CYCLE_TIME = \"4 ms\", SAFETY_SYSCLOCK_TIME_RATIO = 3, IPO_SYSCLOCK_CYCLE_TIME_RATIO = 3, PLC_CYCLE_MAX = \"50 ms\", PROFISAFE_MASTER_ADDRESS = 0x050007D2, \
+         PROFISAFE_IN_ADDRESS = [0x050003FE{rest}], PROFISAFE_IN_ASSIGN = [4001{rest}], PROFISAFE_OUT_ADDRESS = [0x050003FE{rest}], PROFISAFE_OUT_ASSIGN = [4001{rest}] }}\n\
+         axis.Y = {{ kind = \"linear\", functions = [\"SBH/SG\", \"external stops\"], SS_DISABLE_INPUT = \"OUTSI[3]\", VELO_SELECT_INPUT = [\"OUTSI[4]\", \"OUTSI[5]\"], EXT_STOP_INPUT = [\"OUTSI[1]\", \"OUTSI[2]\", \"1\", \"1\"] }}\n\
+         door.front = {{ axes = [\"Y\"], contact = \"INSE[9]\"{door} }}\n\
+         logic.spl = {{ source = \"../../tests/machines/press-840d.spf\" }}\n\
+         guarantee.asked = {{ pattern = \"{pattern}\", {axes}{guarantee} }}"
+    )
+}
+
+pub(super) fn examples() -> Vec<Example> {
+    let all = RULES.iter().map(|(rule, pattern, others, signal, time)| {
+        let without = format!("{others}, {signal}");
+        let bad = machine(pattern, &without, "");
+        let good = match *time {
+            "" => machine(pattern, &without, ", bus_timeout = \"150 ms\""),
+            time => machine(pattern, &format!("{without}, {time} = \"150 ms\""), ""),
+        };
+        (*rule, bad, good)
+    });
+    all.collect()
+}
