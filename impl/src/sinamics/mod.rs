@@ -16,8 +16,9 @@
 //! | [`actual_value`], [`gear`] | comparison of the actual values of both channels; gear stages |
 //! | [`encoderless`] | a drive without encoder after the suppression of its pulses |
 //! | [`drive_test`], [`path_test`] | test stop of the Extended Functions; test of the paths by the Basic ones |
-//! | [`brake_test`] | safe brake test |
-//! | [`types`] | what functions have in common: no step |
+//! | [`brake_test`], [`brake_test_request`] | safe brake test; its request by the test stop |
+//! | [`data_set`] | change of the drive data set |
+//! | [`types`], [`times`] | what functions have in common; sampling times: no step |
 //!
 //! Conventions:
 //!
@@ -37,11 +38,14 @@ macro_rules! sinamics_monitors {
     ($callback:ident $($more:tt)*) => { $callback! { sinamics [$($more)*]
         sto sbc ss1_basic ss1 ss2 sos sam sbr sls sls_ramp setpoint_limit ssm sdi
         slp reference safe_position actual_value gear encoderless drive_test path_test brake_test
+        brake_test_request data_set
     } };
 }
 
 pub mod actual_value;
 pub mod brake_test;
+pub mod brake_test_request;
+pub mod data_set;
 pub mod drive_test;
 pub mod encoderless;
 pub mod gear;
@@ -64,4 +68,5 @@ pub mod ss1_basic;
 pub mod ss2;
 pub mod ssm;
 pub mod sto;
+pub mod times;
 pub mod types;

@@ -43,12 +43,12 @@ monitor! { sinamics::brake_test;
     /// A sequence begins with an edge of the start once the load is known, never before.
     start_wants_the_load ["S120-SBT-006", "S120-SBT-007", "S120-PF-39"]:
         when |s| s.outputs.runs && !s.before.phase.runs()
-            => s.before.phase == Phase::Ready && s.inputs.start && !s.before.start_held;
+            => !s.outputs.ready && s.before.phase == Phase::Ready && s.inputs.start && !s.before.start_held;
 
     /// Ready is reached with a known load and open external brakes.
     load_is_measured_with_open_brakes ["S120-SBT-007"]:
         when |s| s.before.phase == Phase::Measure && s.after.phase == Phase::Ready
-            => s.inputs.load_known && !(s.config.has_external() && s.inputs.external_closed);
+            => s.outputs.ready && s.inputs.load_known && !(s.config.has_external() && s.inputs.external_closed);
 
     /// That start closes the chosen brake.
     start_closes_the_brake ["S120-SBT-004", "S120-SBT-006", "S120-SBT-010"]:

@@ -279,6 +279,8 @@ fields! {
     pub struct Outputs {
         /// Bit 0: the test is selected.
         pub selected: bool,
+        /// The load is known: a sequence may be started.
+        pub ready: bool,
         /// Bit 1: the drive gives the setpoint.
         pub own_setpoint: bool,
         /// Bit 2: brake 2 is tested.
@@ -413,6 +415,7 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
     let kind = config.brake(after.choice.second_brake).kind;
     let outputs = Outputs {
         selected: after.phase != Phase::Idle,
+        ready: after.phase == Phase::Ready,
         own_setpoint: after.phase != Phase::Idle,
         second_brake: after.choice.second_brake,
         runs: after.phase.runs(),

@@ -2,7 +2,7 @@
 
 use crate::kernel::{Cycles, Speed};
 use crate::sinamics::types::Stop;
-use crate::sinamics::{brake_test, sam, sbc, sbr};
+use crate::sinamics::{brake_test, brake_test_request, sam, sbc, sbr};
 
 variants! { sinamics::sam:
     /// The limit follows a rising speed too.
@@ -181,5 +181,30 @@ variants! { sinamics::brake_test:
         let waits = matches!(state.phase, brake_test::Phase::Close | brake_test::Phase::Open);
         let left = if waits && state.left == Cycles::new(1) { Cycles::new(2) } else { state.left };
         brake_test::transition(brake_test::State { left, ..state }, config, inputs)
+    }
+}
+
+variants! { sinamics::brake_test_request:
+    /// The automatic test stop at POWER ON builds up torque.
+    "brake-test-request-at-power-on" |state, config, inputs| {
+        let request = inputs.request || inputs.automatic;
+        let inputs = brake_test_request::Inputs { request, ..*inputs };
+        let (mut after, outputs) = brake_test_request::transition(state, config, &inputs);
+        after.request_held = request;
+        (after, outputs)
+    }
+
+    /// A brake test that has failed leaves out the test stop.
+    "brake-test-request-gives-up" |state, config, inputs| {
+        let (after, mut outputs) = brake_test_request::transition(state, config, inputs);
+        outputs.test_stop &= !inputs.ended;
+        (after, outputs)
+    }
+
+    /// Both begin together.
+    "brake-test-request-both" |state, config, inputs| {
+        let (after, mut outputs) = brake_test_request::transition(state, config, inputs);
+        outputs.test_stop |= outputs.start;
+        (after, outputs)
     }
 }

@@ -1,7 +1,7 @@
 //! Wrong variants of the monitors of actual values and of drives without encoder.
 
 use crate::kernel::Cycles;
-use crate::sinamics::{actual_value, encoderless, gear, reference, safe_position};
+use crate::sinamics::{actual_value, data_set, encoderless, gear, reference, safe_position};
 
 variants! { sinamics::reference:
     /// The agreement of one channel is enough.
@@ -161,5 +161,20 @@ variants! { sinamics::encoderless:
         let (after, mut outputs) = encoderless::transition(state, config, inputs);
         outputs.no_current = false;
         (after, outputs)
+    }
+}
+
+variants! { sinamics::data_set:
+    /// An acknowledged change ends the stop.
+    "data-set-forgives" |state, config, inputs| {
+        let power_on = inputs.power_on || inputs.changes && inputs.same;
+        let inputs = data_set::Inputs { power_on, ..*inputs };
+        data_set::transition(state, config, &inputs)
+    }
+
+    /// Other data are only told.
+    "data-set-only-tells" |state, config, inputs| {
+        let (_, outputs) = data_set::transition(state, config, inputs);
+        (state, data_set::Outputs { stop_a: state.locked, ..outputs })
     }
 }

@@ -32,4 +32,9 @@ inventory! {
         tries: "ramp: 2; duration: 2; tolerance: 1; external: 3; opening closing: 2; left: 0..3; begin: 0; position: 0 2",
         caveat: "one set of times and tolerances; others only under Kani and in samples",
     }]
+    [contract s120_brake_test_request_contract on sinamics::brake_test_request {
+        property: "every clause of the brake test by the test stop: order, choice, automatic test, one request",
+        tries: "",
+        caveat: "none",
+    }]
 }

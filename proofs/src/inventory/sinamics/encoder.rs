@@ -26,4 +26,9 @@ inventory! {
         tries: "window: 1 3; config.current: 1 2; left: 0..3",
         caveat: "none",
     }]
+    [contract s120_data_set_contract on sinamics::data_set {
+        property: "every clause of the change of the data set: other encoder data are a STOP A until POWER ON",
+        tries: "",
+        caveat: "none",
+    }]
 }
