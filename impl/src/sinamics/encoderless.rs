@@ -298,7 +298,7 @@ fn without_pulses(config: &Config, inputs: &Inputs) -> Phase {
 }
 
 /// The next phase while STO is not selected, with what is left of its time; and whether the current was missed.
-fn next(state: &State, config: &Config, inputs: &Inputs) -> (Phase, Cycles, bool) {
+fn proceed(state: &State, config: &Config, inputs: &Inputs) -> (Phase, Cycles, bool) {
     let on = rises(inputs.on, state.on_held);
     let only_unselected = !selected(config, inputs) && !by_ssm(config, inputs);
     let resting = without_pulses(config, inputs);
@@ -338,7 +338,7 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
     let (phase, left, no_current) = if inputs.sto {
         (without_pulses(config, inputs), Cycles::ZERO, false)
     } else {
-        next(&state, config, inputs)
+        proceed(&state, config, inputs)
     };
     let after = State {
         phase,
