@@ -85,8 +85,8 @@ impl State {
     pub const INITIAL: Self = Self { aligned: 0 };
 
     /// It is a difference of two positions.
-    pub const fn invariant(&self, _config: &Config) -> bool {
-        -WIDEST <= self.aligned && self.aligned <= WIDEST
+    pub fn invariant(&self, _config: &Config) -> bool {
+        (-WIDEST..=WIDEST).contains(&self.aligned)
     }
 }
 

@@ -182,6 +182,15 @@ fn suppressed(s: &Step) -> bool {
     s.before.pulses_held && !s.inputs.pulses
 }
 
+/// A function goes on monitoring, or would at standstill.
+fn monitored(s: &Step) -> bool {
+    s.config.sls_unselected
+        || s.config.sdi_unselected
+        || s.inputs.sls
+        || s.inputs.sdi && s.config.sdi_keeps
+        || s.inputs.ssm && s.config.ssm_keeps
+}
+
 monitor! { sinamics::encoderless;
     /// When the pulses are suppressed a monitored drive keeps itself off: by SLS always, by SDI and SSM as p9509 says.
     suppression_keeps_off ["S120-ENC-016", "S120-SSM-008", "S120-SDI-007", "S120-SLS-016"]:
@@ -199,8 +208,7 @@ monitor! { sinamics::encoderless;
 
     /// Nothing monitored keeps nothing off: p9509 at 1, no selection.
     nothing_monitored_is_free ["S120-SSM-010", "S120-SLS-018", "S120-SDI-007", "S120-SDI-008"]:
-        when |s| !(s.inputs.sls && !s.config.sls_unselected) && !(s.inputs.sdi && s.config.sdi_keeps)
-            && !(s.inputs.ssm && s.config.ssm_keeps) && !s.config.sls_unselected && !s.config.sdi_unselected
+        when |s| !monitored(&s)
             => !s.outputs.sto && !s.outputs.window;
 
     /// ON alone never leaves it while a selected function or SSM keeps it.

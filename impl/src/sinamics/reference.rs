@@ -162,6 +162,11 @@ fields! {
     }
 }
 
+/// Both channels agree in this cycle.
+fn both_agree(s: &Step) -> bool {
+    s.inputs.agrees && s.inputs.other_agrees
+}
+
 monitor! { sinamics::reference;
     /// A position gets safe by both channels' agreement after a referencing, or by lying where the axis was left; by nothing else.
     safe_has_its_reason ["S120-REF-001", "S120-REF-004", "S120-REF-005", "S120-PF-13"]:
@@ -224,7 +229,7 @@ monitor! { sinamics::reference;
 
     /// A window that ends without them is told once; the axis stays referenced.
     miss_is_told ["S120-REF-004"]:
-        when |s| s.before.left == Cycles::new(1) && !(s.inputs.agrees && s.inputs.other_agrees) && !s.inputs.references()
+        when |s| s.before.left == Cycles::new(1) && !both_agree(&s) && !s.inputs.references()
             && !s.inputs.power_on && !s.inputs.parking && !s.inputs.gear_change
             && (s.inputs.agrees || s.inputs.other_agrees || s.config.agreement == Ua::Both)
             => s.outputs.missed && s.after.missed && s.outputs.referenced && !s.outputs.safe;

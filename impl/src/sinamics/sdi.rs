@@ -134,7 +134,7 @@ impl State {
 
     /// The delay runs in its phase only, and not without selection; a position is kept while it is needed.
     pub fn invariant(&self, config: &Config) -> bool {
-        (self.phase == Phase::Delay) == !self.left.is_zero()
+        (self.phase == Phase::Delay) != self.left.is_zero()
             && self.left <= config.delay
             && (self.phase == Phase::Active || self.from == Position(0))
             && !(config.unselected && self.phase == Phase::Delay)

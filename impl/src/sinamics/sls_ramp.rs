@@ -202,6 +202,11 @@ monitor! { sinamics::sls_ramp;
         when |s| s.outputs.braking
             => s.after.now == s.before.now && s.outputs.active == s.before.now.is_some();
 
+    /// Level and limit that are shown are those that are monitored.
+    shown_is_monitored ["S120-SLS-006", "S120-SLS-010", "S120-SLS-011"]:
+        when |s| s.outputs.active
+            => s.after.now == Some(s.outputs.level) && s.outputs.limit == s.config.limit(s.outputs.level);
+
     /// A deselection ends everything at once.
     deselection_is_at_once ["S120-SLS-001", "S120-PF-10"]:
         when |s| !s.inputs.selected

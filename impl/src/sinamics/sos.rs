@@ -55,7 +55,7 @@ impl State {
 
     /// The delay runs in its phase only, a position is kept while it is needed.
     pub fn invariant(&self, config: &Config) -> bool {
-        (self.phase == Phase::Delay) == !self.left.is_zero()
+        (self.phase == Phase::Delay) != self.left.is_zero()
             && self.left <= config.delay
             && (self.phase == Phase::Active || self.reference == Position(0))
     }

@@ -60,7 +60,7 @@ impl State {
 
     /// The time runs exactly in its phase, and is never longer than p9652.
     pub fn invariant(&self, config: &Config) -> bool {
-        (self.phase == Phase::Delay) == !self.left.is_zero() && self.left <= config.time
+        (self.phase == Phase::Delay) != self.left.is_zero() && self.left <= config.time
     }
 }
 

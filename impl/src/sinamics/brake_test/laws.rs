@@ -38,7 +38,7 @@ monitor! { sinamics::brake_test;
     /// Elsewhere it is refused, with A01784, and a level selects nothing.
     selection_is_refused ["S120-SBT-001", "S120-SBT-006", "S120-SBT-017"]:
         when |s| s.before.phase == Phase::Idle && s.inputs.select && (s.before.select_held || !fit(&s.inputs))
-            => !s.outputs.selected && s.outputs.refused == !s.before.select_held;
+            => !s.outputs.selected && s.outputs.refused != s.before.select_held;
 
     /// A sequence begins with an edge of the start once the load is known, never before.
     start_wants_the_load ["S120-SBT-006", "S120-SBT-007", "S120-PF-39"]:
@@ -123,7 +123,7 @@ monitor! { sinamics::brake_test;
     /// The withdrawn start makes room for another sequence, without an alarm.
     next_sequence ["S120-SBT-011", "S120-SBT-013"]:
         when |s| s.before.phase == Phase::Result && goes_on(&s)
-            => !s.outputs.interrupted && (s.after.phase == Phase::Ready) == !s.inputs.start;
+            => !s.outputs.interrupted && (s.after.phase == Phase::Ready) != s.inputs.start;
 
     /// Withdrawn while a sequence runs it interrupts it, with A01782: no torque, the brake opens.
     withdrawn_start_interrupts ["S120-SBT-013"]:

@@ -144,7 +144,7 @@ fields! {
 impl Phase {
     /// A sequence runs (r10234.3).
     pub fn runs(self) -> bool {
-        Self::Close <= self && self <= Self::Open
+        (Self::Close..=Self::Open).contains(&self)
     }
 
     /// The torque acts against the brake.

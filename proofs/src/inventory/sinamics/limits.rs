@@ -3,7 +3,7 @@
 inventory! {
     [contract s120_sls_contract on sinamics::sls {
         property: "every clause of SLS: delay, four levels, lower and higher limits, telegram, without selection, stops",
-        tries: "limits.0: 4; limits.1: 2; limits.2: 2 6; limits.3: 4; responses.0: 3 5; responses.1: 5 4; responses.2 responses.3: 4; delay: 0 1 3; left: 0..3; now.level: 0 1; now.limit: 0 2 4; next.level: 0 2; next.limit: 0 1 2; telegram: 0 16384 32767; speed: 0 2 4 5",
+        tries: "limits.0: 4; limits.1: 2; limits.2: 2 6; limits.3: 4; responses.0: 3 5; responses.1: 5 4; responses.2 responses.3: 4; delay: 0 1 3; left: 0..3; now.level: 0 1; now.limit: 0 2 4; next.level: 0 2; next.limit: 0..3; telegram: 0 16384 32767; speed: 0 2 4 5",
         caveat: "a few limits; others only under Kani and in samples",
     }]
     [contract s120_sls_ramp_contract on sinamics::sls_ramp {
