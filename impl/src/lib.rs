@@ -4,6 +4,7 @@
 //! | --- | --- |
 //! | [`sinumerik`] | SINUMERIK 840D / SIMODRIVE 611 digital: one module is one safety function of one monitoring channel |
 //! | [`heidenhain`] | HEIDENHAIN Functional Safety (iTNC 530 HSCI): one module is one safety function of one channel |
+//! | [`sinamics`] | SINAMICS S120: one module is one safety function of one channel |
 //! | [`srm`] | fail-safe blocks for storage and retrieval machines: one module is one block |
 //! | [`kernel`] | what the monitors of every family are made of: durations, positions, speeds, windows, timers |
 //! | [`units`] | user values to increments, rounded to the safe side |
@@ -30,6 +31,7 @@ pub mod contract;
 pub mod mutant;
 pub mod heidenhain;
 pub mod kernel;
+pub mod sinamics;
 pub mod sinumerik;
 pub mod srm;
 pub mod units;

@@ -5,6 +5,7 @@
 
 mod drive;
 pub mod heidenhain;
+pub mod sinamics;
 pub mod sinumerik;
 pub mod srm;
 
@@ -15,7 +16,12 @@ use crate::diff::peer::Peers;
 pub use drive::*;
 
 /// The families with monitors. A new one is registered here, and nowhere else in the harness.
-pub static FAMILIES: [&Family; 3] = [&sinumerik::FAMILY, &heidenhain::FAMILY, &srm::FAMILY];
+pub static FAMILIES: [&Family; 4] = [
+    &sinumerik::FAMILY,
+    &heidenhain::FAMILY,
+    &sinamics::FAMILY,
+    &srm::FAMILY,
+];
 
 /// A family of drives: what of it is code.
 pub struct Family {

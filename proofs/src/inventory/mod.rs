@@ -302,6 +302,7 @@ macro_rules! inventory {
 }
 
 mod heidenhain;
+mod sinamics;
 mod sinumerik;
 mod srm;
 
@@ -310,6 +311,7 @@ pub fn all() -> impl Iterator<Item = &'static Entry> {
     let families = sinumerik::ENTRIES
         .into_iter()
         .chain(heidenhain::ENTRIES)
+        .chain(sinamics::ENTRIES)
         .chain(srm::ENTRIES);
     families.flatten()
 }

@@ -1,0 +1,180 @@
+//! Wrong variants of the monitors of actual values and of drives without encoder.
+
+use crate::kernel::Cycles;
+use crate::sinamics::{actual_value, data_set, encoderless, gear, reference, safe_position};
+
+variants! { sinamics::reference:
+    /// The agreement of one channel is enough.
+    "reference-one-channel" |state, config, inputs| {
+        let one = inputs.agrees || inputs.other_agrees;
+        let inputs = reference::Inputs { agrees: one, other_agrees: one, ..*inputs };
+        reference::transition(state, config, &inputs)
+    }
+
+    /// POWER ON deletes the agreement.
+    "reference-forgets-at-power-on" |state, config, inputs| {
+        let gear_change = inputs.gear_change || inputs.power_on;
+        let inputs = reference::Inputs { gear_change, ..*inputs };
+        reference::transition(state, config, &inputs)
+    }
+
+    /// A change of the gear stage keeps it.
+    "reference-survives-the-gear" |state, config, inputs| {
+        let parking = inputs.parking || inputs.gear_change;
+        let inputs = reference::Inputs { parking, gear_change: false, ..*inputs };
+        reference::transition(state, config, &inputs)
+    }
+
+    /// A declaration in motion counts.
+    "reference-in-motion" |state, config, inputs| {
+        let inputs = reference::Inputs { standstill: true, ..*inputs };
+        reference::transition(state, config, &inputs)
+    }
+
+    /// The place is not compared.
+    "reference-any-place" |state, config, inputs| {
+        let position = if state.agreed { state.stored } else { inputs.position };
+        let inputs = reference::Inputs { position, ..*inputs };
+        reference::transition(state, config, &inputs)
+    }
+
+    /// A missed agreement is made good later.
+    "reference-makes-good" |state, config, inputs| {
+        let missed = state.missed && !(inputs.agrees && inputs.other_agrees);
+        let state = reference::State { missed, ..state };
+        reference::transition(state, config, inputs)
+    }
+}
+
+variants! { sinamics::safe_position:
+    /// The mean is rounded down.
+    "safe-position-rounds-down" |state, config, inputs| {
+        let (after, mut outputs) = safe_position::transition(state, config, inputs);
+        if inputs.first.0 < 0 && inputs.second.0 < 0 && outputs.short > i16::MIN && !outputs.too_wide {
+            outputs.short -= 1;
+        }
+        (after, outputs)
+    }
+
+    /// The position of one channel is transferred.
+    "safe-position-of-one-channel" |state, config, inputs| {
+        let inputs = safe_position::Inputs { second: inputs.first, ..*inputs };
+        safe_position::transition(state, config, &inputs)
+    }
+
+    /// An absolute position needs no reference.
+    "safe-position-unreferenced" |state, config, inputs| {
+        let inputs = safe_position::Inputs { referenced: true, ..*inputs };
+        safe_position::transition(state, config, &inputs)
+    }
+
+    /// A wide position wraps.
+    "safe-position-wraps" |state, config, inputs| {
+        let (after, mut outputs) = safe_position::transition(state, config, inputs);
+        outputs.too_wide = false;
+        (after, outputs)
+    }
+}
+
+variants! { sinamics::actual_value:
+    /// A difference to one side is not seen.
+    "actual-value-one-side" |state, config, inputs| {
+        let (after, mut outputs) = actual_value::transition(state, config, inputs);
+        outputs.exceeded &= outputs.apart > 0;
+        (after, outputs)
+    }
+
+    /// Positions are aligned in each cycle.
+    "actual-value-always-aligned" |state, config, inputs| {
+        let (mut after, outputs) = actual_value::transition(state, config, inputs);
+        after.aligned = i64::from(inputs.own.0) - i64::from(inputs.other.0);
+        (after, outputs)
+    }
+
+    /// The tolerance is always increased.
+    "actual-value-always-raised" |state, config, inputs| {
+        let (after, mut outputs) = actual_value::transition(state, config, inputs);
+        let raised = actual_value::Inputs { raised: true, ..*inputs };
+        outputs.exceeded = actual_value::transition(state, config, &raised).1.exceeded;
+        (after, outputs)
+    }
+
+    /// A change of the gear stage is not aligned.
+    "actual-value-remembers-the-gear" |state, config, inputs| {
+        let inputs = actual_value::Inputs { synchronise: false, ..*inputs };
+        actual_value::transition(state, config, &inputs)
+    }
+}
+
+variants! { sinamics::gear:
+    /// The stage is synchronised while the tolerance is increased.
+    "gear-synchronises-early" |state, config, inputs| {
+        let (after, mut outputs) = gear::transition(state, config, inputs);
+        outputs.synchronise |= outputs.changed;
+        (after, outputs)
+    }
+
+    /// The increased tolerance may last for ever.
+    "gear-for-ever" |state, config, inputs| {
+        let (after, mut outputs) = gear::transition(state, config, inputs);
+        outputs.too_long = false;
+        (after, outputs)
+    }
+
+    /// A change with increased tolerance keeps the reference.
+    "gear-keeps-the-reference" |state, config, inputs| {
+        let (after, mut outputs) = gear::transition(state, config, inputs);
+        outputs.changed &= !inputs.raise;
+        (after, outputs)
+    }
+}
+
+variants! { sinamics::encoderless:
+    /// ON alone starts.
+    "encoderless-on-starts" |state, config, inputs| {
+        let sto_held = state.sto_held || inputs.on && !state.on_held;
+        let state = encoderless::State { sto_held, ..state };
+        encoderless::transition(state, config, inputs)
+    }
+
+    /// The window never ends.
+    "encoderless-open-window" |state, config, inputs| {
+        let left = if state.left == Cycles::new(1) { Cycles::new(2) } else { state.left };
+        encoderless::transition(encoderless::State { left, ..state }, config, inputs)
+    }
+
+    /// SLS follows p9509 too: with SDI free it keeps nothing off.
+    "encoderless-sls-by-p9509" |state, config, inputs| {
+        let sls = inputs.sls && config.sdi_keeps();
+        let inputs = encoderless::Inputs { sls, ..*inputs };
+        encoderless::transition(state, config, &inputs)
+    }
+
+    /// SSM keeps nothing off.
+    "encoderless-ssm-keeps-nothing" |state, config, inputs| {
+        let inputs = encoderless::Inputs { ssm: false, ..*inputs };
+        encoderless::transition(state, config, &inputs)
+    }
+
+    /// A missing current is not told.
+    "encoderless-quiet" |state, config, inputs| {
+        let (after, mut outputs) = encoderless::transition(state, config, inputs);
+        outputs.no_current = false;
+        (after, outputs)
+    }
+}
+
+variants! { sinamics::data_set:
+    /// An acknowledged change ends the stop.
+    "data-set-forgives" |state, config, inputs| {
+        let power_on = inputs.power_on || inputs.changes && inputs.same;
+        let inputs = data_set::Inputs { power_on, ..*inputs };
+        data_set::transition(state, config, &inputs)
+    }
+
+    /// Other data are only told.
+    "data-set-only-tells" |state, config, inputs| {
+        let (_, outputs) = data_set::transition(state, config, inputs);
+        (state, data_set::Outputs { stop_a: state.locked, ..outputs })
+    }
+}

@@ -1,0 +1,15 @@
+//! Deliberately wrong step functions: see [`crate::mutant`].
+
+mod brakes;
+mod encoder;
+mod limits;
+mod stops;
+mod testing;
+
+pub use brakes::*;
+pub use encoder::*;
+pub use limits::*;
+pub use stops::*;
+pub use testing::*;
+
+sinamics_monitors! { list_mutants }
