@@ -34,7 +34,8 @@ fn position_config(p: &Params) -> safe_pos::Config {
     safe_pos::Config {
         t_sample: p.value("t_sample"),
         pos_config: p.is("three"),
-        possi_t_sample: 1_023,
+        // At most that, so that its counter need not move in a call.
+        possi_t_sample: p.value("t_sample").min(1_023),
         pos_min: p.value("pos_min"),
         pos_max: p.value("pos_max"),
         pos_disc_window: p.value("window"),
