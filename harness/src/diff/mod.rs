@@ -15,7 +15,6 @@ use serde_json::{Value, json};
 use stillpoint_model::{Error, Form, Options, Progress, Property, Until, Verdict, explore};
 use stillpoint_show::diagram::Diagram;
 
-use crate::families;
 use crate::report::{grouped, params};
 use compact::Compact;
 pub use pairing::{Pairing, pairings};
@@ -216,15 +215,14 @@ fn batch(
     let pairing = varied.as_ref().unwrap_or(pairing);
     let peer = monitor(pairing, mutant)?;
     let product = Product::new(&pairing.bound, peer.as_ref()).map_err(DiffError::Sides)?;
-    let family = families::of_table(&pairing.bound.system.name);
-    let mut driver = Driver::new(&product, family.map_or(&[], |family| family.peers.calm));
+    let mut driver = Driver::new(&product);
     let mut out = Compared::nothing(pairing);
     for run in 0..BATCH {
         let length = left.saturating_sub(run * random::RUN).min(random::RUN);
         if length == 0 {
             break;
         }
-        let found = driver.run(random, length, run % 4 == 3);
+        let found = driver.run(random, length);
         out.cycles += u128::from(length);
         out.outputs += u128::from(length) * product.outputs() as u128;
         if let Some(found) = found {

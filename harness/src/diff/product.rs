@@ -282,12 +282,6 @@ impl<'a> Product<'a> {
         self.values[k]
     }
 
-    /// Whether input `k` of the table has this name.
-    pub(super) fn is_input(&self, k: usize, name: &str) -> bool {
-        let input = self.bound.system.inputs.get(k);
-        input.is_some_and(|input| is(&input.name, name))
-    }
-
     /// Both initial states; `any` gives a state variable of the table that may start with any value.
     pub fn start(&self, any: &mut dyn FnMut(usize) -> i32) -> Vec<i32> {
         let table: Vec<i32> = self

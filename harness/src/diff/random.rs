@@ -2,8 +2,7 @@
 //!
 //! A run is a sequence of moves, not of independent values: a signal changes and is held, a timer is waited out, one cycle
 //! shorter or longer, a measured value stops one unit before or behind a limit, or jumps, RESET or power-on come for one
-//! cycle. Each run has its own taste: moves and inputs that it likes, and others that it leaves alone. One in four begins, and comes
-//! back to, where signals are valid and the drive answers: what takes many good signals in a row is seldom reached from elsewhere.
+//! cycle. Each run has its own taste: moves and inputs that it likes, and others that it leaves alone.
 
 use super::product::{Product, Values, Work};
 
@@ -93,8 +92,6 @@ pub struct Driver<'a> {
     wide: Vec<usize>,
     /// Parameters that can be limits, and times.
     limits: Vec<i64>,
-    /// The inputs where nothing is wrong.
-    calm: Vec<i32>,
     cells: Vec<i32>,
     history: Vec<i32>,
 }
@@ -107,8 +104,8 @@ struct Taste {
 }
 
 impl<'a> Driver<'a> {
-    /// A driver of this product; `calm`: the values of inputs where nothing is wrong, if they are not the least ones.
-    pub fn new(product: &'a Product<'a>, calm: &[(&str, i32)]) -> Self {
+    /// A driver of this product.
+    pub fn new(product: &'a Product<'a>) -> Self {
         let count = |k: usize| product.values(k).count();
         let live: Vec<usize> = (0..product.inputs()).filter(|k| count(*k) > 1).collect();
         let wide = live
@@ -118,36 +115,26 @@ impl<'a> Driver<'a> {
         let mut limits: Vec<i64> = product.parameters().map(i64::from).collect();
         limits.sort_unstable();
         limits.dedup();
-        let calm = (0..product.inputs()).map(|k| {
-            let known = calm.iter().find(|(name, _)| product.is_input(k, name));
-            let least = product.values(k).get(0);
-            let value = known.map_or(least, |(_, value)| *value);
-            clamped(product.values(k), i64::from(value))
-        });
         Self {
             product,
             work: product.new_work(),
             wide: wide.collect(),
             live,
             limits,
-            calm: calm.collect(),
             cells: Vec::new(),
             history: Vec::new(),
         }
     }
 
-    /// Drives both sides for one run of `length` cycles; `calm`: from where nothing is wrong.
-    pub fn run(&mut self, random: &mut Random, length: u64, calm: bool) -> Option<Divergence> {
+    /// Drives both sides for one run of `length` cycles.
+    pub fn run(&mut self, random: &mut Random, length: u64) -> Option<Divergence> {
         let product = self.product;
         let start = product.start(&mut |k| {
             let domain = stillpoint_model::System::domains(product)[k];
             let value = i64::from(domain.lo) + random.below(domain.size() as usize) as i64;
             i32::try_from(value).unwrap_or(domain.hi)
         });
-        let mut taste = self.taste(random);
-        if calm {
-            taste.home.clone_from(&self.calm);
-        }
+        let taste = self.taste(random);
         let mut now = taste.home.clone();
         self.cells.clear();
         self.cells.extend_from_slice(&start);
