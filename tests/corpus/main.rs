@@ -2,6 +2,7 @@
 //! and the book. Files are discovered, never listed.
 
 mod alarms;
+mod blocks;
 mod book;
 mod conversion;
 mod db18;

@@ -26,7 +26,8 @@ fn wrong(path: &Path) -> Option<String> {
 /// Those of a family under construction among them: its tables hold before a machine file can name them.
 ///
 /// Also among them, in `fields.toml` of heidenhain-fs: exactly one master CC (HFS-ARCH-002); what a changed parameter needs
-/// (HFS-PARAM-009).
+/// (HFS-PARAM-009). In `interconnection.toml` of srm-fblocks, what has to be wired: the position without a reference
+/// (SRM-REF-012), position and velocity that are not valid (SRM-POS-002, SRM-POSV-012).
 #[test]
 fn every_table_holds() {
     let left_out = exceptions("tables");

@@ -20,7 +20,7 @@ use stillpoint_tests::{exceptions, root};
 
 /// The tables compared: those of a machine, or with the parameters of their systems. What several files use is compared with
 /// the parameters of the first one, so the file of a machine's own table stands before those that put it together with others.
-const FILES: [&str; 44] = [
+const FILES: [&str; 45] = [
     "spec/families/sinumerik-840d/axis.toml",
     "spec/families/sinumerik-840d/bus.toml",
     "spec/families/sinumerik-840d/setpoint.toml",
@@ -55,6 +55,7 @@ const FILES: [&str; 44] = [
     "spec/families/heidenhain-fs/doors.toml",
     "spec/families/heidenhain-fs/faults.toml",
     "spec/families/srm-fblocks/position.toml",
+    "spec/families/srm-fblocks/safe-pos.toml",
     "spec/families/srm-fblocks/slp.toml",
     "spec/families/srm-fblocks/endzone.toml",
     "spec/families/srm-fblocks/interpolation.toml",

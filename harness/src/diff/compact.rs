@@ -53,7 +53,8 @@ impl<'p, 'a> Compact<'p, 'a> {
         let table = product.table_cells();
         let (second, first): (Vec<usize>, Vec<usize>) =
             (0..table.len()).partition(|k| table[*k].contains("[2]"));
-        let groups = vec![first, second];
+        let mut groups = vec![first, second];
+        groups.retain(|group| !group.is_empty());
         let rest: Vec<usize> = (table.len()..product.domains().len()).collect();
         let number = Domain { lo: 0, hi: NUMBERS };
         let mut domains = vec![number; groups.len()];

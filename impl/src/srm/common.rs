@@ -21,8 +21,8 @@ pub const fn rises(now: bool, before: bool) -> bool {
     now && !before
 }
 
-/// What a latched fault is after a call: its condition sets it, whoever acknowledges (SRM-ACK-007); an edge at ACK ends it where its
-/// own reset condition holds (SRM-ACK-001, SRM-ACK-002).
+/// What a latched fault is after a call: its condition sets it in the call that reads it, without any filter (SRM-TIMING-007), whoever
+/// acknowledges (SRM-ACK-007); an edge at ACK ends it where its own reset condition holds (SRM-ACK-001, SRM-ACK-002).
 pub(crate) const fn latch(held: bool, condition: bool, acknowledged: bool, ready: bool) -> bool {
     condition || held && !(acknowledged && ready)
 }

@@ -17,7 +17,7 @@ fields! {
     pub struct Outcome {
         /// The exact result, 0 where there is none.
         pub result: i32,
-        /// The exact result is no DInt.
+        /// The exact result is no DInt: all that these functions tell of an error (SRM-DIAG-002).
         pub overflow: bool,
     }
 }

@@ -9,7 +9,7 @@ pub use crate::contract::Stateless as State;
 
 fields! {
     /// The points of an envelope (F-UDT INTERP): distances in mm, velocities in mm/min. Points that are not needed repeat the last
-    /// one that is (SRM-INTERP-006).
+    /// one that is (SRM-INTERP-001, SRM-INTERP-006, SRM-ENDZONE-003).
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
     pub struct Curve {
         /// X_0 to X_15.
@@ -111,7 +111,7 @@ fields! {
     pub struct Outputs {
         /// V_LIMIT, mm/min.
         pub v_limit: i32,
-        /// ERROR: the points do not ascend, or the arithmetic has overflowed.
+        /// ERROR: the points do not ascend, or the arithmetic has overflowed; there is no DIAG (SRM-DIAG-002).
         pub error: bool,
     }
 }

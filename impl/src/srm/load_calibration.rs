@@ -129,7 +129,7 @@ impl State {
 }
 
 fields! {
-    /// The inputs of one call.
+    /// The inputs of one call (SRM-LOAD-003).
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
     pub struct Inputs {
         /// Load, channel 1.

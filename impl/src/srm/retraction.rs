@@ -70,9 +70,9 @@ fields! {
         pub sls_threshold: i32,
         /// The velocity keeps the limit.
         pub sls_ok: bool,
-        /// The position keeps the lower limit, or retracts.
+        /// The position keeps the lower limit, or retracts: 0 from a violation until it is acknowledged (SRM-SLP-025).
         pub x_negative_ok: bool,
-        /// The position keeps the upper limit, or retracts.
+        /// The position keeps the upper limit, or retracts, in the same way (SRM-SLP-025).
         pub x_positive_ok: bool,
         /// Motion in the negative direction is permitted.
         pub move_negative_ok: bool,

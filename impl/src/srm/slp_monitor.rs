@@ -82,7 +82,7 @@ impl State {
 }
 
 fields! {
-    /// The inputs of one call.
+    /// The inputs of one call (SRM-SLP-002).
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
     pub struct Inputs {
         /// Safe position, mm.

@@ -18,7 +18,7 @@
 //!
 //! A table `[given]` at the head of a file is given to each of its cases that does not say otherwise.
 //!
-//! A runner (`sinumerik.rs`, `heidenhain.rs`, or modules below them) is a function from what is given to an answer. It must not
+//! A runner (`sinumerik.rs`, `heidenhain.rs`, `storage.rs`, or modules below them) is a function from what is given to an answer. It must not
 //! know what is expected, and takes no number that the manual prints from anywhere but the case. Where the manual contradicts
 //! itself, both places are cases: the one that is not followed has `expect` as the code answers and says so in `contradicts`.
 
@@ -26,6 +26,8 @@ mod case;
 mod cli;
 mod heidenhain;
 mod sinumerik;
+mod storage;
+mod story;
 
 use case::{Case, Given, Kind, Runner};
 use std::collections::BTreeSet;
@@ -121,6 +123,12 @@ fn sinamics_s120() {
     run_family("sinamics-s120", &[]);
 }
 
+/// Every printed number of the manual of the storage and retrieval machines that is a case holds.
+#[test]
+fn srm_fblocks() {
+    run_family("srm-fblocks", storage::RUNNERS);
+}
+
 /// The frame itself: a wrong number, a key nobody reads and an answer that is missing are found.
 #[test]
 fn frame_finds_what_is_wrong() {
@@ -143,7 +151,7 @@ fn frame_finds_what_is_wrong() {
     assert_eq!(judged("{ value = 2, more = 1 }", "{ twice = 4 }"), 1);
     assert_eq!(judged("{ value = 2 }", "{ thrice = 6 }"), 1);
     assert_eq!(judged("{ }", "{ twice = 4 }"), 1);
-    for family in ["heidenhain-fs", "sinamics-s120", "sinumerik-840d"] {
+    for family in ["heidenhain-fs", "sinamics-s120", "sinumerik-840d", "srm-fblocks"] {
         let last = case::last_line(family);
         let mut one = case("{ value = 2 }", "{ twice = 4 }");
         one.lines = last.to_string();

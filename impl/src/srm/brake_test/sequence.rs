@@ -59,7 +59,7 @@ fn fault(state: &State, config: &Config, inputs: &Inputs, keeps: bool) -> Option
     None
 }
 
-/// The row of a call without a fault.
+/// The row of a call without a fault. Torque and result have no time limit (SRM-BRAKETEST-053).
 fn row(state: &State, config: &Config, inputs: &Inputs) -> Row {
     let sbt = &inputs.sbt;
     let second = state.second;

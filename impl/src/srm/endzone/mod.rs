@@ -161,7 +161,7 @@ impl State {
 }
 
 fields! {
-    /// The inputs of one call.
+    /// The inputs of one call; the ends of the range may move (SRM-ENDZONE-002).
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
     pub struct Inputs {
         /// Safe position, mm.

@@ -143,7 +143,7 @@ impl State {
 }
 
 fields! {
-    /// The inputs of one call.
+    /// The inputs of one call: loads are hundredths of a percent, 10000 is full load (SRM-ARCH-008, SRM-LOAD-002, SRM-LOAD-003).
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
     pub struct Inputs {
         /// Load, channel 1.

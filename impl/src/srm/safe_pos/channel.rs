@@ -34,7 +34,8 @@ impl Positions {
     }
 }
 
-/// POS1 has changed by more than twice V_MAX between two calls with a valid one (AMB-11).
+/// POS1 has changed by more than twice V_MAX between two calls with a valid one (AMB-11); nothing else is a step (SRM-POS-005,
+/// SRM-POS-025).
 pub(super) fn steps(state: &State, config: &Config, inputs: &Inputs) -> bool {
     let change = (i64::from(inputs.pos1) - i64::from(state.last1)).abs();
     let permitted = i64::from(config.v_max) * i64::from(config.t_sample);

@@ -320,7 +320,8 @@ impl State {
 }
 
 fields! {
-    /// The inputs of one call.
+    /// The inputs of one call, of which POS1 and POS2 are mm, POSSI um; an encoder that is not valid has failed (SRM-ARCH-008,
+    /// SRM-POSPARAM-004, SRM-POSPARAM-005).
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
     pub struct Inputs {
         /// First direct encoder, mm.
@@ -354,7 +355,7 @@ impl Inputs {
 }
 
 fields! {
-    /// The outputs of one call.
+    /// The outputs of one call: a safe position and a safe velocity, for all other blocks (SRM-POSPARAM-001).
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
     pub struct Outputs {
         /// Safe position, mm.

@@ -161,7 +161,7 @@ impl State {
 }
 
 fields! {
-    /// The inputs of one call.
+    /// The inputs of one call; whether position and velocity are valid is not among them (SRM-SBR-002).
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
     pub struct Inputs {
         /// Safe position, mm.

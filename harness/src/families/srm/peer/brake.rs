@@ -11,7 +11,7 @@ use crate::diff::peer::{Made, Params};
 pub(super) const MACHINES: &[(&str, &str)] = &[("brake", "brake_test")];
 
 /// The whole block.
-pub(super) const SYSTEMS: &[(&str, &str)] = &[("brake_block", "brake_test")];
+pub(super) const SYSTEM: (&str, &str) = ("brake_block", "brake_test");
 
 /// What the table calls the numbers of the monitor.
 const NAMED: &[(&str, &str)] = &[

@@ -3,6 +3,7 @@
 mod arithmetic;
 mod brake;
 mod first_call;
+mod position;
 mod same;
 mod slices;
 
@@ -13,17 +14,21 @@ use crate::diff::peer::{Made, Params, Peers};
 pub(super) const PEERS: Peers = Peers {
     machines: &[
         same::MACHINES,
+        position::MACHINES,
         brake::MACHINES,
         arithmetic::MACHINES,
         first_call::MACHINES,
     ],
-    systems: brake::SYSTEMS,
-    // Constants of the monitors: the width of a DInt, full load, um in a mm. Smaller values only keep a system small.
+    systems: &[brake::SYSTEM, position::SYSTEM],
+    // Constants of the monitors: the width of a DInt and of a counter, full load, um in a mm. Smaller values only keep a system small.
     fixed: &[
         ("arithmetic", "low", -2_147_483_647),
         ("arithmetic", "high", 2_147_483_647),
         ("load", "full", 10_000),
         ("position", "um", 1_000),
+        ("safe_pos_block", "um", 1_000),
+        ("safe_pos_block", "counts", 65_536),
+        ("safe_pos_block", "v_top", 2_147_483_647),
     ],
     slices: slices::SLICES,
     calm: slices::CALM,
@@ -31,7 +36,13 @@ pub(super) const PEERS: Peers = Peers {
 };
 
 fn make(machine: &str, params: &Params, mutant: Option<Mutant>) -> Made {
-    for make in [same::make, brake::make, arithmetic::make, first_call::make] {
+    for make in [
+        same::make,
+        position::make,
+        brake::make,
+        arithmetic::make,
+        first_call::make,
+    ] {
         if let Some(adapter) = make(machine, params, mutant)? {
             return Ok(Some(adapter));
         }

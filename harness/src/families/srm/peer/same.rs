@@ -5,11 +5,10 @@
 //! `DIAG` is compared bit by bit.
 
 use stillpoint_model::Domain;
-use stillpoint_monitors::kernel::Cycles;
 use stillpoint_monitors::mutant::Mutant;
 use stillpoint_monitors::srm::common::ErrReact;
 use stillpoint_monitors::srm::interpolation::{self, Curve, segments_fit};
-use stillpoint_monitors::srm::{endzone, safe_pos, sbr_monitor};
+use stillpoint_monitors::srm::{endzone, sbr_monitor};
 
 use crate::diff::peer::numbers::upto;
 use crate::diff::peer::same::{Same, peers};
@@ -48,30 +47,6 @@ fn sbr_config(p: &Params) -> sbr_monitor::Config {
         maxtol_pos: p.value("maxtol_pos"),
         sbr_pos: sbr_monitor::SbrPos::Cum,
         sbr_retrig: sbr_monitor::SbrRetrig::Ignore,
-        err_react: ErrReact::Safe,
-    }
-}
-
-/// Without faults of the velocity: its counter stands and its drift has no limit. A step is 2 * V_MAX * T_SAMPLE / 60000 mm.
-fn position_config(p: &Params) -> safe_pos::Config {
-    safe_pos::Config {
-        t_sample: 1_000,
-        pos_config: p.is("three"),
-        possi_t_sample: 1_000,
-        pos_min: p.value("pos_min"),
-        pos_max: p.value("pos_max"),
-        pos_disc_window: p.value("window"),
-        pos2_disc_window: p.value("window_2"),
-        possi_disc_window: p.value("window_s"),
-        pos_startup_tol: p.value("startup_tol"),
-        v_standstill: 0,
-        v_max: p.value("step_limit").saturating_mul(30),
-        v_disc_window: i32::MAX,
-        v_sync_intervall: 1_000,
-        pos_reference: p.value("pos_reference"),
-        count_margin: Cycles::ZERO,
-        sync_pos2: safe_pos::SyncPos2::Keep,
-        count_watch: safe_pos::CountWatch::Hold,
         err_react: ErrReact::Safe,
     }
 }
@@ -157,44 +132,4 @@ peers! { srm |p|
         .without(&["bad"])
         .hidden(&["diag", "overflowed", "ack_held", "ack_req"])
         .bits(|o| o.diag, &[("diag_4", 4), ("diag_5", 5)]);
-    // The table has neither the values of the velocity nor its faults: a counter that stands, and no limit of the drift. A step is
-    // 2 * V_MAX * T_SAMPLE / 60000.
-    "position" => safe_pos
-        .config(position_config(p))
-        .constants(&[("possi_count", 0)])
-        .decided("bad", |config| config.parameter_bits() != 0)
-        .named(&[
-            ("pos_1", "pos1"), ("pos_2", "pos2"), ("pos_s", "possi"), ("valid_1", "pos1_valid"), ("valid_2", "pos2_valid"),
-            ("valid_s", "possi_valid"), ("ref", "referenced"), ("v_possible", "v_valid"), ("state", "phase"), ("off_1", "off1"),
-            ("off_s", "off_si"), ("off_2", "off2"), ("disagree", "apart"), ("drifted", "strayed"), ("apart", "unconfirmed"),
-            ("apart_2", "unconfirmed2"), ("calc", "overflowed"), ("was_reference", "reference_held"), ("was_sync", "sync_held"),
-            ("was_ack", "ack_held"),
-        ])
-        .explored(&["pos_s"], Values::List(&[0, 1_000]))
-        .without(&["overflow"])
-        .hidden(&[
-            "diag", "outputs.safe_pos", "state.safe_pos", "safe_v", "standstill", "moves_positive", "moves_negative", "saved",
-            "si_failed", "fast", "state.drifted", "direction", "seen1", "last1", "seen_si", "sample", "count", "still", "window1",
-            "window_si", "window_calls",
-        ])
-        .cell("saved", width(p))
-        .cell("safe_pos", width(p))
-        .cell("safe_v", upto(0))
-        .cell("last1", upto(p.value("p_top")))
-        .cell("sample", upto(p.value("p_top").saturating_mul(1_000)))
-        .cell("count", upto(0))
-        .cell("still", upto(2))
-        .cell("window1", upto(p.value("p_top")))
-        .cell("window_si", upto(p.value("p_top").saturating_mul(1_000)))
-        .cell("window_calls", upto(0))
-        .bits(|o| o.diag, &[("diag_3", 3), ("diag_4", 4), ("diag_7", 7), ("diag_8", 8), ("diag_9", 9), ("diag_10", 10), ("diag_11", 11), ("diag_12", 12), ("diag_13", 13)]);
-}
-
-/// The values of a corrected position.
-fn width(p: &Params) -> Domain {
-    let top = p.value("p_top");
-    Domain {
-        lo: -top,
-        hi: top.saturating_add(p.value("pos_reference")),
-    }
 }

@@ -5,7 +5,9 @@ use crate::diff::slices::Slice;
 /// The value of an input that is held: signals are valid, the drive is enabled, has selected the test and
 /// reports that it is well; the ends of a range are where the tables have them.
 pub(super) const CALM: &[(&str, i32)] = &[
+    ("valid_1", 1),
     ("valid_2", 1),
+    ("valid_s", 1),
     ("pos_valid", 1),
     ("v_valid", 1),
     ("drive", 1),
@@ -14,6 +16,32 @@ pub(super) const CALM: &[(&str, i32)] = &[
     ("result", 1),
     ("x_negative", 1),
     ("x_positive", 3),
+];
+
+/// Calls as long as the cycles of the drive, in each of which POSSI may go by 1 mm; a DInt has more velocities.
+const VELOCITY: &[(&str, i64)] = &[
+    ("p_top", 1),
+    ("v_max", 30),
+    ("v_standstill", 30),
+    ("v_top", 60),
+    ("t_si", 1_000),
+    ("t_sample", 1_000),
+    ("patience", 1),
+    ("interval", 1),
+    ("v_disc", 1),
+];
+
+/// The same, without a limit of the velocity, but no drift at all is borne.
+const DRIFT: &[(&str, i64)] = &[
+    ("p_top", 1),
+    ("v_max", 60),
+    ("v_standstill", 30),
+    ("v_top", 60),
+    ("t_si", 1_000),
+    ("t_sample", 1_000),
+    ("patience", 1),
+    ("interval", 2),
+    ("v_disc", 0),
 ];
 
 /// The slices.
@@ -48,7 +76,7 @@ pub(super) const SLICES: &[Slice] = &[
             ("window_s", 1),
             ("pos_min", 1),
             ("pos_max", 1),
-            ("step_limit", 0),
+            ("v_max", 0),
         ],
         free: &["pos_1", "pos_s", "valid_1", "valid_s", "reference", "ack"],
     },
@@ -72,6 +100,18 @@ pub(super) const SLICES: &[Slice] = &[
             "sync",
             "ack",
         ],
+    },
+    // Velocity and its counter, while POS1 stands: 60 mm/min are too fast, 30 are not.
+    Slice {
+        system: "safe_pos_block",
+        params: VELOCITY,
+        free: &["pos_s", "valid_s", "count", "reference", "ack"],
+    },
+    // Drift of POS1 and POSSI in an interval of two calls, and the direction.
+    Slice {
+        system: "safe_pos_block",
+        params: DRIFT,
+        free: &["pos_1", "pos_s", "valid_1", "count", "reference", "ack"],
     },
     // End zones whose ends move.
     Slice {
