@@ -2,7 +2,7 @@
 //!
 //! A duty over several cycles is told by two numbers beside the state. `@pending` says that one is open; `@rest` are the cycles left to
 //! a bounded response, of which the oldest one counts: it begins with the bound less one, counts down, and at 0 the goal must come.
-//! `@within` is that bound.
+//! `@within:ID` is the bound of a response.
 
 use std::collections::BTreeMap;
 
@@ -13,6 +13,7 @@ use super::gates::{Bit, Gates};
 use super::symbolic::{Cycle, Symbolic};
 use super::word::Word;
 use crate::format::Verdict;
+use crate::subject::label;
 
 /// What must never be seen.
 #[derive(Clone, Debug)]
@@ -157,14 +158,15 @@ pub struct Question<'a> {
     target: Target<'a>,
     within: Word,
     clauses: &'a [Clause],
-    /// Places of state variables and of free parameters by their written names.
+    /// State variables, parameters and bounds by their written names.
     names: BTreeMap<String, Named>,
 }
 
-#[derive(Clone, Copy)]
 enum Named {
     State(usize),
     Param(usize),
+    /// The bound of a response.
+    Within(Word),
 }
 
 impl<'a> Question<'a> {
@@ -182,12 +184,27 @@ impl<'a> Question<'a> {
             Target::Late { within, .. } => system.constant(within)?,
             _ => Word::constant(0),
         };
-        let mut names = BTreeMap::new();
+        let mut named = Vec::new();
         let own = &system.bound.system;
-        let states = (own.states.iter().enumerate()).map(|(k, s)| (&s.var.name, Named::State(k)));
-        let params = (own.params.iter().enumerate()).map(|(k, p)| (&p.var.name, Named::Param(k)));
-        for (name, place) in states.chain(params) {
-            if names.insert(written(name), place).is_some() {
+        for (k, state) in own.states.iter().enumerate() {
+            named.push((written(&state.var.name), Named::State(k)));
+        }
+        for (k, param) in own.params.iter().enumerate() {
+            named.push((written(&param.var.name), Named::Param(k)));
+        }
+        for property in &own.properties {
+            if let Form::LeadsTo {
+                within: Some(within),
+                ..
+            } = &property.form
+            {
+                let bound = system.constant(within)?;
+                named.push((format!("@within:{}", label(property)), Named::Within(bound)));
+            }
+        }
+        let mut names = BTreeMap::new();
+        for (name, place) in named {
+            if names.insert(name.clone(), place).is_some() {
                 return Err(format!("there are two variables `{name}`"));
             }
         }
@@ -207,8 +224,7 @@ impl<'a> Question<'a> {
             Literal::Most { name, other, .. } => (name, other.as_ref()),
         };
         let known = |name: &String| {
-            ["@pending", "@rest", "@within"].contains(&name.as_str())
-                || self.names.contains_key(name)
+            ["@pending", "@rest"].contains(&name.as_str()) || self.names.contains_key(name)
         };
         self.clauses.iter().enumerate().find_map(|(k, clause)| {
             let all = clause.0.iter().map(names);
@@ -465,12 +481,12 @@ impl<'a> Question<'a> {
         match name {
             "@pending" => return Ok(Word::truth(place.duty.pending)),
             "@rest" => return Ok(place.duty.rest.clone()),
-            "@within" => return Ok(self.within.clone()),
             _ => {}
         }
         match self.names.get(name) {
             Some(Named::State(k)) => Ok(place.state[*k].clone()),
             Some(Named::Param(k)) => Ok(self.system.params[*k].clone()),
+            Some(Named::Within(bound)) => Ok(bound.clone()),
             None => Err(format!("there is no `{name}`")),
         }
     }
