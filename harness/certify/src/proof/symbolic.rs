@@ -33,7 +33,8 @@ pub struct Cycle {
     pub now: Vec<Word>,
     /// An assignment has left the range of its variable: there is no successor.
     pub fault: Bit,
-    inputs: Vec<Word>,
+    /// The inputs.
+    pub inputs: Vec<Word>,
     /// Named expressions that were evaluated.
     named: Vec<Option<Word>>,
     /// State variables that have their last value in this cycle.
