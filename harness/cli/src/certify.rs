@@ -112,7 +112,7 @@ fn text(confirmed: &Confirmed) -> String {
         let proved = confirmed.proved.as_ref().map(|all| &all[k]);
         let _ = writeln!(out, "\n{} ({})", task.title, task.system);
         for (name, value) in &task.parameters {
-            let every = proved.map_or(&[][..], |proved| &proved.every);
+            let every = proved.map_or(&[][..], |proved| &proved.every[..]);
             let _ = match every.iter().find(|(free, _)| free == name) {
                 Some((_, (lo, hi))) => writeln!(out, "  {name} = {lo} .. {hi}, every value"),
                 None => writeln!(out, "  {name} = {value}"),

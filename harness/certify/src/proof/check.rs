@@ -46,7 +46,7 @@ pub fn check(bound: &Bound, task: &Task, system: &System) -> Result<Proved, Stri
     let symbolic = Symbolic::new(bound, &system.every).map_err(here)?;
     // Of no configuration everything is true.
     configured(bound, &system.every, &default(bound, &system.every)).map_err(here)?;
-    let mut claims = system.claims.iter().peekable();
+    let mut claims = system.claims.iter();
     let mut proved = Proved {
         every: system.every.clone(),
         ..Proved::default()
