@@ -7,9 +7,10 @@ use stillpoint_lang::ir::Form;
 
 use super::clause::written;
 use super::format::{Claim, Proof, RANGE, Run, System};
-use super::question::{Obligation, Question, Target, Unshown};
+use super::question::{Obligation, Question, Unshown};
 use super::rup::Clauses;
 use super::symbolic::Symbolic;
+use super::target::Target;
 use crate::cycle::Player;
 use crate::format::{Task, Verdict};
 use crate::replay::{ends, fault, violates};

@@ -7,8 +7,8 @@
 //!
 //! That state variables keep to their ranges is not shown but given: a cycle in which an assignment leaves its range has no successor.
 //!
-//! To be read in this order: [`format`] (the file), [`clause`], [`gates`], [`word`], [`symbolic`] (the tables), [`question`] (what has to
-//! be shown), [`rup`], [`check`].
+//! To be read in this order: [`format`] (the file), [`clause`], [`gates`], [`word`], [`symbolic`] (the tables), [`target`] and
+//! [`question`] (what has to be shown), [`rup`], [`check`].
 
 pub mod check;
 pub mod clause;
@@ -17,4 +17,5 @@ pub mod gates;
 pub mod question;
 pub mod rup;
 pub mod symbolic;
+pub mod target;
 pub mod word;
