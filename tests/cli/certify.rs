@@ -130,3 +130,64 @@ fn a_file_that_cannot_be_written_is_named() {
         );
     }
 }
+
+/// The same for what the proof engines find: text, which is altered line by line.
+#[test]
+fn a_proof_is_written_confirmed_and_refused_when_altered() {
+    let folder = Folder::new("certify-proofs");
+    let file = folder.file("forms.cert");
+    let prove = [
+        "check",
+        FORMS,
+        "--engine",
+        "pdr",
+        "--every",
+        "all",
+        "--certificate",
+        &file,
+    ];
+    assert_eq!(told(&prove).0, 1);
+    let (status, text) = told(&["certify", &file]);
+    assert_eq!(status, 0, "{text}");
+    for line in [
+        "tests/certified/forms.toml: CONFIRMED, 16 claims",
+        "  burn = 1 .. 4, every value\n",
+        "  holds          ALWAYS: never longer than the burning time [invariant of ",
+        "  violated       NEVER: the last two values are not used [run of 1 cycles]\n",
+        "  violated       range: no assignment leaves the range of its variable [run of 3 cycles]\n",
+        "  not certified  FAIR: ",
+    ] {
+        assert!(text.contains(line), "{line}: {text}");
+    }
+    let (status, json) = told(&["certify", &file, "--json"]);
+    assert_eq!(status, 0);
+    let json: Value = serde_json::from_str(&json).expect("JSON");
+    assert_eq!(
+        json["tasks"][0]["every"][0],
+        serde_json::json!(["burn", [1, 4]])
+    );
+    assert_eq!(json["tasks"][2]["range"], "violated");
+    let written = std::fs::read_to_string(&file).expect("there");
+    let cut: String = written
+        .lines()
+        .take(60)
+        .map(|line| format!("{line}\n"))
+        .collect();
+    std::fs::write(&file, cut).expect("written");
+    let (status, text) = told(&["certify", &file]);
+    assert_eq!(status, 1, "{text}");
+    assert!(
+        text.contains("line 60: the file is truncated or was altered"),
+        "{text}"
+    );
+    let (status, text) = told(&[
+        "check",
+        FORMS,
+        "--engine",
+        "explorer",
+        "--certificate",
+        &file,
+    ]);
+    assert_eq!(status, 2, "{text}");
+    assert!(text.contains("leave out --engine"), "{text}");
+}

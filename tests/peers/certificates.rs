@@ -9,8 +9,13 @@ use stillpoint_certify::format::{Verdict, bodies, open};
 use stillpoint_certify::{Confirmed, certify_bytes};
 use stillpoint_engine::check::{Settings, check};
 use stillpoint_engine::subject;
-use stillpoint_harness::certificate;
+use stillpoint_harness::certificate::{self, proofs};
+use stillpoint_harness::proof::{self, Choice, Engine, Every, Judged, Which, judge, judge_every};
+use stillpoint_model::Verdict as Found;
+use stillpoint_model::proof::Budget;
 use stillpoint_tests::{files, root};
+
+use super::reductions::random;
 
 fn forms() -> PathBuf {
     root().join("tests/certified/forms.toml")
@@ -137,6 +142,142 @@ fn shipped_and_seeded_systems_are_certified_with_their_verdicts() {
     }
     println!("{compared} verdicts certified, {violated} of them violations");
     assert!(compared > 120 && violated >= 15, "{compared}, {violated}");
+}
+
+/// Judges a file by the proof engines, with `every` for all values of all parameters; the certificate, and what was found.
+fn prove(file: &Path, choice: Choice, every: bool) -> (String, Vec<Vec<Judged>>) {
+    let subject = subject::load(file, &BTreeMap::new()).unwrap_or_else(|e| panic!("{e}"));
+    let settings = proof::Settings {
+        choice,
+        depth: 30,
+        time: None,
+        memory: None,
+        threads: 1,
+        interrupt: None,
+    };
+    let bounds = subject.tasks.iter().map(|task| &task.bound);
+    let free: Option<Vec<Every>> = every.then(|| {
+        let free = bounds.clone().map(|bound| Every::new(bound, &Which::All));
+        free.map(|every| every.expect("free parameters")).collect()
+    });
+    let judged: Vec<Vec<Judged>> = match &free {
+        Some(all) => all
+            .iter()
+            .map(|every| judge_every(every, &settings))
+            .collect(),
+        None => bounds.map(|bound| judge(bound, &settings)).collect(),
+    };
+    let path = scratch(&format!(
+        "{choice:?}-{:?}.cert",
+        std::thread::current().id()
+    ));
+    let found = proofs::Found {
+        subject: &subject,
+        every: free.as_deref(),
+        judged: &judged,
+    };
+    proofs::certify(&path, &found, &Budget::default(), &|_, _| ())
+        .unwrap_or_else(|e| panic!("{}: {e}", file.display()));
+    let text = std::fs::read_to_string(&path).expect("the certificate");
+    std::fs::remove_file(path).expect("removed");
+    (text, judged)
+}
+
+/// Proves a file and certifies what was found: every verdict of an engine is confirmed. How many, and how many by invariants.
+fn confirm(file: &Path, choice: Choice, every: bool) -> (usize, usize) {
+    let (text, judged) = prove(file, choice, every);
+    let confirmed = certify_bytes(text.as_bytes(), Some(file), 1)
+        .unwrap_or_else(|e| panic!("{}: {e}", file.display()));
+    let proved = confirmed.proved.expect("proofs");
+    let (mut claims, mut invariants) = (0, 0);
+    for ((task, proved), judged) in confirmed.header.task.iter().zip(&proved).zip(&judged) {
+        for (k, judged) in judged.iter().enumerate() {
+            let certified = match task.property.get(k) {
+                Some(property) => property.verdict,
+                None => proved.range.as_ref().map_or(Verdict::Open, |(v, _)| *v),
+            };
+            // A recorded bound that is not the one found, and what an engine leaves open, is not certified.
+            let decided = judged.verdict != Found::Inconclusive
+                && judged.engine != Some(Engine::Explorer)
+                && (judged.verdict != Found::Violated || judged.trace.is_some());
+            let told = match decided {
+                true => format!("{:?}", judged.verdict),
+                false => "Open".to_owned(),
+            };
+            assert_eq!(
+                format!("{certified:?}"),
+                told,
+                "{}: {}",
+                file.display(),
+                judged.id
+            );
+            claims += usize::from(decided);
+            invariants += usize::from(decided && judged.shown.is_some());
+        }
+    }
+    (claims, invariants)
+}
+
+/// The certificates that the tests of the checker alter.
+#[test]
+fn the_stored_certificates_of_the_engines_are_what_is_written_today() {
+    for (name, choice, every) in [
+        ("pdr", Choice::Pdr, false),
+        ("kinduction", Choice::Induction, false),
+        ("every", Choice::Pdr, true),
+    ] {
+        let path = root().join(format!("tests/certified/forms-{name}.cert"));
+        let stored = std::fs::read_to_string(path).expect("stored");
+        let (text, _) = prove(&forms(), choice, every);
+        // The path of the subject stands in it, so the checksum may differ too.
+        let rest = |text: &str| -> Vec<String> {
+            let lines = text.lines();
+            let lines = lines.filter(|l| !l.starts_with("subject = ") && !l.starts_with("sha256 "));
+            lines.map(str::to_owned).collect()
+        };
+        assert_eq!(rest(&text), rest(&stored), "write forms-{name}.cert anew");
+    }
+}
+
+#[test]
+fn what_the_engines_find_is_confirmed() {
+    let mut subjects = files("tests/must-fail", "toml");
+    subjects.push(root().join("spec/families/sinumerik-840d/axis.toml"));
+    let (mut claims, mut invariants) = (0, 0);
+    for file in subjects {
+        let (c, i) = confirm(&file, Choice::Auto, false);
+        (claims, invariants) = (claims + c, invariants + i);
+    }
+    println!("{claims} claims confirmed, {invariants} of them by invariants");
+    assert!(claims > 60 && invariants > 30, "{claims} {invariants}");
+}
+
+/// Random systems, with all their parameters, by invariants and by k-induction.
+#[test]
+fn what_the_engines_find_about_random_systems_is_confirmed() {
+    let mut sum = [(0, 0); 3];
+    for seed in 0..40 {
+        let path = scratch(&format!("random-{seed}.toml"));
+        std::fs::write(&path, random::text(seed)).expect("written");
+        for (k, (choice, every)) in [
+            (Choice::Pdr, false),
+            (Choice::Induction, false),
+            (Choice::Pdr, true),
+        ]
+        .into_iter()
+        .enumerate()
+        {
+            let (claims, invariants) = confirm(&path, choice, every);
+            sum[k] = (sum[k].0 + claims, sum[k].1 + invariants);
+        }
+        std::fs::remove_file(path).expect("removed");
+    }
+    println!("claims, and those by invariants: {sum:?}");
+    assert!(
+        sum.iter()
+            .all(|(claims, invariants)| *claims > 100 && *invariants > 30),
+        "{sum:?}"
+    );
 }
 
 #[test]

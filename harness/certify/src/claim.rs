@@ -1,10 +1,11 @@
 //! What a claim about one property needs: its runs are replayed here, and what has to hold in each cycle is told.
 
-use stillpoint_lang::ir::{Form, Node};
+use stillpoint_lang::ir::Form;
 
 use crate::check::{Checker, Duty, Leads, pairing};
 use crate::cycle::{Pairing, Player};
 use crate::format::{Proof, Run, Verdict};
+use crate::replay::{cycles, ends, fault, violates};
 
 impl<'a> Checker<'a> {
     fn player(&self, run: &'a Run) -> Result<Player<'a>, String> {
@@ -40,11 +41,17 @@ impl<'a> Checker<'a> {
                 [],
                 false,
             ) => {
-                self.ends(run, |p| p.atom(*when))?;
+                ends(self.player(run)?, |p| p.atom(*when))?;
                 Ok(Duty::Implies(Some(*when), *then))
             }
-            (Form::Always { when, then }, Violated, [run], [], false) => {
-                self.ends(run, |p| when.is_none_or(|w| p.atom(w)) && !p.atom(*then))?;
+            (
+                Form::Always { .. } | Form::Unless { .. } | Form::LeadsTo { .. },
+                Violated,
+                [run],
+                [],
+                false,
+            ) => {
+                violates(self.bound, form, self.player(run)?, run.repeats)?;
                 Ok(Duty::None)
             }
             (
@@ -66,7 +73,7 @@ impl<'a> Checker<'a> {
                 Ok(Duty::Never(*when))
             }
             (Form::Reachable { goal }, Reached, [run], [], false) => {
-                self.ends(run, |p| p.atom(*goal))?;
+                ends(self.player(run)?, |p| p.atom(*goal))?;
                 Ok(Duty::None)
             }
             (
@@ -80,26 +87,8 @@ impl<'a> Checker<'a> {
                 [_, ..],
                 false,
             ) => {
-                self.ends(run, |p| p.atom(*when))?;
+                ends(self.player(run)?, |p| p.atom(*when))?;
                 Ok(Duty::Unless(*when, *holds, *unless, map))
-            }
-            (
-                Form::Unless {
-                    when,
-                    holds,
-                    unless,
-                },
-                Violated,
-                [run],
-                [],
-                false,
-            ) => {
-                let mut duty = false;
-                self.ends(run, |p| {
-                    duty = (duty || p.atom(*when)) && !p.atom(*unless);
-                    duty && !p.atom(*holds)
-                })?;
-                Ok(Duty::None)
             }
             (
                 Form::LeadsTo {
@@ -114,8 +103,8 @@ impl<'a> Checker<'a> {
                 [_, ..],
                 false,
             ) => {
-                self.ends(run, |p| p.atom(*when))?;
-                let within = within.as_ref().map(|n| self.within(n));
+                ends(self.player(run)?, |p| p.atom(*when))?;
+                let within = within.as_ref().map(|n| cycles(self.bound, n));
                 Ok(Duty::Leads(Leads {
                     when: *when,
                     goal: *goal,
@@ -124,10 +113,6 @@ impl<'a> Checker<'a> {
                     assuming: *assuming,
                     rank: map,
                 }))
-            }
-            (Form::LeadsTo { .. }, Violated, [run], [], false) => {
-                self.late(form, run)?;
-                Ok(Duty::None)
             }
             (Form::CanAlwaysReach { goal, using }, Holds, [], [_, ..], false) => {
                 Ok(Duty::Near(*goal, *using, map))
@@ -143,7 +128,7 @@ impl<'a> Checker<'a> {
                 }
             }
             (Form::Independent { condition, .. }, Holds, [run], [], true) => {
-                self.ends(run, |p| condition.is_none_or(|c| p.atom(c)))?;
+                ends(self.player(run)?, |p| condition.is_none_or(|c| p.atom(c)))?;
                 Ok(Duty::None)
             }
             (Form::Independent { .. }, Violated, [one, other], [], false) => {
@@ -154,72 +139,6 @@ impl<'a> Checker<'a> {
                 "what it carries is no proof that this property is {verdict:?}"
             )),
         }
-    }
-
-    fn within(&self, node: &Node) -> u32 {
-        u32::try_from(self.bound.constant(node).max(0)).unwrap_or(u32::MAX)
-    }
-
-    /// A run in whose last cycle `shown` is true; it is called in each cycle.
-    fn ends(&self, run: &'a Run, mut shown: impl FnMut(&mut Player) -> bool) -> Result<(), String> {
-        let mut player = self.player(run)?;
-        let mut is = false;
-        while player.step()?.is_some() {
-            is = shown(&mut player);
-        }
-        is.then_some(())
-            .ok_or_else(|| "its run does not end in the cycle that is claimed".to_owned())
-    }
-
-    /// A run on which the goal does not come in time, or a loop on which it never comes.
-    fn late(&self, form: &Form, run: &'a Run) -> Result<(), String> {
-        let Form::LeadsTo {
-            when,
-            goal,
-            within,
-            fair,
-            assuming,
-        } = form
-        else {
-            return Err("this property is no response".to_owned());
-        };
-        let within = within.as_ref().map(|n| self.within(n));
-        let mut player = self.player(run)?;
-        // Cycles since the oldest `when` that waits for the goal.
-        let mut waiting: Option<u32> = None;
-        // The state in which the loop starts, as long as the same `when` waits in all of it.
-        let mut entry = None;
-        let mut met = vec![false; fair.len()];
-        for number in 0.. {
-            if run.repeats == Some(number) {
-                entry = waiting.map(|_| player.state.clone());
-            }
-            if player.step()?.is_none() {
-                break;
-            }
-            let goal = player.atom(*goal);
-            let lasts = !goal && assuming.is_none_or(|a| player.atom(a));
-            waiting = match waiting {
-                Some(n) if lasts => Some(n.saturating_add(1)),
-                _ => {
-                    entry = None;
-                    (!goal && player.atom(*when)).then_some(0)
-                }
-            };
-            for (met, condition) in met.iter_mut().zip(fair) {
-                *met |= entry.is_some() && player.atom(*condition);
-            }
-        }
-        let late = match within {
-            Some(within) => waiting.is_some_and(|n| n >= within),
-            None => {
-                entry.is_some_and(|entry| entry == player.state)
-                    && run.repeats.is_some_and(|start| start < run.steps.len())
-                    && met.iter().all(|m| *m)
-            }
-        };
-        late.then_some(())
-            .ok_or_else(|| "its run does not miss the goal".to_owned())
     }
 
     /// Two runs that differ in no more than they may, at whose end an observed expression differs.
@@ -256,18 +175,8 @@ impl<'a> Checker<'a> {
     /// The runs into range faults: each ends in the fault that is claimed.
     pub(crate) fn faults(&self) -> Result<(), String> {
         for (name, run) in self.task.faults.iter().zip(&self.body.faults) {
-            let mut player = self.player(run)?;
-            let mut end = None;
-            for _ in &run.steps {
-                end = player.attempt()?;
-                if matches!(end, Some(Err(_))) {
-                    break;
-                }
-            }
-            let site = match end {
-                Some(Err(site)) => self.bound.system.sites.get(site as usize),
-                _ => None,
-            };
+            let end = fault(self.player(run)?)?;
+            let site = end.and_then(|site| self.bound.system.sites.get(site as usize));
             if site.is_none_or(|site| site.name != *name) {
                 return Err(format!("no run shows the range fault {name}"));
             }

@@ -316,10 +316,12 @@ impl<'a> PairCycle<'a> {
     }
 }
 
+const NO_START: &str = "its run does not start in an initial state";
+
 /// Replays a run; an input that a step does not list has its least value.
 pub struct Player<'a> {
     bound: &'a Bound,
-    run: &'a Run,
+    steps: &'a [Vec<(u32, u32)>],
     at: usize,
     /// The state before the next step.
     pub state: Vec<i32>,
@@ -335,19 +337,44 @@ impl<'a> Player<'a> {
     /// It does not start in an initial state.
     pub fn new(bound: &'a Bound, radix: &Radix, run: &'a Run) -> Result<Self, String> {
         let mut state = vec![0; bound.states.len()];
-        let starts = radix.state(run.initial, &mut state)
-            && (state.iter().zip(&bound.initial)).all(|(v, init)| init.is_none_or(|i| i == *v));
-        if !starts {
-            return Err("its run does not start in an initial state".to_owned());
+        match radix.state(run.initial, &mut state) {
+            true => Self::begin(bound, state, &run.steps),
+            false => Err(NO_START.to_owned()),
+        }
+    }
+
+    /// Starts in a state; of each step the inputs with their values above the least.
+    ///
+    /// # Errors
+    /// It is no initial state.
+    pub fn begin(
+        bound: &'a Bound,
+        state: Vec<i32>,
+        steps: &'a [Vec<(u32, u32)>],
+    ) -> Result<Self, String> {
+        let cells = state.iter().zip(&bound.initial).zip(&bound.states);
+        let starts = |(value, init): (i32, Option<i32>), (lo, hi): (i32, i32)| {
+            (lo..=hi).contains(&value) && init.is_none_or(|i| i == value)
+        };
+        if !cells
+            .into_iter()
+            .all(|((v, init), range)| starts((*v, *init), *range))
+        {
+            return Err(NO_START.to_owned());
         }
         Ok(Self {
             bound,
-            run,
+            steps,
             at: 0,
             state,
             inputs: Vec::new(),
             frame: Frame::new(bound),
         })
+    }
+
+    /// How many steps the run has.
+    pub(crate) fn steps(&self) -> usize {
+        self.steps.len()
     }
 
     /// Makes the next step: none at the end of the run, else whether this was the last one.
@@ -367,7 +394,7 @@ impl<'a> Player<'a> {
     /// # Errors
     /// An input that does not exist or has no such value.
     pub fn attempt(&mut self) -> Result<Option<Result<bool, u32>>, String> {
-        let Some(step) = self.run.steps.get(self.at) else {
+        let Some(step) = self.steps.get(self.at) else {
             return Ok(None);
         };
         self.at += 1;
@@ -383,7 +410,7 @@ impl<'a> Player<'a> {
         self.frame.start(&self.state);
         let made = self.bound.step(&mut self.frame, &mut |k| inputs[k]);
         self.state.copy_from_slice(&self.frame.now);
-        Ok(Some(made.map(|()| self.at == self.run.steps.len())))
+        Ok(Some(made.map(|()| self.at == self.steps.len())))
     }
 
     /// Atom `k` in the cycle just made.

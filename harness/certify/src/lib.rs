@@ -7,7 +7,7 @@
 //! To be read in this order: [`format`] (the file), [`subject`] (the specification), [`states`], `cells` (the values of a
 //! cycle, and backtracking over its inputs), `later` and `memo` (what is not evaluated again), [`cycle`] (all cycles of a state, and
 //! the cycles of a run), `claim` (what each verdict needs), `check` (what has to be true in every cycle).
-//! [`write()`] is for producers; nothing rests on it.
+//! [`write()`] is for producers; nothing rests on it. Certificates of the proof engines are another kind of file: [`proof`].
 
 mod cells;
 mod check;
@@ -16,6 +16,8 @@ pub mod cycle;
 pub mod format;
 mod later;
 mod memo;
+pub mod proof;
+mod replay;
 pub mod states;
 pub mod subject;
 mod write;
@@ -23,6 +25,7 @@ mod write;
 use std::path::{Path, PathBuf};
 
 use format::Header;
+use proof::check::Proved;
 use subject::Subject;
 
 pub use write::write;
@@ -45,6 +48,8 @@ pub struct Confirmed {
     pub header: Header,
     /// For each task and property the greatest number of cycles until a response has come, where ranks show one.
     pub bounds: Vec<Vec<Option<u32>>>,
+    /// For each task what a certificate of the proof engines shows; none for one of the explorer.
+    pub proved: Option<Vec<Proved>>,
 }
 
 /// No certificate is that long: 16 GiB.
@@ -73,6 +78,9 @@ pub fn certify_bytes(
     spec: Option<&Path>,
     threads: usize,
 ) -> Result<Confirmed, Failure> {
+    if proof::format::is_one(bytes) {
+        return certify_proofs(bytes, spec);
+    }
     let (header, proofs) = format::open(bytes)?;
     let path = spec.map_or_else(|| PathBuf::from(&header.subject), Path::to_owned);
     let subject = Subject::load(&path, header.kind, &header.readings)?;
@@ -85,5 +93,35 @@ pub fn certify_bytes(
                 .map_err(|what| Failure::Rejected(format!("{}: {what}", task.system)))
         })
         .collect::<Result<_, _>>()?;
-    Ok(Confirmed { header, bounds })
+    Ok(Confirmed {
+        header,
+        bounds,
+        proved: None,
+    })
+}
+
+fn certify_proofs(bytes: &[u8], spec: Option<&Path>) -> Result<Confirmed, Failure> {
+    let file = proof::format::read(bytes)?;
+    let header = file.header;
+    let path = spec.map_or_else(|| PathBuf::from(&header.subject), Path::to_owned);
+    let subject = Subject::load(&path, header.kind, &header.readings)?;
+    subject.matches(&header)?;
+    if file.systems.len() != header.task.len() {
+        return Err(Failure::Rejected(format!(
+            "there are proofs for {} systems, the header speaks of {}",
+            file.systems.len(),
+            header.task.len()
+        )));
+    }
+    let tasks = subject.bounds.iter().zip(&header.task).zip(&file.systems);
+    let proved = tasks
+        .map(|((bound, task), system)| {
+            proof::check::check(bound, task, system).map_err(Failure::Rejected)
+        })
+        .collect::<Result<Vec<_>, _>>()?;
+    Ok(Confirmed {
+        bounds: proved.iter().map(|p| vec![None; p.by.len()]).collect(),
+        header,
+        proved: Some(proved),
+    })
 }

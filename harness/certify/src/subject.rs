@@ -97,7 +97,7 @@ impl Subject {
         self.header.readings.extend(bound.readings());
         let parameters = system.params.iter().zip(&bound.values);
         let property = |p: &stillpoint_lang::ir::Property| Property {
-            id: p.index.map_or(p.id.clone(), |i| format!("{}[{i}]", p.id)),
+            id: label(p),
             text: p.text.clone(),
             written: (p.written.iter())
                 .map(|(key, text)| format!("{key}: {text}"))
@@ -176,6 +176,12 @@ impl Subject {
         }
         Ok(())
     }
+}
+
+/// The id of a property, with the index of a copy.
+pub(crate) fn label(property: &stillpoint_lang::ir::Property) -> String {
+    let id = &property.id;
+    property.index.map_or(id.clone(), |i| format!("{id}[{i}]"))
 }
 
 fn bind(

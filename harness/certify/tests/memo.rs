@@ -1,63 +1,14 @@
 //! What the checker looks up is what the interpreter does: on walks at random through every shipped system.
 
-use std::collections::{BTreeMap, BTreeSet};
-use std::path::{Path, PathBuf};
+mod shipped;
 
+use std::collections::BTreeSet;
+
+use shipped::{Random, subjects};
 use stillpoint_certify::cycle::Cycle;
-use stillpoint_certify::format::Kind;
 use stillpoint_certify::states::Radix;
-use stillpoint_certify::subject::Subject;
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::eval::Frame;
-
-/// Numbers at random, the same ones each time (xorshift).
-struct Random(u64);
-
-impl Random {
-    fn below(&mut self, count: u64) -> u64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 16) % count
-    }
-
-    fn value(&mut self, (lo, hi): (i32, i32)) -> i32 {
-        lo.wrapping_add_unsigned(self.below(u64::from(hi.abs_diff(lo)) + 1) as u32)
-    }
-
-    fn inputs(&mut self, bound: &Bound) -> Vec<i32> {
-        bound
-            .inputs
-            .iter()
-            .map(|range| self.value(*range))
-            .collect()
-    }
-}
-
-/// All files of the specification: those that do not load by themselves are parts of others.
-fn subjects() -> Vec<Subject> {
-    let mut folders: Vec<PathBuf> = vec![Path::new(env!("CARGO_MANIFEST_DIR")).join("../../spec")];
-    let mut subjects = Vec::new();
-    while let Some(folder) = folders.pop() {
-        let entries = std::fs::read_dir(folder).expect("a folder");
-        let mut paths: Vec<PathBuf> = entries.map(|e| e.expect("an entry").path()).collect();
-        paths.sort();
-        for path in paths {
-            if path.is_dir() {
-                folders.push(path);
-            } else if path.extension().is_some_and(|e| e == "toml") {
-                let machine = path.parent().is_some_and(|p| p.ends_with("machines"));
-                let kind = if machine {
-                    Kind::Machine
-                } else {
-                    Kind::Specification
-                };
-                subjects.extend(Subject::load(&path, kind, &BTreeMap::new()));
-            }
-        }
-    }
-    subjects
-}
 
 /// The step with all inputs given, and the number of the state after it.
 fn step(bound: &Bound, radix: &Radix, state: u128, inputs: &[i32]) -> (Frame, Result<u128, u32>) {

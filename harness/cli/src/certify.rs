@@ -81,7 +81,13 @@ fn count(confirmed: &Confirmed, of: impl Fn(Verdict) -> bool) -> usize {
 fn text(confirmed: &Confirmed) -> String {
     let header = &confirmed.header;
     let faults: usize = header.task.iter().map(|task| task.faults.len()).sum();
-    let claims = count(confirmed, |v| v != Verdict::Open) + faults;
+    let ranges = |verdict| {
+        let proved = confirmed.proved.iter().flatten();
+        let ranges = proved.filter_map(|p| p.range.as_ref());
+        ranges.filter(|(v, _)| *v == verdict).count()
+    };
+    let faults = faults + ranges(Verdict::Violated);
+    let claims = count(confirmed, |v| v != Verdict::Open) + faults + ranges(Verdict::Holds);
     let mut out = format!("{}: CONFIRMED, {claims} claims", header.subject);
     let violated = count(confirmed, |v| v == Verdict::Violated) + faults;
     let unreachable = count(confirmed, |v| v == Verdict::Unreachable);
@@ -102,12 +108,18 @@ fn text(confirmed: &Confirmed) -> String {
     for (id, option) in &header.readings {
         let _ = writeln!(out, "  reading {id}: {option}");
     }
-    for (task, bounds) in header.task.iter().zip(&confirmed.bounds) {
+    for (k, (task, bounds)) in header.task.iter().zip(&confirmed.bounds).enumerate() {
+        let proved = confirmed.proved.as_ref().map(|all| &all[k]);
         let _ = writeln!(out, "\n{} ({})", task.title, task.system);
         for (name, value) in &task.parameters {
-            let _ = writeln!(out, "  {name} = {value}");
+            let every = proved.map_or(&[][..], |proved| &proved.every[..]);
+            let _ = match every.iter().find(|(free, _)| free == name) {
+                Some((_, (lo, hi))) => writeln!(out, "  {name} = {lo} .. {hi}, every value"),
+                None => writeln!(out, "  {name} = {value}"),
+            };
         }
         match task.states {
+            _ if proved.is_some() => {}
             0 => out.push_str("  runs only: nothing is claimed about all runs\n"),
             states => {
                 let _ = writeln!(
@@ -119,7 +131,16 @@ fn text(confirmed: &Confirmed) -> String {
         for fault in &task.faults {
             let _ = writeln!(out, "  violated       range: {fault}");
         }
-        for (property, bound) in task.property.iter().zip(bounds) {
+        if let Some((claimed, by)) = proved.and_then(|proved| proved.range.as_ref()) {
+            let what = "range: no assignment leaves the range of its variable";
+            let _ = writeln!(out, "  {:<14} {what} [{by}]", verdict(*claimed));
+        }
+        for (n, (property, bound)) in task.property.iter().zip(bounds).enumerate() {
+            let by = proved.map_or("", |proved| &proved.by[n]);
+            let by = match by {
+                "" => String::new(),
+                by => format!(" [{by}]"),
+            };
             let bound = bound.map_or(String::new(), |n| format!(" [in at most {n} cycles]"));
             let recorded = |w: &String| w.starts_with("exactly: ") || w.starts_with("fastest: ");
             let reason = match property.reason.as_str() {
@@ -130,7 +151,11 @@ fn text(confirmed: &Confirmed) -> String {
                 reason => format!(" ({reason})"),
             };
             let (word, id) = (verdict(property.verdict), &property.id);
-            let _ = writeln!(out, "  {word:<14} {id}: {}{bound}{reason}", property.text);
+            let _ = writeln!(
+                out,
+                "  {word:<14} {id}: {}{bound}{by}{reason}",
+                property.text
+            );
         }
     }
     out
@@ -142,14 +167,19 @@ fn to_json(confirmed: &Confirmed) -> serde_json::Value {
         .task
         .iter()
         .zip(&confirmed.bounds)
-        .map(|(task, bounds)| {
-            let properties = task.property.iter().zip(bounds).map(|(p, bound)| {
+        .enumerate()
+        .map(|(k, (task, bounds))| {
+            let proved = confirmed.proved.as_ref().map(|all| &all[k]);
+            let properties = task.property.iter().zip(bounds).enumerate();
+            let properties = properties.map(|(n, (p, bound))| {
                 json!({
                     "id": p.id, "text": p.text, "verdict": verdict(p.verdict),
-                    "bound": bound, "reason": p.reason,
+                    "bound": bound, "reason": p.reason, "by": proved.map(|proved| &proved.by[n]),
                 })
             });
             json!({
+                "every": proved.map(|proved| &proved.every),
+                "range": proved.and_then(|proved| proved.range.as_ref()).map(|(v, _)| verdict(*v)),
                 "system": task.system, "title": task.title, "parameters": task.parameters,
                 "states": task.states, "faults": task.faults,
                 "properties": properties.collect::<Vec<_>>(),

@@ -78,7 +78,7 @@ pub struct Arguments {
     /// Judge the properties by this engine and tell for each one which has decided it, in place of the report; with -v also the time
     /// of each
     #[arg(long, value_enum, value_name = "ENGINE", conflicts_with_all = [
-        "markdown", "html", "certificate", "checkpoint", "resume", "reduce", "sweep", "interpret", "processes"
+        "markdown", "html", "checkpoint", "resume", "reduce", "sweep", "interpret", "processes"
     ])]
     engine: Option<prove::Engine>,
     /// Cycles that --engine bmc and kinduction look at at most
@@ -116,6 +116,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
             engine,
             every: arguments.every.as_ref(),
             depth: arguments.depth,
+            certificate: arguments.certificate.as_deref(),
             limits: &arguments.limits,
             json: arguments.json,
             verbose: arguments.verbose,

@@ -1,12 +1,17 @@
 //! `stillpoint check --engine`.
 
+use std::path::Path;
 use std::time::Instant;
 
 use clap::ValueEnum;
 use stillpoint_engine::subject::{Subject, Task};
+use stillpoint_harness::certificate::proofs;
 use stillpoint_harness::proof::{
     Choice, Every, Settings, Span, Told, Which, exit_status, judge, judge_every, to_json,
 };
+
+use stillpoint_lang::bind::Bound;
+use stillpoint_model::proof::Budget;
 
 use super::interrupt::Interruptible;
 use super::limits::LimitOptions;
@@ -46,6 +51,7 @@ pub struct Asked<'a> {
     /// Parameters that are to have every value.
     pub every: Option<&'a Which>,
     pub depth: usize,
+    pub certificate: Option<&'a Path>,
     pub limits: &'a LimitOptions,
     pub json: bool,
     pub verbose: bool,
@@ -103,6 +109,13 @@ fn set_free(subject: &mut Subject, which: &Which) -> Result<Vec<Every>, Failure>
 
 /// Judges every property and tells by what.
 pub fn run(subject: &mut Subject, asked: &Asked) -> Result<u8, Failure> {
+    if asked.certificate.is_some() && asked.engine == Engine::Explorer {
+        return Err(Failure::Other(
+            "--certificate: leave out --engine, and the explorer writes its own certificate"
+                .to_owned(),
+        ));
+    }
+    let bounds: Vec<Bound> = subject.tasks.iter().map(|t| t.bound.clone()).collect();
     let every = match asked.every {
         Some(which) => Some(set_free(subject, which)?),
         None => None,
@@ -135,5 +148,23 @@ pub fn run(subject: &mut Subject, asked: &Asked) -> Result<u8, Failure> {
     } else {
         show(&told.text(asked.verbose));
     }
-    Ok(exit_status(&told))
+    let status = exit_status(&told);
+    if let Some(path) = asked.certificate {
+        for (task, bound) in subject.tasks.iter_mut().zip(bounds) {
+            task.bound = bound;
+        }
+        let found = proofs::Found {
+            subject,
+            every: every.as_deref(),
+            judged: &judged,
+        };
+        let line = Line::new("certificate");
+        let progress = |done: usize, of: usize| line.share(done as u64, of as u64, "systems");
+        let budget = Budget {
+            until: None,
+            interrupt: Some(interrupt.handle()),
+        };
+        proofs::certify(path, &found, &budget, &progress).map_err(Failure::Other)?;
+    }
+    Ok(status)
 }

@@ -4,6 +4,7 @@
 //! ranks and runs it asks for, with another walk through the reachable states; nothing that is confirmed rests on it.
 
 mod cycle;
+pub mod proofs;
 mod ranks;
 mod search;
 
@@ -50,15 +51,10 @@ pub fn certify(
         Some(_) => Kind::Machine,
         None => Kind::Specification,
     };
-    let readings: BTreeMap<String, String> = (subject.tasks.iter())
-        .flat_map(|task| task.bound.readings())
-        .collect();
+    let readings = readings(subject);
     let subject::Subject { mut header, bounds } =
         subject::Subject::load(&subject.path, kind, &readings).map_err(|e| e.to_string())?;
-    let same = |a: &Bound, b: &Bound| a.system == b.system && a.values == b.values;
-    if bounds.len() != subject.tasks.len()
-        || !(bounds.iter().zip(&subject.tasks)).all(|(bound, task)| same(bound, &task.bound))
-    {
+    if !same(&bounds, subject) {
         return Err("the specification was changed during the check".to_owned());
     }
     let threads = match threads {
@@ -105,6 +101,20 @@ pub fn certify(
         claims: properties().count() - open,
         open,
     })
+}
+
+/// The option of each reading that occurs.
+fn readings(subject: &Subject) -> BTreeMap<String, String> {
+    let tasks = subject.tasks.iter();
+    tasks.flat_map(|task| task.bound.readings()).collect()
+}
+
+/// Whether these systems, read again, are those that were checked.
+fn same(bounds: &[Bound], subject: &Subject) -> bool {
+    let pairs = bounds.iter().zip(&subject.tasks);
+    let mut pairs = pairs.map(|(bound, task)| (bound, &task.bound));
+    bounds.len() == subject.tasks.len()
+        && pairs.all(|(a, b)| a.system == b.system && a.values == b.values)
 }
 
 /// The claims about one task and what shows them.

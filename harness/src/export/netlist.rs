@@ -117,6 +117,12 @@ impl<'a> Translated<'a> {
         (word, range)
     }
 
+    /// The state variable of which a latch is a bit, and which one.
+    pub fn place(&self, latch: usize) -> Option<(usize, usize)> {
+        let mut states = self.states.iter().enumerate();
+        states.find_map(|(k, bits)| Some((k, bits.iter().position(|place| *place == latch)?)))
+    }
+
     /// A run of the netlist in the explorer's terms. A variable of which no bit matters has its least value, or is not told.
     pub fn trace(&self, run: &Run) -> Trace {
         let value = |places: &[usize], given: &[Option<bool>], (lo, _): Bounds| {

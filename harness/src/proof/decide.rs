@@ -64,7 +64,7 @@ fn bounded(problem: &Problem, depth: Depth, budget: &Budget) -> Result<Decision,
 
 fn inductive(problem: &Problem, depth: Depth, budget: &Budget) -> Result<Decision, Spent> {
     Ok(match induction(problem, depth.0, budget)? {
-        Induction::Proved(k) => Decision::Never(Proof::Induction(k)),
+        Induction::Proved(k, differ) => Decision::Never(Proof::Induction(k, differ)),
         Induction::Found(run) => Decision::Seen(run),
         Induction::Open => Decision::Open(format!(
             "no run of up to {0} cycles, and {0} cycles do not prove that there is none",

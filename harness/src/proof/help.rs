@@ -4,6 +4,7 @@
 //! candidates, and those that hold by induction with each other are known beforehand. Where parameters are part of the state, so are
 //! "the timer is at most this parameter".
 
+use stillpoint_certify::proof::clause::{Clause, Literal};
 use stillpoint_model::proof::{Budget, Graph, Lit, Netlist, Spent, Word, inductive};
 
 use super::monitor::Duty;
@@ -28,32 +29,41 @@ enum Candidate {
     Limited(Option<(usize, i64)>, usize, usize),
 }
 
-/// State variables with more than one value that are no parameters, and parameters, as numbers with their ranges.
+/// State variables with more than one value that are no parameters, and parameters, as numbers with their ranges and names.
 struct Variables {
     own: Vec<(Word, (i64, i64))>,
+    own_names: Vec<String>,
     parameters: Vec<Word>,
+    parameter_names: Vec<String>,
+}
+
+/// A system with what helps among its invariants.
+pub(super) struct Help {
+    pub netlist: Netlist,
+    /// What helps, for a certificate.
+    pub sentences: Vec<Clause>,
 }
 
 /// The system with what helps to decide about a duty among its invariants; none if nothing does.
-pub(super) fn helped(
-    asked: &Asked,
-    duty: &Duty,
-    budget: &Budget,
-) -> Result<Option<Netlist>, Spent> {
+pub(super) fn helped(asked: &Asked, duty: &Duty, budget: &Budget) -> Result<Option<Help>, Spent> {
     if duty.rest.bits().len() <= SHORT {
         return Ok(None);
     }
     let translated = &asked.translated;
+    let named = |k: usize| (translated.variable(k), asked.name(k));
     let own = (0..asked.own)
-        .map(|k| translated.variable(k))
-        .filter(|(_, (lo, hi))| lo < hi);
-    let parameters = asked.parameters.iter().map(|k| translated.variable(*k));
+        .map(named)
+        .filter(|((_, (lo, hi)), _)| lo < hi);
+    let parameters = (asked.parameters.iter().map(|k| named(*k)))
+        .filter(|((_, (lo, hi)), _)| hi - lo >= TIMER)
+        .map(|((word, _), name)| (word, name));
+    let (own, own_names) = own.unzip();
+    let (parameters, parameter_names) = parameters.unzip();
     let variables = Variables {
-        own: own.collect(),
-        parameters: parameters
-            .filter(|(_, (lo, hi))| hi - lo >= TIMER)
-            .map(|(word, _)| word)
-            .collect(),
+        own,
+        own_names,
+        parameters,
+        parameter_names,
     };
     let all = candidates(&variables);
     let mut netlist = translated.netlist.clone();
@@ -63,15 +73,53 @@ pub(super) fn helped(
     let kept = inductive(&netlist, &lits, budget)?;
     // Without the functions of all the others.
     let mut helped = translated.netlist.clone();
+    let mut sentences = Vec::new();
     for (candidate, lit) in all.iter().zip(&lits) {
         if kept.contains(lit) {
             let own = build(&mut helped, &variables, duty, candidate);
             if own != Lit::TRUE {
                 helped.invariants.push(own);
+                sentences.push(sentence(&variables, candidate));
             }
         }
     }
-    Ok(Some(helped))
+    Ok(Some(Help {
+        netlist: helped,
+        sentences,
+    }))
+}
+
+/// What a candidate says, as a clause.
+fn sentence(variables: &Variables, candidate: &Candidate) -> Clause {
+    let open = || Literal::Bit {
+        name: "@pending".to_owned(),
+        bit: 0,
+        set: false,
+    };
+    let other = |(k, value): (usize, i64)| Literal::Is {
+        name: variables.own_names[k].clone(),
+        value,
+        equal: false,
+    };
+    let most = |timer: usize, other: &str, shift: i64| Literal::Most {
+        name: variables.own_names[timer].clone(),
+        other: Some(other.to_owned()),
+        shift,
+    };
+    let mut literals = Vec::new();
+    match candidate {
+        Candidate::Excluded(k, value) => literals.extend([open(), other((*k, *value))]),
+        Candidate::Below(phase, timer, shift) => {
+            literals.push(open());
+            literals.extend(phase.map(other));
+            literals.push(most(*timer, "@rest", *shift));
+        }
+        Candidate::Limited(phase, timer, parameter) => {
+            literals.extend(phase.map(other));
+            literals.push(most(*timer, &variables.parameter_names[*parameter], 0));
+        }
+    }
+    Clause(literals)
 }
 
 fn candidates(variables: &Variables) -> Vec<Candidate> {

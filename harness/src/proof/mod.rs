@@ -8,11 +8,13 @@ mod every;
 mod help;
 mod monitor;
 mod question;
+mod shown;
 mod text;
 
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
+use stillpoint_certify::proof::clause::Clause;
 use stillpoint_engine::{label, run as explore};
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::ir::Form;
@@ -26,6 +28,7 @@ use monitor::Duty;
 use question::{Asked, Question, Stated};
 
 pub use every::{Every, Span, Which};
+pub use shown::Shown;
 pub use text::{Told, exit_status, to_json};
 
 /// Which engine is to judge.
@@ -66,8 +69,8 @@ pub struct Settings {
 pub enum Proof {
     /// It is FALSE whatever the state.
     Nothing,
-    /// So many good cycles are followed by another one.
-    Induction(usize),
+    /// So many good cycles are followed by another one, where these pairs of them begin in different states.
+    Induction(usize, Vec<(usize, usize)>),
     /// This invariant, checked.
     Invariant(Invariant),
     /// All states were enumerated: so many.
@@ -102,6 +105,8 @@ pub struct Judged {
     pub engine: Option<Engine>,
     /// Of what holds (or is vacuous or unreachable): the proof.
     pub proof: Option<Proof>,
+    /// The same for a certificate.
+    pub shown: Option<Shown>,
     /// The shortest counterexample or witness.
     pub trace: Option<Trace>,
     /// Why there is no verdict, or why what is recorded of the bound is refuted.
@@ -165,6 +170,7 @@ impl<'a> Judge<'a> {
             length: None,
             engine: None,
             proof: None,
+            shown: None,
             trace: None,
             reason: None,
             seconds: 0.0,
@@ -249,8 +255,14 @@ impl<'a> Judge<'a> {
         decide(netlist, target, choice, depth, &self.budget)
     }
 
-    /// The same with help, where it is about a duty.
-    fn decide_duty(&self, asked: &Asked, target: Lit, duty: Option<&Duty>) -> Decision {
+    /// The same with help, where it is about a duty; also what was known beforehand.
+    fn decide_duty(
+        &self,
+        asked: &Asked,
+        target: Lit,
+        duty: Option<&Duty>,
+    ) -> (Decision, Vec<Clause>) {
+        let known = duty.map_or(Vec::new(), |duty| vec![duty.keeps()]);
         let help = match (duty, self.settings.choice) {
             (Some(duty), Choice::Auto | Choice::Pdr | Choice::Induction) => {
                 helped(asked, duty, &self.budget)
@@ -258,15 +270,21 @@ impl<'a> Judge<'a> {
             _ => Ok(None),
         };
         match help {
-            Ok(Some(netlist)) => self.ask(&netlist, target),
-            Ok(None) => self.decide(asked, target),
-            Err(Spent) => Decision::Open("the limit was reached first".to_owned()),
+            Ok(Some(help)) => (
+                self.ask(&help.netlist, target),
+                [known, help.sentences].concat(),
+            ),
+            Ok(None) => (self.decide(asked, target), known),
+            Err(Spent) => (
+                Decision::Open("the limit was reached first".to_owned()),
+                known,
+            ),
         }
     }
 
     fn engine(&self, proof: &Proof) -> Engine {
         match (proof, self.settings.choice) {
-            (Proof::Induction(_), _) | (Proof::Nothing, Choice::Induction) => Engine::Induction,
+            (Proof::Induction(..), _) | (Proof::Nothing, Choice::Induction) => Engine::Induction,
             (Proof::Nothing, Choice::Bmc) => Engine::Bmc,
             _ => Engine::Pdr,
         }
@@ -294,6 +312,7 @@ impl<'a> Judge<'a> {
             Decision::Never(proof) => {
                 entry.verdict = Verdict::Unreachable;
                 entry.engine = Some(self.engine(&proof));
+                entry.shown = Some(asked.shown(&proof, Vec::new()));
                 entry.proof = Some(proof);
             }
             Decision::Open(why) => entry.reason = Some(why),
@@ -308,7 +327,8 @@ impl<'a> Judge<'a> {
         first: Option<Lit>,
         stated: &[Stated],
     ) {
-        let proof = match self.decide_duty(asked, broken, duty) {
+        let (decision, known) = self.decide_duty(asked, broken, duty);
+        let proof = match decision {
             Decision::Seen(run) => {
                 entry.verdict = Verdict::Violated;
                 return self.found(asked, entry, &run);
@@ -320,6 +340,7 @@ impl<'a> Judge<'a> {
             Decision::Never(proof) => proof,
         };
         entry.engine = Some(self.engine(&proof));
+        entry.shown = Some(asked.shown(&proof, known));
         entry.proof = Some(proof);
         if let Some(first) = first {
             match self.decide(asked, first) {
@@ -329,6 +350,7 @@ impl<'a> Judge<'a> {
                 }
                 Decision::Never(proof) => {
                     entry.verdict = Verdict::Vacuous;
+                    entry.shown = Some(asked.shown(&proof, Vec::new()));
                     entry.proof = Some(proof);
                     return;
                 }
@@ -340,7 +362,7 @@ impl<'a> Judge<'a> {
         }
         entry.verdict = Verdict::Holds;
         for fact in stated {
-            let right = match self.decide_duty(asked, fact.what, fact.duty.as_ref()) {
+            let right = match self.decide_duty(asked, fact.what, fact.duty.as_ref()).0 {
                 Decision::Seen(_) => fact.seen,
                 Decision::Never(_) => !fact.seen,
                 Decision::Open(why) => {

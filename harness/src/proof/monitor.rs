@@ -2,6 +2,7 @@
 //!
 //! In a cycle in which a value leaves its range nothing is judged and a monitor stays as it is, as the state does.
 
+use stillpoint_certify::proof::clause::{Clause, Literal};
 use stillpoint_model::proof::{Graph, Lit, Netlist, Word};
 
 /// The latches of a bounded response: whether a duty is open, and the cycles left to it.
@@ -9,6 +10,17 @@ use stillpoint_model::proof::{Graph, Lit, Netlist, Word};
 pub(super) struct Duty {
     pub pending: Lit,
     pub rest: Word,
+    /// The greatest number of cycles left.
+    pub most: i64,
+}
+
+impl Duty {
+    /// That the cycles left keep to their range, for a certificate.
+    pub(super) fn keeps(&self) -> Clause {
+        let (name, other) = ("@rest".to_owned(), None);
+        let shift = self.most;
+        Clause(vec![Literal::Most { name, other, shift }])
+    }
 }
 
 /// Gives latches their next values, which they keep where a value leaves its range.
@@ -107,7 +119,12 @@ pub(super) fn within(
     let whole = within.word.minus(graph, &one);
     let count = less.choice(graph, pending, &whole);
     keep(netlist, fault, first, next, &count, most);
-    (broken, Duty { pending, rest })
+    let duty = Duty {
+        pending,
+        rest,
+        most,
+    };
+    (broken, duty)
 }
 
 /// The fastest response: what shows a cycle with the goal fewer than `cycles`, and one exactly so many after one with `when`, with no

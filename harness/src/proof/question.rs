@@ -1,5 +1,7 @@
 //! Properties as questions to the engines: what must not be seen, or must be seen, in one cycle.
 
+use stillpoint_certify::proof::clause::written;
+use stillpoint_engine::label;
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::ir::{Form, Property};
 use stillpoint_model::Trace;
@@ -46,6 +48,8 @@ pub(super) struct Asked<'a> {
     pub parameters: &'a [usize],
     /// The number of state variables that are neither parameters nor bounds over them: the first ones.
     pub own: usize,
+    /// By property the state variable that has its bound, if there is such.
+    bounds: Vec<Option<usize>>,
 }
 
 impl<'a> Asked<'a> {
@@ -55,8 +59,9 @@ impl<'a> Asked<'a> {
             questions: Vec::new(),
             parameters: &[],
             own: bound.states.len(),
+            bounds: vec![None; bound.system.properties.len()],
         };
-        asked.ask(|_| None);
+        asked.ask();
         Ok(asked)
     }
 
@@ -67,6 +72,7 @@ impl<'a> Asked<'a> {
             questions: Vec::new(),
             parameters: &every.parameters,
             own: every.own,
+            bounds: every.within.clone(),
         };
         let (always, start) = (
             asked.conditions(&every.always)?,
@@ -77,7 +83,7 @@ impl<'a> Asked<'a> {
         netlist.start.extend(always.iter().chain(&start));
         netlist.invariants.extend(always);
         netlist.assumed.extend(assumed);
-        asked.ask(|k| every.within[k]);
+        asked.ask();
         Ok(asked)
     }
 
@@ -102,11 +108,20 @@ impl<'a> Asked<'a> {
         list.iter().map(told).collect()
     }
 
-    /// Asks about all properties; `bounds` has the state variable with the bound of one, if there is such.
-    fn ask(&mut self, bounds: impl Fn(usize) -> Option<usize>) {
+    /// The name of a state variable, a parameter or a bound in a certificate.
+    pub(super) fn name(&self, variable: usize) -> String {
+        let system = &self.translated.bound.system;
+        match self.bounds.iter().position(|k| *k == Some(variable)) {
+            Some(property) => format!("@within:{}", label(&system.properties[property])),
+            None => written(&system.states[variable].var.name),
+        }
+    }
+
+    /// Asks about all properties.
+    fn ask(&mut self) {
         let bound = self.translated.bound;
         for (k, property) in bound.system.properties.iter().enumerate() {
-            let question = self.question(property, bounds(k));
+            let question = self.question(property, self.bounds[k]);
             self.questions.push(question.unwrap_or(Question::None(
                 "an expression of it cannot be told in one cycle",
             )));

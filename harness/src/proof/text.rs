@@ -39,7 +39,7 @@ impl Proof {
         };
         match self {
             Proof::Nothing => "excluded in every state, reachable or not".to_owned(),
-            Proof::Induction(k) => format!("induction over {}", counted(*k, "cycle")),
+            Proof::Induction(k, _) => format!("induction over {}", counted(*k, "cycle")),
             Proof::Invariant(invariant) => format!(
                 "invariant of {}, checked",
                 counted(invariant.clauses.len(), "clause")

@@ -53,8 +53,8 @@ impl<'a> Bounded<'a> {
 /// What k-induction finds.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Induction {
-    /// Nowhere: so many cycles without it, in states that differ, are followed by another one.
-    Proved(usize),
+    /// Nowhere: so many cycles without it are followed by another one, where these pairs of them begin in different states.
+    Proved(usize, Vec<(usize, usize)>),
     /// The shortest run.
     Found(Run),
     /// No answer with at most so many cycles.
@@ -69,6 +69,7 @@ pub enum Induction {
 pub fn induction(problem: &Problem<'_>, most: usize, budget: &Budget) -> Result<Induction, Spent> {
     let mut base = Bounded::new(problem, budget);
     let mut step = Unrolling::new(problem, From::Anywhere, budget);
+    let mut differ = Vec::new();
     for k in 0..most {
         if let Some(run) = base.longer()? {
             return Ok(Induction::Found(run));
@@ -77,10 +78,13 @@ pub fn induction(problem: &Problem<'_>, most: usize, budget: &Budget) -> Result<
         step.extend();
         loop {
             if !step.possible(k)? {
-                return Ok(Induction::Proved(k));
+                return Ok(Induction::Proved(k, differ));
             }
             match step.repeated() {
-                Some((one, other)) => step.separate(one, other),
+                Some((one, other)) => {
+                    step.separate(one, other);
+                    differ.push((one, other));
+                }
                 None => break,
             }
         }

@@ -10,7 +10,8 @@
 //!
 //! [`inductive`] finds which of many candidates are invariants together: what is known beforehand makes questions easier.
 //!
-//! What a run or an invariant shows is checked by other code: [`Problem::shows`], [`Invariant::check`]. `aiger` writes netlists for
+//! What a run or an invariant shows is checked by other code: [`Problem::shows`], [`Invariant::check`]; [`lemmas`] tells what the solver
+//! learns, so that somebody else can check it. `aiger` writes netlists for
 //! other tools. Answers do not depend on time, except that a [`Budget`] may be spent before there is one.
 
 pub mod aiger;
@@ -18,6 +19,7 @@ mod bounded;
 mod graph;
 mod houdini;
 mod invariant;
+mod lemmas;
 mod netlist;
 mod pdr;
 mod sat;
@@ -28,6 +30,7 @@ pub use bounded::{Bounded, Induction, induction};
 pub use graph::{Graph, Lit, Node, value};
 pub use houdini::inductive;
 pub use invariant::{Defect, Invariant};
+pub use lemmas::lemmas;
 pub use netlist::{Input, Latch, Netlist, Problem, Run};
 pub use pdr::{Effort, Reachability, reachability};
 pub use sat::{Budget, Spent};

@@ -33,9 +33,18 @@ impl Budget {
 pub struct Spent;
 
 /// Asks for the time now and then only.
-struct Watch {
+pub(super) struct Watch {
     budget: Budget,
     asked: Cell<u32>,
+}
+
+impl Watch {
+    pub(super) fn new(budget: &Budget) -> Self {
+        Watch {
+            budget: budget.clone(),
+            asked: Cell::new(0),
+        }
+    }
 }
 
 impl Callbacks for Watch {
@@ -55,11 +64,7 @@ pub(super) struct Solver {
 
 impl Solver {
     pub(super) fn new(budget: &Budget) -> Self {
-        let watch = Watch {
-            budget: budget.clone(),
-            asked: Cell::new(0),
-        };
-        let mut inner = batsat::Solver::new(batsat::SolverOpts::default(), watch);
+        let mut inner = batsat::Solver::new(batsat::SolverOpts::default(), Watch::new(budget));
         let always = Term::new(inner.new_var_default(), true);
         inner.add_clause_reuse(&mut vec![always]);
         Solver {

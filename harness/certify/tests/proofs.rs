@@ -1,0 +1,440 @@
+//! Forged certificates of the proof engines, each with a right checksum: it is the proof that must be refused, with its line.
+//!
+//! The certificates that are altered were written by `stillpoint check tests/certified/forms.toml --engine ... --certificate ...`;
+//! `tests/peers/certificates.rs` checks that they still are what that command writes.
+
+use std::path::{Path, PathBuf};
+
+use stillpoint_certify::format::Verdict;
+use stillpoint_certify::proof::clause::{Clause, Literal};
+use stillpoint_certify::proof::format::{Claim, File, Proof, Run, read, text};
+use stillpoint_certify::{Confirmed, Failure, certify_bytes};
+
+fn forms() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/certified/forms.toml")
+}
+
+/// By `--engine pdr`, by `--engine kinduction`, and by `--engine pdr --every all`.
+const STORED: [&str; 3] = [
+    include_str!("../../../tests/certified/forms-pdr.cert"),
+    include_str!("../../../tests/certified/forms-kinduction.cert"),
+    include_str!("../../../tests/certified/forms-every.cert"),
+];
+
+fn certified(text: &str) -> Result<Confirmed, Failure> {
+    certify_bytes(text.as_bytes(), Some(&forms()), 1)
+}
+
+fn file(stored: &str) -> File {
+    read(stored.as_bytes()).unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// Why a changed certificate is refused; none if it is not.
+fn refused(stored: &str, change: impl FnOnce(&mut File)) -> Option<String> {
+    let mut changed = file(stored);
+    change(&mut changed);
+    let text = text(&changed).expect("written");
+    match certified(&text) {
+        Ok(_) => None,
+        Err(Failure::Rejected(what)) => Some(what),
+        Err(other) => panic!("{other}"),
+    }
+}
+
+/// A changed certificate must be refused for this reason.
+#[track_caller]
+fn rejected(words: &str, stored: &str, change: impl FnOnce(&mut File)) {
+    let why = refused(stored, change).unwrap_or_else(|| panic!("confirmed, in place of: {words}"));
+    assert!(why.contains(words), "`{why}` does not say `{words}`");
+}
+
+/// Where the claims are: system and place.
+fn claims(stored: &str) -> Vec<(usize, usize, Claim)> {
+    let systems = file(stored).systems.into_iter().enumerate();
+    systems
+        .flat_map(|(s, system)| {
+            let claims = system.claims.into_iter().enumerate();
+            claims
+                .map(move |(k, claim)| (s, k, claim))
+                .collect::<Vec<_>>()
+        })
+        .collect()
+}
+
+fn proof(file: &mut File, (system, claim): (usize, usize)) -> &mut Proof {
+    let claim = &mut file.systems[system].claims[claim];
+    claim.proof.as_mut().expect("a proof")
+}
+
+#[test]
+fn the_stored_ones_are_confirmed() {
+    for (stored, least) in STORED.iter().zip([14, 14, 14]) {
+        let confirmed = certified(stored).unwrap_or_else(|e| panic!("{e}"));
+        assert!(confirmed.proved.is_some());
+        assert!(claims(stored).len() >= least, "{}", claims(stored).len());
+        assert_eq!(text(&file(stored)).expect("written"), *stored);
+    }
+    // Each kind of claim, and of proof, is there.
+    let all: Vec<Claim> = STORED
+        .iter()
+        .flat_map(|s| claims(s))
+        .map(|(_, _, c)| c)
+        .collect();
+    for verdict in ["Holds", "Violated", "Vacuous", "Reached", "Unreachable"] {
+        assert!(
+            all.iter().any(|c| format!("{:?}", c.verdict) == verdict),
+            "{verdict}"
+        );
+    }
+    let proofs = || all.iter().filter_map(|c| c.proof.as_ref());
+    assert!(proofs().any(|p| p.invariant.len() > 2 && p.induction.is_none()));
+    assert!(proofs().any(|p| { p.induction.as_ref().is_some_and(|i| i.cycles > 1) }));
+    assert!(proofs().any(|p| p.lemmas.iter().any(|l| l.list.len() > 2)));
+}
+
+/// What is left without a clause is confirmed only if it is an invariant too: then no other clause was learnt in vain.
+#[test]
+fn a_dropped_or_changed_clause_is_refused() {
+    let (mut dropped, mut changed, mut kept) = (0, 0, 0);
+    for stored in STORED {
+        for (s, k, claim) in claims(stored) {
+            let Some(own) = &claim.proof else { continue };
+            for (number, clause) in own.invariant.iter().enumerate() {
+                let why = refused(stored, |f| drop(proof(f, (s, k)).invariant.remove(number)));
+                match why {
+                    Some(why) => {
+                        assert!(why.contains("line "), "{why}");
+                        dropped += 1;
+                    }
+                    None => kept += 1,
+                }
+                for place in 0..clause.0.len() {
+                    for other in altered(&clause.0[place]) {
+                        let change =
+                            |f: &mut File| proof(f, (s, k)).invariant[number].0[place] = other;
+                        match refused(stored, change) {
+                            Some(why) => {
+                                assert!(why.contains("line "), "{why}");
+                                changed += 1;
+                            }
+                            None => kept += 1,
+                        }
+                    }
+                }
+            }
+        }
+    }
+    println!(
+        "refused: {dropped} without a clause, {changed} with a changed one; {kept} are proofs too"
+    );
+    assert!(
+        dropped > 10 && changed > 50 && kept < changed,
+        "{dropped} {changed} {kept}"
+    );
+}
+
+/// Other literals in its place.
+fn altered(literal: &Literal) -> Vec<Literal> {
+    match literal.clone() {
+        Literal::Bit { name, bit, set } => vec![
+            Literal::Bit {
+                name: name.clone(),
+                bit,
+                set: !set,
+            },
+            Literal::Bit {
+                name,
+                bit: bit + 1,
+                set,
+            },
+            Literal::Bit {
+                name: "nothing".into(),
+                bit,
+                set,
+            },
+        ],
+        Literal::Is { name, value, equal } => vec![
+            Literal::Is {
+                name: name.clone(),
+                value,
+                equal: !equal,
+            },
+            Literal::Is {
+                name,
+                value: value + 1,
+                equal,
+            },
+        ],
+        Literal::Most { name, other, shift } => vec![Literal::Most {
+            name,
+            other,
+            shift: shift - 1,
+        }],
+    }
+}
+
+#[test]
+fn another_verdict_is_refused_under_every_proof() {
+    let verdicts = [
+        Verdict::Holds,
+        Verdict::Violated,
+        Verdict::Vacuous,
+        Verdict::Reached,
+        Verdict::Unreachable,
+    ];
+    let mut tried = 0;
+    for stored in STORED {
+        let all = claims(stored);
+        for (s, k, claim) in &all {
+            for verdict in verdicts.into_iter().filter(|v| *v != claim.verdict) {
+                for (_, _, other) in all.iter().filter(|(other, _, _)| other == s) {
+                    let why = refused(stored, |f| {
+                        let own = &mut f.systems[*s].claims[*k];
+                        (own.verdict, own.run, own.proof) =
+                            (verdict, other.run.clone(), other.proof.clone());
+                        let task = &mut f.header.task[*s];
+                        for property in task.property.iter_mut().filter(|p| p.id == claim.id) {
+                            property.verdict = verdict;
+                        }
+                    });
+                    assert!(why.is_some(), "{} as {verdict:?} by {}", claim.id, other.id);
+                    tried += 1;
+                }
+            }
+        }
+    }
+    println!("{tried} wrong verdicts refused");
+    assert!(tried > 500, "{tried}");
+}
+
+#[test]
+fn a_dropped_or_changed_lemma_is_refused_or_not_needed() {
+    let (mut refusals, mut kept) = (0, 0);
+    for stored in STORED {
+        for (s, k, claim) in claims(stored) {
+            let Some(own) = &claim.proof else { continue };
+            for (part, lemmas) in own.lemmas.iter().enumerate() {
+                for (number, lemma) in lemmas.list.iter().enumerate() {
+                    let list = |f: &mut File, change: &dyn Fn(&mut Vec<Vec<i32>>)| {
+                        change(&mut proof(f, (s, k)).lemmas[part].list);
+                    };
+                    let mut whys = vec![refused(stored, |f| list(f, &|l| drop(l.remove(number))))];
+                    for place in 0..lemma.len() {
+                        whys.push(refused(stored, |f| list(f, &|l| l[number][place] *= -1)));
+                        let why = refused(stored, |f| list(f, &|l| l[number][place] = i32::MAX));
+                        assert!(why.is_some_and(|w| w.contains("does not follow")));
+                    }
+                    // Nothing follows from what is not there.
+                    let why = refused(stored, |f| {
+                        list(f, &|l| l.insert(number, vec![i32::MIN + 1]))
+                    });
+                    assert!(why.is_some_and(|w| w.contains("line ")));
+                    refusals += whys.iter().flatten().count();
+                    kept += whys.iter().filter(|w| w.is_none()).count();
+                }
+            }
+        }
+    }
+    println!("{refusals} refused, {kept} proofs too");
+    assert!(refusals > 20, "{refusals} {kept}");
+}
+
+#[test]
+fn another_subject_is_refused() {
+    let [pdr, induction, every] = STORED;
+    rejected("not the file", pdr, |f| {
+        f.header.file[0].sha256 = "0".repeat(64)
+    });
+    rejected("other parameter values", pdr, |f| {
+        f.header.task[0].parameters.insert("burn".into(), 2);
+    });
+    rejected("proofs for 2 systems", pdr, |f| drop(f.systems.pop()));
+    rejected("must stand here", pdr, |f| f.systems.swap(0, 1));
+    rejected("missing or not in its place", pdr, |f| {
+        f.systems[0].claims.swap(0, 1)
+    });
+    rejected("missing or not in its place", pdr, |f| {
+        drop(f.systems[0].claims.remove(0))
+    });
+    rejected("not one of the header", pdr, |f| {
+        let twice = f.systems[0].claims[0].clone();
+        f.systems[0].claims.push(twice);
+    });
+    rejected("speaks of states", pdr, |f| f.header.task[0].states = 15);
+    // A wider range, in which the lamp burns too long; an empty one; one that the file does not document.
+    let range = |range: (i64, i64)| move |f: &mut File| f.systems[0].every[0].1 = range;
+    rejected("says nothing", every, range((4, 1)));
+    rejected("there is no such configuration", every, range((7, 9)));
+    rejected("there is no parameter", every, |f| {
+        f.systems[0].every[0].0 = "left".into()
+    });
+    let again = |f: &mut File| {
+        let twice = f.systems[0].every[0].clone();
+        f.systems[0].every.push(twice);
+    };
+    rejected("not the only one", every, again);
+    // What holds for one value is not shown for all.
+    rejected("line ", pdr, |f| {
+        f.systems[0].every.push(("burn".into(), (1, 4)))
+    });
+    rejected("more than 1000 cycles", induction, |f| {
+        let known = f.systems[0]
+            .claims
+            .iter_mut()
+            .filter_map(|c| c.proof.as_mut());
+        known
+            .filter_map(|p| p.induction.as_mut())
+            .for_each(|i| i.cycles = 1 << 40);
+    });
+}
+
+#[test]
+fn a_shorter_induction_is_refused() {
+    let stored = STORED[1];
+    let mut tried = 0;
+    for (s, k, claim) in claims(stored) {
+        let Some(induction) = claim.proof.and_then(|p| p.induction) else {
+            continue;
+        };
+        if induction.cycles > 0 {
+            let why = refused(stored, |f| {
+                let own = proof(f, (s, k)).induction.as_mut().expect("induction");
+                own.cycles -= 1;
+                own.differ
+                    .retain(|(one, other)| one.max(other) <= &own.cycles);
+                proof(f, (s, k)).lemmas[3].list.clear();
+            });
+            assert!(why.is_some_and(|w| w.contains("line ")), "{}", claim.id);
+            tried += 1;
+        }
+        for pair in 0..induction.differ.len() {
+            let _ = refused(stored, |f| {
+                let own = proof(f, (s, k)).induction.as_mut().expect("induction");
+                own.differ[pair].1 = 999;
+            })
+            .expect("a cycle that there is not");
+        }
+    }
+    assert!(tried > 1, "{tried}");
+}
+
+#[test]
+fn a_run_that_does_something_else_is_refused() {
+    let mut runs = 0;
+    for stored in STORED {
+        for (s, k, claim) in claims(stored) {
+            let Some(run) = &claim.run else { continue };
+            runs += 1;
+            let change = |change: &dyn Fn(&mut Run)| {
+                let why = refused(stored, |f| {
+                    change(f.systems[s].claims[k].run.as_mut().expect("a run"));
+                });
+                assert!(why.is_some_and(|w| w.contains("line ")), "{}", claim.id);
+            };
+            change(&|run| run.cycles.clear());
+            change(&|run| run.cycles[0].push(("nothing".into(), 0)));
+            change(&|run| run.cycles[0].push(("lamp.colour".into(), 7)));
+            change(&|run| run.start.push(("lamp.left".into(), 1)));
+            change(&|run| run.start.push(("nothing".into(), 0)));
+            change(&|run| run.with.push(("burn".into(), 3)));
+            if !run.with.is_empty() {
+                change(&|run| run.with.clear());
+                change(&|run| run.with[0].1 = 5);
+            }
+            let why = refused(stored, |f| f.systems[s].claims[k].run = None);
+            assert!(why.is_some(), "{}", claim.id);
+        }
+    }
+    assert!(runs > 15, "{runs}");
+}
+
+#[test]
+fn no_flipped_bit_and_no_cut_goes_unnoticed() {
+    let stored = STORED[0];
+    let mut bytes = stored.as_bytes().to_vec();
+    for place in 0..bytes.len() {
+        let bit = 1 << (place % 8);
+        bytes[place] ^= bit;
+        assert!(
+            certify_bytes(&bytes, Some(&forms()), 1).is_err(),
+            "byte {place}"
+        );
+        bytes[place] ^= bit;
+    }
+    let mut end = 0;
+    for line in stored.split_inclusive('\n') {
+        match certified(&stored[..end]) {
+            Err(Failure::Rejected(why)) => assert!(why.starts_with("line "), "{why}"),
+            Err(Failure::Unreadable(_)) => assert_eq!(end, 0),
+            Ok(_) => panic!("{end} bytes"),
+        }
+        end += line.len();
+    }
+}
+
+/// Lines left out, doubled or exchanged, with a right checksum: nothing is confirmed that the original does not say.
+#[test]
+fn changed_lines_with_a_right_checksum_claim_nothing_else() {
+    use sha2::{Digest, Sha256};
+    let (mut confirmed, mut tried) = (0, 0);
+    for stored in STORED {
+        let verdicts = |c: &Confirmed| -> Vec<Vec<Verdict>> {
+            let tasks = c.header.task.iter();
+            tasks
+                .map(|t| t.property.iter().map(|p| p.verdict).collect())
+                .collect()
+        };
+        let original = certified(stored).expect("confirmed");
+        let lines: Vec<&str> = stored.lines().collect();
+        let lines = &lines[..lines.len() - 1];
+        for place in 0..lines.len() {
+            let mut without = lines.to_vec();
+            without.remove(place);
+            let mut doubled = lines.to_vec();
+            doubled.insert(place, lines[place]);
+            let mut swapped = lines.to_vec();
+            swapped.swap(place, (place + 1) % lines.len());
+            for changed in [without, doubled, swapped] {
+                let content = changed.join("\n") + "\n";
+                let digits = Sha256::digest(content.as_bytes());
+                tried += 1;
+                if let Ok(other) = certified(&format!("{content}sha256 {digits:x}\n")) {
+                    assert_eq!(verdicts(&other), verdicts(&original));
+                    confirmed += 1;
+                }
+            }
+        }
+    }
+    println!("{tried} changed certificates, {confirmed} of them with the same claims");
+    assert!(tried - confirmed > 500, "{confirmed} of {tried}");
+}
+
+/// An invariant that excludes nothing, one that excludes a start state, and one that a cycle leaves.
+#[test]
+fn each_of_the_three_obligations_is_asked_for() {
+    let stored = STORED[0];
+    let place = claims(stored)
+        .into_iter()
+        .find(|(_, _, c)| c.id == "ALWAYS" && c.verdict == Verdict::Holds);
+    let (s, k, _) = place.expect("claimed");
+    let with = |clauses: Vec<&'static str>| {
+        move |f: &mut File| {
+            let own = proof(f, (s, k));
+            let read = |c: &&str| Clause::read(c.split(' ')).expect("a clause");
+            own.invariant = clauses.iter().map(read).collect();
+            own.lemmas.iter_mut().for_each(|l| l.list.clear());
+        }
+    };
+    rejected("to exclude what must not happen", stored, with(vec![]));
+    rejected("holds at the start", stored, with(vec!["lamp.left=1"]));
+    rejected(
+        "every cycle keeps this clause",
+        stored,
+        with(vec!["lamp.left=0"]),
+    );
+    rejected(
+        "there is no `lamp.right`",
+        stored,
+        with(vec!["lamp.right=0"]),
+    );
+}

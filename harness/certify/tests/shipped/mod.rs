@@ -1,0 +1,57 @@
+//! The shipped systems, and values at random for them.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use stillpoint_certify::format::Kind;
+use stillpoint_certify::subject::Subject;
+use stillpoint_lang::bind::Bound;
+
+/// Numbers at random, the same ones each time (xorshift).
+pub struct Random(pub u64);
+
+impl Random {
+    pub fn below(&mut self, count: u64) -> u64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 >> 16) % count
+    }
+
+    pub fn value(&mut self, (lo, hi): (i32, i32)) -> i32 {
+        lo.wrapping_add_unsigned(self.below(u64::from(hi.abs_diff(lo)) + 1) as u32)
+    }
+
+    pub fn inputs(&mut self, bound: &Bound) -> Vec<i32> {
+        bound
+            .inputs
+            .iter()
+            .map(|range| self.value(*range))
+            .collect()
+    }
+}
+
+/// All files of the specification: those that do not load by themselves are parts of others.
+pub fn subjects() -> Vec<Subject> {
+    let mut folders: Vec<PathBuf> = vec![Path::new(env!("CARGO_MANIFEST_DIR")).join("../../spec")];
+    let mut subjects = Vec::new();
+    while let Some(folder) = folders.pop() {
+        let entries = std::fs::read_dir(folder).expect("a folder");
+        let mut paths: Vec<PathBuf> = entries.map(|e| e.expect("an entry").path()).collect();
+        paths.sort();
+        for path in paths {
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|e| e == "toml") {
+                let machine = path.parent().is_some_and(|p| p.ends_with("machines"));
+                let kind = if machine {
+                    Kind::Machine
+                } else {
+                    Kind::Specification
+                };
+                subjects.extend(Subject::load(&path, kind, &BTreeMap::new()));
+            }
+        }
+    }
+    subjects
+}
