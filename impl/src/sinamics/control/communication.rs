@@ -111,8 +111,6 @@ fields! {
         pub watch: Cycles,
         /// What is left of ESR.
         pub esr: Cycles,
-        /// ESR has run: STOP A, whatever p9612 says.
-        pub ended: bool,
     }
 }
 
@@ -122,7 +120,6 @@ impl State {
         phase: Phase::Starting,
         watch: Cycles::ZERO,
         esr: Cycles::ZERO,
-        ended: false,
     };
 
     /// Timers run in their phases and within their bounds.
@@ -133,7 +130,6 @@ impl State {
             && (self.phase == Phase::Delayed) != self.esr.is_zero()
             && (self.phase != Phase::Starting || self.watch.is_zero())
             && (self.phase != Phase::Running || !self.watch.is_zero())
-            && (self.phase == Phase::Failed || !self.ended)
     }
 }
 
@@ -197,7 +193,7 @@ monitor! { sinamics::communication;
             => if s.before.esr > Cycles::new(1) {
                 s.after.phase == Phase::Delayed && s.after.esr == s.before.esr.tick() && s.outputs.esr
             } else {
-                s.after.phase == Phase::Failed && s.outputs.request == Stop::A && s.after.ended
+                s.after.phase == Phase::Failed && s.outputs.request == Stop::A
             };
 
     /// A failure stays until it is acknowledged while there is communication, or POWER ON.
@@ -261,13 +257,9 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
             after.esr = after.esr.tick();
             if after.esr.is_zero() {
                 after.phase = Phase::Failed;
-                after.ended = true;
             }
         }
-        Phase::Failed if valid && inputs.acknowledge => {
-            after.phase = Phase::Running;
-            after.ended = false;
-        }
+        Phase::Failed if valid && inputs.acknowledge => after.phase = Phase::Running,
         Phase::Starting | Phase::Running | Phase::Failed => {}
     }
     let outputs = Outputs {
