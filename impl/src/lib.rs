@@ -30,6 +30,7 @@ pub mod contract;
 pub mod mutant;
 pub mod heidenhain;
 pub mod kernel;
+pub mod sinamics;
 pub mod sinumerik;
 pub mod srm;
 pub mod units;
