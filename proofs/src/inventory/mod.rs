@@ -294,6 +294,7 @@ macro_rules! inventory {
 }
 
 mod heidenhain;
+mod sinamics;
 mod sinumerik;
 mod srm;
 
@@ -302,7 +303,8 @@ pub fn all() -> impl Iterator<Item = &'static Entry> {
     let families = sinumerik::ENTRIES
         .into_iter()
         .chain(heidenhain::ENTRIES)
-        .chain(srm::ENTRIES);
+        .chain(srm::ENTRIES)
+        .chain(sinamics::ENTRIES);
     families.flatten()
 }
 

@@ -69,6 +69,7 @@ pub fn clauses<M: Contract>() -> Vec<ClauseText> {
 }
 
 pub mod heidenhain;
+pub mod sinamics;
 pub mod sinumerik;
 pub mod srm;
 
@@ -77,6 +78,8 @@ pub mod srm;
 pub struct Subject {
     /// HEIDENHAIN Functional Safety.
     pub heidenhain: heidenhain::Subject,
+    /// SINAMICS S120.
+    pub sinamics: sinamics::Subject,
     /// SINUMERIK 840D.
     pub sinumerik: sinumerik::Subject,
     /// Fail-safe blocks for storage and retrieval machines.
@@ -87,6 +90,7 @@ impl Subject {
     /// The production monitors.
     pub const PRODUCTION: Self = Self {
         heidenhain: heidenhain::Subject::PRODUCTION,
+        sinamics: sinamics::Subject::PRODUCTION,
         sinumerik: sinumerik::Subject::PRODUCTION,
         srm: srm::Subject::PRODUCTION,
     };

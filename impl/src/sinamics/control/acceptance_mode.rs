@@ -6,7 +6,7 @@ config! {
     /// The longest duration, p9558.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub struct Config {
-        duration: Cycles,
+        pub(crate) duration: Cycles,
     }
 }
 

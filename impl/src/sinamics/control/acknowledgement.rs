@@ -11,9 +11,9 @@ config! {
     /// The sources that are enabled.
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
     pub struct Config {
-        input: bool,
-        profisafe: bool,
-        extended: bool,
+        pub(crate) input: bool,
+        pub(crate) profisafe: bool,
+        pub(crate) extended: bool,
     } accepted |_config| true
 }
 

@@ -12,7 +12,7 @@ config! {
     /// The time from STOP F to STOP A (p9658); 0: at once, which is the factory setting.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub struct Config {
-        delay: Cycles,
+        pub(crate) delay: Cycles,
     }
 }
 

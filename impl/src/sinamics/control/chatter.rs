@@ -8,7 +8,7 @@ config! {
     /// The tolerance time p9650.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub struct Config {
-        rest: Cycles,
+        pub(crate) rest: Cycles,
     }
 }
 

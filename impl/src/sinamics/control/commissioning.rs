@@ -4,7 +4,7 @@ config! {
     /// Whether a safety function is enabled.
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
     pub struct Config {
-        enabled: bool,
+        pub(crate) enabled: bool,
     } accepted |_config| true
 }
 

@@ -21,10 +21,10 @@ config! {
     /// The times in cycles and the reaction.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub struct Config {
-        watchdog: Cycles,
-        esr: Cycles,
-        profisafe: bool,
-        stop_b: bool,
+        pub(crate) watchdog: Cycles,
+        pub(crate) esr: Cycles,
+        pub(crate) profisafe: bool,
+        pub(crate) stop_b: bool,
     }
 }
 
@@ -69,9 +69,8 @@ impl Config {
         if esr_ms > LONGEST_ESR_MS {
             return Err(ConfigError::DelayTooLong);
         }
-        let cycles = |ms| {
-            Cycles::from_millis_down(ms, cycle_us).map_err(|_| ConfigError::DelayTooLong)
-        };
+        let cycles =
+            |ms| Cycles::from_millis_down(ms, cycle_us).map_err(|_| ConfigError::DelayTooLong);
         Self::new(cycles(watchdog_ms)?, cycles(esr_ms)?, profisafe, stop_b)
     }
 

@@ -51,8 +51,7 @@ impl ControlPath {
     /// Control over the F-DI of a TM54F: Basic Functions by bit 6, Extended ones where neither PROFIsafe nor no selection is set. Of
     /// a CU310-2 these are its own F-DI.
     pub const fn inputs(self) -> bool {
-        self.code & 0x40 != 0
-            || (self.extended() && !self.profisafe() && !self.without_selection())
+        self.code & 0x40 != 0 || (self.extended() && !self.profisafe() && !self.without_selection())
     }
 
     /// Whether STO can be selected from outside.
@@ -103,8 +102,12 @@ mod tests {
         let path = |code| ControlPath::new(code).expect("printed");
         assert!(path(0x0d).terminals() && path(0x0d).profisafe() && path(0x0d).extended());
         assert!(path(0x41).inputs() && !path(0x41).extended() && path(0x05).inputs());
-        assert!(path(0x24).without_selection() && !path(0x24).inputs() && !path(0x24).selects_sto());
-        assert!(!path(0x0c).shares_unit_with(path(0x04)) && path(0x0c).shares_unit_with(path(0x01)));
+        assert!(
+            path(0x24).without_selection() && !path(0x24).inputs() && !path(0x24).selects_sto()
+        );
+        assert!(
+            !path(0x0c).shares_unit_with(path(0x04)) && path(0x0c).shares_unit_with(path(0x01))
+        );
     }
 
     /// S120-PSAFE-503, S120-PSAFE-504.
@@ -113,7 +116,10 @@ mod tests {
         assert!(same_telegram(31, 31) && same_telegram(0, 998));
         assert!(!same_telegram(31, 30) && !same_telegram(32, 32) && !same_telegram(30, 998));
         assert_eq!(address(200, 200), Ok(200));
-        assert_eq!((address(0, 0).is_err(), address(65_535, 65_535).is_err()), (true, true));
+        assert_eq!(
+            (address(0, 0).is_err(), address(65_535, 65_535).is_err()),
+            (true, true)
+        );
         assert!(address(1, 2).is_err());
     }
 }

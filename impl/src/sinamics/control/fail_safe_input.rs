@@ -11,8 +11,8 @@ config! {
     /// The discrepancy time p10002 and the kind of input 2 (p10040).
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub struct Config {
-        tolerance: Cycles,
-        normally_open: bool,
+        pub(crate) tolerance: Cycles,
+        pub(crate) normally_open: bool,
     }
 }
 
@@ -240,8 +240,14 @@ mod tests {
     #[test]
     fn the_printed_truth_tables() {
         let inputs = [(false, false), (false, true), (true, false), (true, true)];
-        assert_eq!(inputs.map(|(a, b)| value(false, a, b)), [false, false, false, true]);
-        assert_eq!(inputs.map(|(a, b)| value(true, a, b)), [false, false, true, false]);
+        assert_eq!(
+            inputs.map(|(a, b)| value(false, a, b)),
+            [false, false, false, true]
+        );
+        assert_eq!(
+            inputs.map(|(a, b)| value(true, a, b)),
+            [false, false, true, false]
+        );
     }
 
     /// S120-FDI-503, S120-FDI-504: frozen at 0, until it is acknowledged; both level inputs frozen are level 00.

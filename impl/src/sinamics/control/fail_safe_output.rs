@@ -6,8 +6,8 @@ config! {
     /// How the output is wired.
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
     pub struct Config {
-        connected: [bool; 6],
-        tested: bool,
+        pub(crate) connected: [bool; 6],
+        pub(crate) tested: bool,
     } accepted |_config| true
 }
 

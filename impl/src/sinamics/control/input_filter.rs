@@ -10,7 +10,7 @@ config! {
     /// The filter time in cycles; 0: none.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub struct Config {
-        time: Cycles,
+        pub(crate) time: Cycles,
     } accepted |_config| true
 }
 

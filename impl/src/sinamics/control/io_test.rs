@@ -86,11 +86,11 @@ config! {
     /// What is tested, how, and when.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub struct Config {
-        tm54f: bool,
-        mode: Mode,
-        read: Cycles,
-        interval: Cycles,
-        automatic: bool,
+        pub(crate) tm54f: bool,
+        pub(crate) mode: Mode,
+        pub(crate) read: Cycles,
+        pub(crate) interval: Cycles,
+        pub(crate) automatic: bool,
     }
 }
 
@@ -336,11 +336,7 @@ fn outputs(state: &State) -> Outputs {
         running,
         due: state.interval.is_zero(),
         fault: state.failed,
-        fault_step: if state.failed {
-            state.step
-        } else {
-            Step::Idle
-        },
+        fault_step: if state.failed { state.step } else { Step::Idle },
         l1: !running || state.step != Step::FirstInputs,
         l2: !running || state.step != Step::SecondInputs,
         plus: running && plus,
@@ -364,7 +360,11 @@ mod tests {
         ];
         for (step, switches, levels) in steps {
             assert_eq!(step.switches(), switches);
-            assert_eq!(Mode::ALL.map(|mode| step.expected(mode)), levels, "{step:?}");
+            assert_eq!(
+                Mode::ALL.map(|mode| step.expected(mode)),
+                levels,
+                "{step:?}"
+            );
         }
     }
 

@@ -112,7 +112,11 @@ mod tests {
         ];
         for (function, cells) in rows {
             for (stop, cell) in stops.into_iter().zip(cells.split(' ')) {
-                assert_eq!(function.covers(stop), cell.len() > 1, "{function:?} {stop:?}");
+                assert_eq!(
+                    function.covers(stop),
+                    cell.len() > 1,
+                    "{function:?} {stop:?}"
+                );
             }
         }
         assert!(stops.is_sorted_by(|high, low| high > low));

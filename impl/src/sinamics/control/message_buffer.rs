@@ -241,12 +241,21 @@ mod tests {
             ..Inputs::default()
         };
         buffer.step(&acknowledge);
-        assert_eq!(buffer.state().acknowledged[0].codes, [1701, 1703, 1706, 1709, 0, 0, 0, 0]);
+        assert_eq!(
+            buffer.state().acknowledged[0].codes,
+            [1701, 1703, 1706, 1709, 0, 0, 0, 0]
+        );
         assert_eq!(buffer.state().changes, 10);
         for _ in 0..7 {
             buffer.step(&message(1711));
             buffer.step(&acknowledge);
         }
-        assert!(buffer.state().acknowledged.iter().all(|case| !case.is_empty()));
+        assert!(
+            buffer
+                .state()
+                .acknowledged
+                .iter()
+                .all(|case| !case.is_empty())
+        );
     }
 }

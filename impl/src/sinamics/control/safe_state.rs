@@ -13,8 +13,8 @@ config! {
     /// The functions and the drives of the group.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub struct Config {
-        functions: u8,
-        drives: u8,
+        pub(crate) functions: u8,
+        pub(crate) drives: u8,
     }
 }
 

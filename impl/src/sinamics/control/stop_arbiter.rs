@@ -17,13 +17,13 @@ config! {
     /// Times in monitoring cycles (p9500). 0 means at once.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub struct Config {
-        t_b: Cycles,
-        t_c: Cycles,
-        t_d: Cycles,
-        t_e: Cycles,
-        t_f: Cycles,
-        external: bool,
-        hysteresis: bool,
+        pub(crate) t_b: Cycles,
+        pub(crate) t_c: Cycles,
+        pub(crate) t_d: Cycles,
+        pub(crate) t_e: Cycles,
+        pub(crate) t_f: Cycles,
+        pub(crate) external: bool,
+        pub(crate) hysteresis: bool,
     }
 }
 
@@ -124,8 +124,8 @@ impl State {
             Phase::Holding => self.stop.ends_in_standstill(),
             Phase::PulsesOff => self.stop.cancels_pulses(),
         };
-        let timed = self.phase == Phase::Running
-            || (self.phase == Phase::Covered && self.stop == Stop::B);
+        let timed =
+            self.phase == Phase::Running || (self.phase == Phase::Covered && self.stop == Stop::B);
         phase_fits
             && self.timer <= config.time(self.stop)
             && self.timer.is_zero() != timed
@@ -505,9 +505,7 @@ mod tests {
 
     fn arbiter(hysteresis: bool) -> Monitor {
         let [t_b, t_c, t_d, t_e, t_f] = [3, 4, 2, 2, 2].map(Cycles::new);
-        Monitor::new(
-            Config::new(t_b, t_c, t_d, t_e, t_f, false, hysteresis).expect("short times"),
-        )
+        Monitor::new(Config::new(t_b, t_c, t_d, t_e, t_f, false, hysteresis).expect("short times"))
     }
 
     fn request(request: Stop) -> Inputs {
@@ -527,7 +525,10 @@ mod tests {
         };
         assert!(arbiter.step(&watched).off3);
         for _ in 0..3 {
-            assert!(arbiter.step(&watched).off3, "repeated requests restart nothing");
+            assert!(
+                arbiter.step(&watched).off3,
+                "repeated requests restart nothing"
+            );
         }
         let held = arbiter.step(&request(Stop::None));
         assert!(held.sos && held.setpoint_zero && !held.off3);

@@ -12,7 +12,7 @@ config! {
     /// The tolerance time p9650.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub struct Config {
-        tolerance: Cycles,
+        pub(crate) tolerance: Cycles,
     }
 }
 

@@ -79,7 +79,10 @@ mod tests {
         assert_eq!(sls_limit(32_767, 2_000), Some(2_000));
         assert_eq!(sls_limit(1, 2_000), Some(0));
         assert_eq!(sls_limit(16_384, 32_767), Some(16_384));
-        assert_eq!([0, 32_768, u16::MAX].map(|n| sls_limit(n, 2_000)), [None; 3]);
+        assert_eq!(
+            [0, 32_768, u16::MAX].map(|n| sls_limit(n, 2_000)),
+            [None; 3]
+        );
         assert_eq!(sls_limit_active(2_000, 2_000), Some(32_767));
         assert_eq!(sls_limit_active(2_001, 2_000), None);
     }
