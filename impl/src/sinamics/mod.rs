@@ -7,7 +7,7 @@
 #[macro_export]
 macro_rules! sinamics_monitors {
     ($callback:ident $($more:tt)*) => { $callback! { sinamics [$($more)*]
-        input_filter terminal_pair chatter basic_stop fail_safe_input fail_safe_output safe_state
+        input_filter terminal_pair chatter basic_selection basic_stop fail_safe_input fail_safe_output safe_state
         stop_arbiter acknowledgement_edge acknowledgement restart communication io_test message_buffer
         acceptance_mode commissioning
     } };

@@ -65,9 +65,39 @@ impl ControlPath {
     }
 }
 
-/// Whether the terminals select SS1 and not STO: the delay p9652 is not 0 (S120-CTRL-517).
-pub const fn terminals_select_ss1(delay_ms: u32) -> bool {
-    delay_ms > 0
+/// Where the selection of one function comes from, with control over F-DI (S120-CTRL-519).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Source {
+    /// Statically inactive: never selected.
+    Inactive,
+    /// Statically selected.
+    Selected,
+    /// The F-DI of this number, 0 to 9.
+    Input(u8),
+}
+
+impl Source {
+    /// Whether the function is selected. `values`: those of the F-DI, by bit; 0 selects, and so does an F-DI that does not exist
+    /// (S120-CTRL-519).
+    pub const fn selects(self, values: u16) -> bool {
+        match self {
+            Self::Inactive => false,
+            Self::Selected => true,
+            Self::Input(number) => number > 9 || (values >> number) & 1 == 0,
+        }
+    }
+}
+
+/// What motion monitoring without selection selects for ever: SLS, SDI positive, SDI negative (S120-CTRL-518). `functions`: p9512;
+/// `enabled`: p9501, of which bit 0 is needed for all and bit 17 for SDI.
+pub const fn without_selection(functions: u32, enabled: u32) -> (bool, bool, bool) {
+    let any = enabled & 1 != 0;
+    let direction = any && enabled & (1 << 17) != 0;
+    (
+        any && functions & (1 << 4) != 0,
+        direction && functions & (1 << 12) != 0,
+        direction && functions & (1 << 13) != 0,
+    )
 }
 
 /// Whether telegram p60022 and its safe copy p9611 are the same: equal, or 0 and 998, which is telegram 30 (S120-PSAFE-503).
@@ -107,6 +137,27 @@ mod tests {
         );
         assert!(
             !path(0x0c).shares_unit_with(path(0x04)) && path(0x0c).shares_unit_with(path(0x01))
+        );
+    }
+
+    /// S120-CTRL-519, S120-FDI-504: two frozen level inputs select level 00, SLS1; one input may serve several functions.
+    #[test]
+    fn sources_of_the_selection() {
+        let input = Source::Input(3);
+        assert!(input.selects(0) && !input.selects(1 << 3) && Source::Input(10).selects(u16::MAX));
+        assert!(Source::Selected.selects(u16::MAX) && !Source::Inactive.selects(0));
+    }
+
+    /// S120-CTRL-518.
+    #[test]
+    fn functions_without_selection() {
+        let all = 1 << 4 | 1 << 12 | 1 << 13;
+        assert_eq!(without_selection(all, 1 | 1 << 17), (true, true, true));
+        assert_eq!(without_selection(all, 1), (true, false, false));
+        assert_eq!(without_selection(all, 1 << 17), (false, false, false));
+        assert_eq!(
+            without_selection(1 << 12, 1 | 1 << 17),
+            (false, true, false)
         );
     }
 

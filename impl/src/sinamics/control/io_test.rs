@@ -26,7 +26,7 @@ fields! {
 fields! {
     /// The step of the test.
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-    pub enum Step {
+    pub enum TestStep {
         /// No test.
         #[default]
         Idle,
@@ -47,7 +47,7 @@ fields! {
     }
 }
 
-impl Step {
+impl TestStep {
     /// The switches DO+ and DO- (S120-TESTSTOP-503).
     pub const fn switches(self) -> (bool, bool) {
         match self {
@@ -119,11 +119,11 @@ impl Config {
         })
     }
 
-    const fn first(&self) -> Step {
+    const fn first(&self) -> TestStep {
         if self.tm54f {
-            Step::FirstInputs
+            TestStep::FirstInputs
         } else {
-            Step::Output1
+            TestStep::Output1
         }
     }
 }
@@ -133,7 +133,7 @@ fields! {
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
     pub struct State {
         /// The step of the test, or that in which it has failed.
-        pub step: Step,
+        pub step: TestStep,
         /// The test has failed.
         pub failed: bool,
         /// What is left of the time to read the level.
@@ -148,7 +148,7 @@ fields! {
 impl State {
     /// POWER ON: the test is due.
     pub const INITIAL: Self = Self {
-        step: Step::Idle,
+        step: TestStep::Idle,
         failed: false,
         timer: Cycles::ZERO,
         interval: Cycles::ZERO,
@@ -158,12 +158,13 @@ impl State {
     /// The timer runs exactly during a test; a test that has failed is due.
     #[cfg_attr(creusot, creusot_contracts::macros::logic)]
     pub fn invariant(&self, config: &Config) -> bool {
-        let running = self.step != Step::Idle && !self.failed;
+        let running = self.step != TestStep::Idle && !self.failed;
         running != self.timer.is_zero()
             && self.timer <= config.read
             && self.interval <= config.interval
-            && (!self.failed || (self.step != Step::Idle && self.interval.is_zero()))
-            && (config.tm54f || !matches!(self.step, Step::FirstInputs | Step::SecondInputs))
+            && (!self.failed || (self.step != TestStep::Idle && self.interval.is_zero()))
+            && (config.tm54f
+                || !matches!(self.step, TestStep::FirstInputs | TestStep::SecondInputs))
     }
 }
 
@@ -199,7 +200,7 @@ fields! {
         /// The test has failed, F01773 or F35013.
         pub fault: bool,
         /// The step that has failed.
-        pub fault_step: Step,
+        pub fault_step: TestStep,
         /// L1+ is on.
         pub l1: bool,
         /// L2+ is on.
@@ -214,8 +215,8 @@ fields! {
 /// Whether the step reads what it must.
 const fn seen(state: &State, config: &Config, inputs: &Inputs) -> bool {
     let level = match state.step {
-        Step::FirstInputs => inputs.first_inputs,
-        Step::SecondInputs => inputs.second_inputs,
+        TestStep::FirstInputs => inputs.first_inputs,
+        TestStep::SecondInputs => inputs.second_inputs,
         _ => inputs.read_back,
     };
     level == state.step.expected(config.mode)
@@ -234,7 +235,7 @@ monitor! { sinamics::io_test;
 
     /// Such an edge begins it.
     edge_begins_the_test ["S120-TESTSTOP-501", "S120-TESTSTOP-506"]:
-        when |s| s.inputs.start && !s.before.started && s.inputs.ready && !s.inputs.power_on && s.before.step == Step::Idle
+        when |s| s.inputs.start && !s.before.started && s.inputs.ready && !s.inputs.power_on && s.before.step == TestStep::Idle
             => s.outputs.running;
 
     /// The steps follow each other in their order, each once its level was seen.
@@ -256,7 +257,7 @@ monitor! { sinamics::io_test;
     /// Only a test that has passed ends its being due, and begins the interval.
     passed_test_is_not_due ["S120-TESTSTOP-500", "S120-TESTSTOP-507", "S120-TESTSTOP-520", "S120-PC-22"]:
         when |s| s.before.interval.is_zero() && !s.outputs.due
-            => s.before.step == Step::Output5 && !s.before.failed && !s.inputs.power_on && !s.outputs.running
+            => s.before.step == TestStep::Output5 && !s.before.failed && !s.inputs.power_on && !s.outputs.running
                 && seen(&s.before, &s.config, &s.inputs) && s.after.interval == s.config.interval;
 
     /// The interval ends in its time, and each POWER ON ends it.
@@ -273,8 +274,8 @@ monitor! { sinamics::io_test;
     switches_belong_to_the_step ["S120-TESTSTOP-503", "S120-TESTSTOP-504", "S120-TESTSTOP-505", "S120-TESTSTOP-509"]:
         when |s| s.outputs.running
             => (s.outputs.plus, s.outputs.minus) == s.after.step.switches()
-                && s.outputs.l1 == (s.after.step != Step::FirstInputs)
-                && s.outputs.l2 == (s.after.step != Step::SecondInputs);
+                && s.outputs.l1 == (s.after.step != TestStep::FirstInputs)
+                && s.outputs.l2 == (s.after.step != TestStep::SecondInputs);
 
     /// Without a running test nothing is switched, whatever is due or has failed.
     due_test_changes_nothing ["S120-TESTSTOP-513", "S120-PC-22"]:
@@ -305,9 +306,9 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
     if before.failed {
         if inputs.acknowledge {
             after.failed = false;
-            after.step = Step::Idle;
+            after.step = TestStep::Idle;
         }
-    } else if before.step == Step::Idle {
+    } else if before.step == TestStep::Idle {
         if begins {
             after.step = config.first();
             after.timer = config.read;
@@ -315,7 +316,7 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
     } else if seen(&before, config, inputs) {
         after.step = before.step.following();
         after.timer = config.read;
-        if after.step == Step::Idle {
+        if after.step == TestStep::Idle {
             after.timer = Cycles::ZERO;
             after.interval = config.interval;
         }
@@ -330,15 +331,19 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
 }
 
 fn outputs(state: &State) -> Outputs {
-    let running = state.step != Step::Idle && !state.failed;
+    let running = state.step != TestStep::Idle && !state.failed;
     let (plus, minus) = state.step.switches();
     Outputs {
         running,
         due: state.interval.is_zero(),
         fault: state.failed,
-        fault_step: if state.failed { state.step } else { Step::Idle },
-        l1: !running || state.step != Step::FirstInputs,
-        l2: !running || state.step != Step::SecondInputs,
+        fault_step: if state.failed {
+            state.step
+        } else {
+            TestStep::Idle
+        },
+        l1: !running || state.step != TestStep::FirstInputs,
+        l2: !running || state.step != TestStep::SecondInputs,
         plus: running && plus,
         minus: running && minus,
     }
@@ -352,11 +357,11 @@ mod tests {
     #[test]
     fn the_printed_steps() {
         let steps = [
-            (Step::Output1, (false, false), [false, true, true]),
-            (Step::Output2, (true, true), [false, false, false]),
-            (Step::Output3, (false, true), [false, false, true]),
-            (Step::Output4, (true, false), [true, false, true]),
-            (Step::Output5, (false, false), [false, true, true]),
+            (TestStep::Output1, (false, false), [false, true, true]),
+            (TestStep::Output2, (true, true), [false, false, false]),
+            (TestStep::Output3, (false, true), [false, false, true]),
+            (TestStep::Output4, (true, false), [true, false, true]),
+            (TestStep::Output5, (false, false), [false, true, true]),
         ];
         for (step, switches, levels) in steps {
             assert_eq!(step.switches(), switches);
@@ -392,6 +397,6 @@ mod tests {
             outputs
         };
         assert!(!run(false).due && !run(false).fault);
-        assert!(run(true).due && run(true).fault_step == Step::Output1);
+        assert!(run(true).due && run(true).fault_step == TestStep::Output1);
     }
 }

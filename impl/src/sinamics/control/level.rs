@@ -24,6 +24,25 @@ fields! {
 }
 
 impl Stop {
+    /// The stop of a configured response (p9562, p9563, p9566), and whether it delays the pulse cancellation when the bus fails: 0 to 4
+    /// are STOP A to E, 10 to 14 the same with the delay (S120-STOP-518; the manual prints 0 and 1, and that codes from 10 on
+    /// delay). `None` for any other code.
+    pub const fn of_code(code: u32) -> Option<(Self, bool)> {
+        let stop = match code % 10 {
+            0 => Self::A,
+            1 => Self::B,
+            2 => Self::C,
+            3 => Self::D,
+            4 => Self::E,
+            _ => return None,
+        };
+        if code < 20 {
+            Some((stop, code >= 10))
+        } else {
+            None
+        }
+    }
+
     /// Whether it ends in standstill with pulses.
     pub const fn ends_in_standstill(self) -> bool {
         matches!(self, Self::E | Self::D | Self::C)
@@ -97,6 +116,19 @@ impl Function {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// S120-STOP-518: the printed codes 0 and 1, those of the examples, and from 10 on.
+    #[test]
+    fn the_codes_of_the_responses() {
+        let codes = [0, 1, 2, 10, 14].map(Stop::of_code);
+        let stops = [Stop::A, Stop::B, Stop::C, Stop::A, Stop::E].map(Some);
+        assert_eq!(codes.map(|code| code.map(|(stop, _)| stop)), stops);
+        assert_eq!(
+            codes.map(|code| code.is_some_and(|(_, delayed)| delayed)),
+            [false, false, false, true, true]
+        );
+        assert_eq!([5, 9, 15, 20, u32::MAX].map(Stop::of_code), [None; 5]);
+    }
 
     /// S120-STOP-509, S120-STOP-510, S120-STOP-511, S120-STOP-512, S120-STOP-513, S120-STOP-514, S120-STOP-515: table 9-3 as it
     /// is printed; the cells in which the function goes on are those with its name.

@@ -4,6 +4,7 @@
 //! | --- | --- |
 //! | [`input_filter`] | filter of one input against test pulses (p9651, p10017) |
 //! | [`terminal_pair`], [`chatter`] | terminals of the Basic Functions: discrepancy, too frequent switching |
+//! | [`basic_selection`] | STO and SS1 over terminals and PROFIsafe in parallel |
 //! | [`basic_stop`] | STOP F and STOP A of the Basic Functions |
 //! | [`fail_safe_input`] | F-DI of TM54F and CU310-2 |
 //! | [`fail_safe_output`], [`safe_state`] | F-DO, and the signal Safe State |
@@ -19,6 +20,7 @@
 pub mod acceptance_mode;
 pub mod acknowledgement;
 pub mod acknowledgement_edge;
+pub mod basic_selection;
 pub mod basic_stop;
 pub mod chatter;
 pub mod commissioning;

@@ -16,6 +16,11 @@ inventory! {
         tries: "rest: 1..3; unrested: 0..3; watch: 0..15",
         caveat: "longer times only under Kani and in samples",
     }]
+    [contract s120_basic_selection_contract on sinamics::basic_selection {
+        property: "every clause of the selection of Basic Functions: paths in parallel, STO before SS1",
+        tries: "",
+        caveat: "none",
+    }]
     [contract s120_basic_stop_contract on sinamics::basic_stop {
         property: "every clause of STOP F and A of the Basic Functions: delay, internal and general acknowledgement, lock",
         tries: "delay: 0..3 max; timer: 0..3 max",

@@ -3,8 +3,8 @@
 use crate::kernel::Cycles;
 use crate::sinamics::level::Stop;
 use crate::sinamics::{
-    chatter, communication, fail_safe_input, fail_safe_output, input_filter, restart, safe_state,
-    terminal_pair,
+    basic_selection, chatter, communication, fail_safe_input, fail_safe_output, input_filter,
+    restart, safe_state, terminal_pair,
 };
 
 variants! { sinamics::input_filter:
@@ -215,5 +215,23 @@ variants! { sinamics::restart:
     "restart-by-level" |mut state, config, inputs| {
         state.last &= state.phase != restart::Phase::Ready;
         restart::transition(state, config, inputs)
+    }
+}
+
+variants! { sinamics::basic_selection:
+    /// SS1 of the terminals keeps STO of PROFIsafe waiting.
+    "basic-selection-ss1-first" |state, config, inputs| {
+        let (after, mut outputs) = basic_selection::transition(state, config, inputs);
+        if outputs.ss1_terminals {
+            outputs.sto = false;
+            outputs.ss1 = true;
+        }
+        (after, outputs)
+    }
+
+    /// EP counts though the terminals are not enabled.
+    "basic-selection-always-ep" |state, config, inputs| {
+        let config = basic_selection::Config { terminals: true, ..*config };
+        basic_selection::transition(state, &config, inputs)
     }
 }

@@ -8,7 +8,7 @@ variants! { sinamics::io_test:
     "io-test-breaks-off" |state, config, inputs| {
         let (mut after, mut outputs) = io_test::transition(state, config, inputs);
         if outputs.running && !inputs.start {
-            after.step = io_test::Step::Idle;
+            after.step = io_test::TestStep::Idle;
             after.timer = Cycles::ZERO;
             outputs.running = false;
         }
@@ -28,7 +28,7 @@ variants! { sinamics::io_test:
     /// Each start begins the interval (reading TTIMER_ON_START).
     "io-test-timer-on-start" |state, config, inputs| {
         let (mut after, mut outputs) = io_test::transition(state, config, inputs);
-        if outputs.running && state.step == io_test::Step::Idle {
+        if outputs.running && state.step == io_test::TestStep::Idle {
             after.interval = config.interval;
             outputs.due = false;
         }
@@ -38,7 +38,7 @@ variants! { sinamics::io_test:
     /// What is read back is not looked at in the third step.
     "io-test-skips-a-level" |state, config, inputs| {
         let inputs = io_test::Inputs {
-            read_back: if state.step == io_test::Step::Output3 {
+            read_back: if state.step == io_test::TestStep::Output3 {
                 state.step.expected(config.mode)
             } else {
                 inputs.read_back
@@ -51,7 +51,7 @@ variants! { sinamics::io_test:
     /// Both supplies are off in the second step (reading T2_OFF_OFF).
     "io-test-both-off" |state, config, inputs| {
         let (after, mut outputs) = io_test::transition(state, config, inputs);
-        outputs.l1 &= after.step != io_test::Step::SecondInputs || after.failed;
+        outputs.l1 &= after.step != io_test::TestStep::SecondInputs || after.failed;
         (after, outputs)
     }
 }
