@@ -113,7 +113,8 @@ monitor! { sinamics::chatter;
     /// Nothing else is: a static input least of all.
     only_endless_switching_is_a_fault ["S120-CTRL-511"]:
         when |s| s.outputs.fault && !s.before.fault
-            => s.before.watch == Cycles::new(1) && s.before.unrested > Cycles::ZERO;
+            => s.before.watch == Cycles::new(1)
+                && (s.inputs.request != s.before.last || s.before.unrested > Cycles::new(1));
 
     /// The fault stays until it is acknowledged while the request rests, or POWER ON.
     fault_needs_a_rest ["S120-CTRL-511", "S120-ACK-506"]:

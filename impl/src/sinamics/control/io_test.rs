@@ -262,7 +262,7 @@ monitor! { sinamics::io_test;
 
     /// The interval ends in its time, and each POWER ON ends it.
     interval_ends ["S120-TESTSTOP-500", "S120-TESTSTOP-507", "S120-TESTSTOP-513"]:
-        when |s| s.before.interval > Cycles::ZERO && s.after.step == s.before.step
+        when |s| s.before.interval > Cycles::ZERO && s.after.step == s.before.step && !s.after.failed
             => s.after.interval == if s.inputs.power_on { Cycles::ZERO } else { s.before.interval.tick() };
 
     /// A failed test stays due and failed until a safe acknowledgement, or POWER ON.

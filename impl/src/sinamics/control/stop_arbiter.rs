@@ -226,6 +226,12 @@ monitor! { sinamics::stop_arbiter;
         when |s| s.before.stop == Stop::B && !s.inputs.power_on && !s.inputs.acknowledge
             => s.after.stop >= Stop::A || (s.after.stop == Stop::B && s.after.timer < s.before.timer);
 
+    /// STOP B is not cut short: before its time is up only standstill ends it, or a request for STOP A.
+    stop_b_is_not_cut_short ["S120-STOP-501", "S120-STOP-524"]:
+        when |s| s.before.stop == Stop::B && s.before.timer > Cycles::new(1) && !s.inputs.power_on && !s.inputs.acknowledge
+            && s.inputs.request <= Stop::B && (s.config.external || !s.inputs.standstill)
+            => s.after.stop == Stop::B;
+
     /// STOP B of a drive that stands is STOP A at once, unless SS1 is braked externally: then the time alone counts.
     standstill_ends_stop_b ["S120-STOP-501"]:
         when |s| s.after.stop == Stop::B && s.after.phase == Phase::Running
@@ -259,6 +265,12 @@ monitor! { sinamics::stop_arbiter;
         when |s| s.after.phase == Phase::Covered
             => !s.outputs.pulses_off && !s.outputs.off3 && !s.outputs.setpoint_zero && !s.outputs.sos && !s.outputs.esr
                 && s.inputs.function.covers(s.after.stop);
+
+    /// A request that the active function covers is latched, and the function goes on; in standstill it stands.
+    covered_request_is_covered ["S120-PC-30", "S120-STOP-511", "S120-STOP-512", "S120-STOP-513", "S120-STOP-514"]:
+        when |s| s.inputs.request > s.before.stop && s.inputs.function.covers(s.inputs.request)
+            && s.after.stop == s.inputs.request && s.inputs.request <= Stop::B
+            => s.after.phase == Phase::Covered || s.after.phase == Phase::Holding;
 
     /// Where the function does not cover it, a request for more than what is latched begins its own reaction with its whole time.
     uncovered_request_begins ["S120-PC-30", "S120-STOP-515", "S120-STOP-513", "S120-STOP-517"]:

@@ -75,8 +75,17 @@ variants! { sinamics::stop_arbiter:
     "stop-arbiter-standstill-of-the-external" |state, config, inputs| {
         let (mut after, mut outputs) = stop_arbiter::transition(state, config, inputs);
         if after.stop == Stop::B && after.phase == stop_arbiter::Phase::Running && inputs.standstill {
-            after.timer = Cycles::new(1);
-            outputs.off3 = false;
+            after.stop = Stop::A;
+            after.phase = stop_arbiter::Phase::PulsesOff;
+            after.timer = Cycles::ZERO;
+            outputs = stop_arbiter::Outputs {
+                stop: Stop::A,
+                fault: after.fault,
+                pulses_off: true,
+                initiated: Stop::A,
+                blocks_run: true,
+                ..stop_arbiter::Outputs::default()
+            };
         }
         (after, outputs)
     }
