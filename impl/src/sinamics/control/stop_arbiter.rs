@@ -272,13 +272,15 @@ monitor! { sinamics::stop_arbiter;
             && s.after.stop == s.inputs.request && s.inputs.request <= Stop::B
             => s.after.phase == Phase::Covered || s.after.phase == Phase::Holding;
 
-    /// Where the function does not cover it, a request for more than what is latched begins its own reaction with its whole time.
+    /// Where the function does not cover it, a request for more than what is latched begins its own reaction with its whole time;
+    /// STOP C, D and E stand at once where they have none, or where standstill is reached in this cycle.
     uncovered_request_begins ["S120-PC-30", "S120-STOP-515", "S120-STOP-513", "S120-STOP-517"]:
         when |s| s.inputs.request > s.before.stop && !s.inputs.function.covers(s.inputs.request)
             && !(s.before.phase == Phase::Holding && s.inputs.request <= Stop::C)
             && s.after.stop == s.inputs.request && s.inputs.request <= Stop::B
             => (s.after.phase == Phase::Running && s.after.timer == s.config.time(s.inputs.request))
-                || (s.after.phase == Phase::Holding && s.config.time(s.inputs.request).is_zero());
+                || (s.after.phase == Phase::Holding && (s.config.time(s.inputs.request).is_zero()
+                    || (s.before.stop.ends_in_standstill() && s.before.timer <= Cycles::new(1))));
 
     /// A function of a higher class takes the place of a running stop, which stays latched.
     function_displaces_a_lower_stop ["S120-STOP-517", "S120-STOP-510", "S120-STOP-525"]:

@@ -73,7 +73,7 @@ inventory! {
     }]
     [contract s120_message_buffer_contract on sinamics::message_buffer {
         property: "every clause of the message buffer: entry, overflow, cases, clearing, changes",
-        tries: "current.codes.0 current.codes.6: 0 1701; current.codes.7: 0 1707; current: 0 1701; acknowledged.0.codes.0: 0 1714; acknowledged.5.codes.0: 0 1715; acknowledged.6.codes.0: 0 1716; acknowledged: 0; changes: 0 max; message: 0 1700; rectified: 0 1 5 128 255",
+        tries: "current.count: 0..8; current.codes.0: 1701; current.codes.3: 1704; current.codes.7: 1707 1708; current: 1711; acknowledged.0.count: 0 1; acknowledged.0: 1714; acknowledged.5.count: 0 1; acknowledged.5: 1715; acknowledged.6.count: 0 1; acknowledged.6: 1716; acknowledged: 0; changes: 0 max; message: 0 1700; rectified: 0 1 2 5 64 85 128 255",
         caveat: "few codes and masks; others only under Kani and in samples",
     }]
     [contract s120_acceptance_mode_contract on sinamics::acceptance_mode {
