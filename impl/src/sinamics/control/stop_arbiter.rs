@@ -388,8 +388,8 @@ fn acknowledged(mut state: State, config: &Config, inputs: &Inputs) -> State {
         state.fault_timer = Cycles::ZERO;
     }
     let left = inputs.remaining.max(inputs.request);
-    // While the cause of STOP F persists, what followed it stays.
-    let follow_up = inputs.difference && state.fault && state.stop >= Stop::B;
+    // While the cause of STOP F persists, what may have followed it stays.
+    let follow_up = inputs.difference && state.stop >= Stop::B;
     if state.stop == Stop::Locked || left >= state.stop || follow_up {
         return state;
     }

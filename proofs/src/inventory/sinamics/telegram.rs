@@ -45,7 +45,7 @@ inventory! {
         requirements: ["S120-PSAFE-515", "S120-PSAFE-512", "S120-DIAG-501", "S120-PSAFE-525", "S120-PC-08"],
         covers: ["an internal event", "SLP without a reference"],
         domain: NARROW,
-        domain_text: "all values of one half of r9722, with five of the other; F-DI and p10050 all",
+        domain_text: "all values of one half of r9722, with five of the other; of F-DI and p10050 the 64 pairs, each with some of the words",
         bound: "none",
         caveat: "none",
     }]

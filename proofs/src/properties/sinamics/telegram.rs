@@ -222,7 +222,12 @@ impl<S: Source> AnyTelegram for S {}
 pub fn status_word_qualifies<S: Source>(source: &mut S, _subject: &Subject) -> Verdict {
     let signals = any_word(source);
     let selected = source.any_bool();
-    let [inputs, transferred] = [0, 0].map(|low| source.any_in(low, 7));
+    // The enumeration takes them from the word, or there would be too many cases.
+    let [inputs, transferred] = if source.enumerates() {
+        [signals & 7, signals >> 16 & 7]
+    } else {
+        [source.any_in(0, 7), source.any_in(0, 7)]
+    };
     let word = StatusSignals::decode(signals)
         .status_word(selected)
         .with_inputs(inputs as u8, transferred as u8)
