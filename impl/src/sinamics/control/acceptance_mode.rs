@@ -121,7 +121,7 @@ monitor! { sinamics::acceptance_mode;
     /// The step keeps the invariant and shows its state.
     state_stays_consistent ["S120-ACCEPT-500"]:
         when |s| s.before.invariant(&s.config)
-            => s.after.invariant(&s.config) && s.outputs.active == !s.after.left.is_zero();
+            => s.after.invariant(&s.config) && s.outputs.active != s.after.left.is_zero();
 }
 
 pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (State, Outputs) {

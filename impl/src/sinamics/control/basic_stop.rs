@@ -152,14 +152,13 @@ monitor! { sinamics::basic_stop;
     deselection_acknowledges_internally ["S120-STO-004", "S120-ACK-506"]:
         when |s| s.before.selected && !s.inputs.selected && !caused(&s.inputs) && !s.inputs.power_on
             && s.before.stop != Latched::None && s.before.stop != Latched::Locked && !s.inputs.internal_event_ack
-            => s.after.stop == Latched::None && !s.outputs.pulses_off && s.outputs.entered == !s.inputs.acknowledge;
+            => s.after.stop == Latched::None && !s.outputs.pulses_off && s.outputs.entered != s.inputs.acknowledge;
 
     /// The general acknowledgement alone does not clear a stop or the message of one.
     general_acknowledgement_comes_second ["S120-ACK-506"]:
         when |s| s.before.entered && !s.outputs.entered && !s.inputs.power_on
-            => s.after.stop == Latched::None && !s.inputs.selected
-                && (s.inputs.acknowledge || s.inputs.internal_event_ack)
-                || (s.inputs.internal_event_ack && s.after.stop == Latched::None);
+            => s.after.stop == Latched::None
+                && (s.inputs.internal_event_ack || (s.inputs.acknowledge && !s.inputs.selected));
 
     /// The edge over PROFIsafe clears both.
     edge_clears_both ["S120-ACK-503", "S120-ACK-506"]:

@@ -61,7 +61,7 @@ impl ControlPath {
 
     /// Whether both drives can be on the same Control Unit: PROFIsafe and TM54F exclude each other (S120-CTRL-501).
     pub const fn shares_unit_with(self, other: Self) -> bool {
-        !(self.profisafe() && other.inputs()) && !(self.inputs() && other.profisafe())
+        !((self.profisafe() && other.inputs()) || (self.inputs() && other.profisafe()))
     }
 }
 

@@ -60,12 +60,12 @@ impl TestStep {
 
     /// The level that must be read back; of the inputs 0 V.
     pub const fn expected(self, mode: Mode) -> bool {
-        match (self, mode) {
-            (Self::Output4, Mode::Diagnostic | Mode::Actuator) => true,
-            (Self::Output3, Mode::Actuator) => true,
-            (Self::Output1 | Self::Output5, Mode::Relay | Mode::Actuator) => true,
-            _ => false,
-        }
+        matches!(
+            (self, mode),
+            (Self::Output4, Mode::Diagnostic | Mode::Actuator)
+                | (Self::Output3, Mode::Actuator)
+                | (Self::Output1 | Self::Output5, Mode::Relay | Mode::Actuator)
+        )
     }
 
     /// The next one; after the last one no test.

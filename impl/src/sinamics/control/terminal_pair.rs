@@ -104,7 +104,7 @@ monitor! { sinamics::terminal_pair;
     /// The own terminal alone selects, in the same cycle; nothing else ever deselects it.
     own_terminal_selects_at_once ["S120-CTRL-504", "S120-CTRL-510", "S120-CTRL-503", "S120-PC-13", "S120-PC-28"]:
         when |s| !s.inputs.own || !s.outputs.selected
-            => s.outputs.selected == !s.inputs.own;
+            => s.outputs.selected != s.inputs.own;
 
     /// Active is what both channels select.
     both_must_agree ["S120-DIAG-503", "S120-CTRL-503"]:

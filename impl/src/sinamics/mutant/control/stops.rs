@@ -190,7 +190,7 @@ variants! { sinamics::acknowledgement:
     /// An acknowledgement wins over a message of the same cycle.
     "acknowledgement-wins" |state, config, inputs| {
         let (mut after, mut outputs) = acknowledgement::transition(state, config, inputs);
-        after.event &= !(outputs.acknowledge && !inputs.cause);
+        after.event &= !outputs.acknowledge || inputs.cause;
         outputs.event = after.event;
         outputs.no_event = !after.event;
         (after, outputs)
