@@ -18,6 +18,8 @@
 //! | [`drive_test`], [`path_test`] | test stop of the Extended Functions; test of the paths by the Basic ones |
 //! | [`brake_test`], [`brake_test_request`] | safe brake test; its request by the test stop |
 //! | [`data_set`] | change of the drive data set |
+//! | [`control`] | inputs, selection, stop priorities, acknowledgement, restart, supervision of the communication, messages, modes |
+//! | [`telegram`] | what goes over the bus, bit by bit: no step |
 //! | [`types`], [`times`] | what functions have in common; sampling times: no step |
 //!
 //! Conventions:
@@ -39,12 +41,16 @@ macro_rules! sinamics_monitors {
         sto sbc ss1_basic ss1 ss2 sos sam sbr sls sls_ramp setpoint_limit ssm sdi
         slp reference safe_position actual_value gear encoderless drive_test path_test brake_test
         brake_test_request data_set
+        input_filter terminal_pair chatter basic_selection basic_stop fail_safe_input fail_safe_output safe_state
+        stop_arbiter acknowledgement_edge acknowledgement restart communication io_test message_buffer
+        acceptance_mode commissioning
     } };
 }
 
 pub mod actual_value;
 pub mod brake_test;
 pub mod brake_test_request;
+pub mod control;
 pub mod data_set;
 pub mod drive_test;
 pub mod encoderless;
@@ -68,5 +74,8 @@ pub mod ss1_basic;
 pub mod ss2;
 pub mod ssm;
 pub mod sto;
+pub mod telegram;
 pub mod times;
 pub mod types;
+
+pub use control::*;

@@ -151,7 +151,12 @@ fn frame_finds_what_is_wrong() {
     assert_eq!(judged("{ value = 2, more = 1 }", "{ twice = 4 }"), 1);
     assert_eq!(judged("{ value = 2 }", "{ thrice = 6 }"), 1);
     assert_eq!(judged("{ }", "{ twice = 4 }"), 1);
-    for family in ["heidenhain-fs", "sinamics-s120", "sinumerik-840d", "srm-fblocks"] {
+    for family in [
+        "heidenhain-fs",
+        "sinamics-s120",
+        "sinumerik-840d",
+        "srm-fblocks",
+    ] {
         let last = case::last_line(family);
         let mut one = case("{ value = 2 }", "{ twice = 4 }");
         one.lines = last.to_string();

@@ -1,5 +1,6 @@
-//! Monitors of SINAMICS S120: the step functions under test, and properties over several steps, one file per topic.
+//! Monitors of SINAMICS S120: the step functions under test, and properties over several steps and of its telegrams, one file per topic.
 
 pub mod braking;
+pub mod telegram;
 
 stillpoint_monitors::sinamics_monitors! { subject }
