@@ -133,7 +133,11 @@ fn explore(piece: &Pairing, mutant: Option<Mutant>) -> Compared {
 fn machines(mutant: Mutant) -> BTreeSet<Name> {
     let family = families::of_mutant(mutant).expect("a family with monitors");
     // Both channels are compared in parts of their own: see the test `pair`.
-    if mutant.monitor == "pair" || exceptions("uncompared").contains(mutant.name) {
+    // A family whose monitors are not compared yet has no peers.
+    if mutant.monitor == "pair"
+        || family.peers.machines().count() == 0
+        || exceptions("uncompared").contains(mutant.name)
+    {
         return BTreeSet::new();
     }
     let names = family
@@ -218,7 +222,9 @@ fn explored(excepted: bool) -> Vec<(Mutant, Option<Diagram>)> {
 
 #[test]
 fn every_wrong_monitor_is_found_by_exploration() {
-    let names: BTreeSet<&str> = families::mutants().map(|mutant| mutant.name).collect();
+    let names: BTreeSet<(&str, &str)> = families::mutants()
+        .map(|mutant| (mutant.family, mutant.name))
+        .collect();
     assert_eq!(
         names.len(),
         families::mutants().count(),

@@ -23,7 +23,8 @@ fn families_with(file: &str) -> Vec<String> {
 #[test]
 fn limits_and_readme_agree_with_the_families() {
     let both = families_with("acceptance.toml");
-    assert_eq!(both, families_with("reaction-chain.toml"));
+    let chains = families_with("reaction-chain.toml");
+    assert!(both.iter().all(|family| chains.contains(family)));
     let list: Vec<String> = both.iter().map(|f| format!("`{f}`")).collect();
     let limits = read("docs/src/limits.md");
     let words = limits.split_whitespace().collect::<Vec<_>>().join(" ");

@@ -44,7 +44,7 @@ fn an_unknown_family_lists_those_of_the_binary() {
     let output = away(&folder, &["validate", &file]);
     assert_eq!(status(&output), 2);
     assert!(
-        messages(&output).contains("known families: heidenhain-fs, sinumerik-840d"),
+        messages(&output).contains("known families: heidenhain-fs, sinamics-s120, sinumerik-840d"),
         "{}",
         stderr(&output)
     );
