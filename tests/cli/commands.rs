@@ -114,7 +114,13 @@ fn seeded_errors_are_found_with_the_shortest_run() {
             .take(mark - head)
             .map(str::trim)
             .collect();
-        assert!(between.contains(&"inputs"), "{file}: {text}");
+        let stateless = !std::fs::read_to_string(root().join(&file))
+            .expect("the file")
+            .contains(".state]");
+        assert!(
+            between.contains(&"inputs") && between.contains(&"state") != stateless,
+            "{file}: {text}"
+        );
     }
 }
 

@@ -143,7 +143,7 @@ variants! { sinamics::brake_test:
     }
 
     /// The torque does not wait for an external brake.
-    "brake-test-open-brake" |state, config, inputs| {
+    "brake-test-torque-on-open-brake" |state, config, inputs| {
         let external_closed = inputs.external_closed || state.phase == brake_test::Phase::Close;
         let inputs = brake_test::Inputs { external_closed, ..*inputs };
         brake_test::transition(state, config, &inputs)
@@ -177,7 +177,7 @@ variants! { sinamics::brake_test:
     }
 
     /// A late external brake is waited for.
-    "brake-test-patient" |state, config, inputs| {
+    "brake-test-waits-for-ever" |state, config, inputs| {
         let waits = matches!(state.phase, brake_test::Phase::Close | brake_test::Phase::Open);
         let left = if waits && state.left == Cycles::new(1) { Cycles::new(2) } else { state.left };
         brake_test::transition(brake_test::State { left, ..state }, config, inputs)

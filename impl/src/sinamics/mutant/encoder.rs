@@ -5,7 +5,7 @@ use crate::sinamics::{actual_value, data_set, encoderless, gear, reference, safe
 
 variants! { sinamics::reference:
     /// The agreement of one channel is enough.
-    "reference-one-channel" |state, config, inputs| {
+    "reference-of-one-channel" |state, config, inputs| {
         let one = inputs.agrees || inputs.other_agrees;
         let inputs = reference::Inputs { agrees: one, other_agrees: one, ..*inputs };
         reference::transition(state, config, &inputs)
