@@ -177,7 +177,7 @@ variants! { sinamics::brake_test:
     }
 
     /// A late external brake is waited for.
-    "brake-test-waits-for-ever" |state, config, inputs| {
+    "brake-test-late-brake" |state, config, inputs| {
         let waits = matches!(state.phase, brake_test::Phase::Close | brake_test::Phase::Open);
         let left = if waits && state.left == Cycles::new(1) { Cycles::new(2) } else { state.left };
         brake_test::transition(brake_test::State { left, ..state }, config, inputs)
