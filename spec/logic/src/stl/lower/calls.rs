@@ -198,7 +198,7 @@ impl Making<'_> {
             let base = format!("fb11_{number}_{what}");
             let title = format!("{title} (FB 11)");
             name(
-                &self.wiring.added(&base, term::Ty::Bool, (0, 1), title),
+                self.wiring.added(&base, term::Ty::Bool, (0, 1), title),
                 span,
             )
         };
