@@ -3,13 +3,16 @@
 use std::collections::BTreeMap;
 
 use serde::Deserialize;
-use stillpoint_engine::check::Settings;
+use stillpoint_engine::check::{Checked, Settings};
+use stillpoint_engine::subject::Subject;
 use stillpoint_harness::guarantees::answers;
 use stillpoint_machine::{self as machine, Machine, families};
 use stillpoint_model::{Until, Verdict};
 use stillpoint_tests::guarantees::decided;
 use stillpoint_tests::peer::each;
 use stillpoint_tests::root;
+
+use crate::machines;
 
 const MILLING: &str = "spec/machines/milling-840d.toml";
 const CENTRE: &str = "spec/machines/machining-centre-heidenhain.toml";
@@ -24,21 +27,9 @@ fn changed(file: &str, from: &str, to: &str) -> Machine {
         .unwrap_or_else(|e| panic!("{to}: {e}"))
 }
 
-/// The verdict on these guarantees, and the tightest bound in milliseconds over the axes.
-fn guaranteed(
-    file: &str,
-    machine: Machine,
-    names: &[&str],
-    until: Until,
-) -> BTreeMap<String, (Verdict, Option<u64>)> {
-    let settings = Settings {
-        // Where the first violation is enough there are many machines to check, so each has one thread.
-        threads: usize::from(until == Until::Violated),
-        until,
-        ..Settings::default()
-    };
-    let (subject, checked) = decided(&root().join(file), machine, names, &settings);
-    let list = answers(&subject, &checked).into_iter().map(|answer| {
+/// The verdict on each guarantee, and the tightest bound in milliseconds over the axes.
+fn verdicts(subject: &Subject, checked: &[Checked]) -> BTreeMap<String, (Verdict, Option<u64>)> {
+    let list = answers(subject, checked).into_iter().map(|answer| {
         let bound = answer.runs.iter().filter_map(|run| run.bound).max();
         (
             answer.guarantee.name.clone(),
@@ -50,8 +41,7 @@ fn guaranteed(
 
 #[test]
 fn guarantees_of_the_milling_machine_hold_with_their_bounds() {
-    let names = ["table", "tool", "emergency_stop", "emergency_stop_tool"];
-    let found = guaranteed(MILLING, changed(MILLING, "", ""), &names, Until::Complete);
+    let found = verdicts(&machines::MILLING.0, &machines::MILLING.1);
     // The signal and the discrepancy of the contacts, the change-over to SG1, STOP C, STOP B. What the monitors may take on top is at most three cycles each; the
     // contact opens at any moment of a cycle.
     for (name, times) in [
@@ -73,25 +63,10 @@ fn guarantees_of_the_milling_machine_hold_with_their_bounds() {
 
 #[test]
 fn guarantees_of_the_machining_centre_hold_with_their_bounds() {
-    let names = [
-        "table_som_1",
-        "table_som_2",
-        "table_som_3",
-        "tool_som_1",
-        "tool_som_2",
-        "magazine",
-        "emergency_stop",
-        "emergency_stop_tool",
-        "no_start",
-        "no_start_tool",
-        "no_start_magazine",
-    ];
-    let found = guaranteed(CENTRE, changed(CENTRE, "", ""), &names, Until::Complete);
-    assert!(
-        found
-            .values()
-            .all(|(verdict, _)| *verdict == Verdict::Holds)
-    );
+    let found = verdicts(&machines::MACHINING_CENTRE.0, &machines::MACHINING_CENTRE.1);
+    for name in ["no_start", "no_start_tool", "no_start_magazine"] {
+        assert_eq!(found[name].0, Verdict::Holds, "{name}");
+    }
     // The signal and the discrepancy of the contacts, two cycles of the program, the SS1 of the slowest axis of the group.
     for (name, times) in [
         ("table_som_1", &[30, 42, 600][..]),
@@ -145,7 +120,15 @@ fn every_dangerous_value_breaks_a_guarantee() {
         let wrong = each(&machine.change, |change| {
             let name = change.breaks.as_str();
             let broken = changed(&machine.file, &change.replace, &change.by);
-            let found = guaranteed(&machine.file, broken, &[name], Until::Violated);
+            // The first violation is enough; there are many machines to check, so each has one thread.
+            let settings = Settings {
+                threads: 1,
+                until: Until::Violated,
+                ..Settings::default()
+            };
+            let path = root().join(&machine.file);
+            let (subject, checked) = decided(&path, broken, &[name], &settings);
+            let found = verdicts(&subject, &checked);
             (found[name].0 != Verdict::Violated)
                 .then(|| format!("{}: {:?}", change.text, found[name]))
         });

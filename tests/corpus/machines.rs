@@ -2,8 +2,9 @@
 //! wrong program of its safe PLC is found out.
 
 use std::collections::BTreeSet;
+use std::sync::LazyLock;
 
-use stillpoint_engine::check::{Settings, Unfired, check, exit_status, summarise};
+use stillpoint_engine::check::{Checked, Settings, Unfired, check, exit_status, summarise};
 use stillpoint_engine::subject::{self, Readings, Subject, Task};
 use stillpoint_model::Verdict;
 use stillpoint_tests::{exceptions, root};
@@ -14,17 +15,30 @@ fn load(file: &str) -> Subject {
     subject::load(&path, &Readings::new()).unwrap_or_else(|e| panic!("{e}"))
 }
 
-/// Checks a machine and these of its runs; the answer is the number of properties.
-fn keeps_every_property(subject: &Subject, expected: &[&str]) -> usize {
+/// A machine, and what its check has found.
+pub(crate) type Whole = (Subject, Vec<Checked>);
+
+fn whole(subject: Subject) -> Whole {
+    let checked = check(&subject, &Settings::default(), &mut |_| Box::new(()))
+        .unwrap_or_else(|(t, e)| panic!("{t}: {e}"));
+    (subject, checked)
+}
+
+/// The milling machine, checked once for all tests.
+pub(crate) static MILLING: LazyLock<Whole> = LazyLock::new(|| whole(load("milling-840d.toml")));
+
+/// The machining centre without the runs that are left to a deep run, checked once for all tests.
+pub(crate) static MACHINING_CENTRE: LazyLock<Whole> = LazyLock::new(|| whole(centre(false)));
+
+/// Every property of a machine holds in these runs; the answer is how many there are.
+fn keeps_every_property((subject, checked): &Whole, expected: &[&str]) -> usize {
     let axes: Vec<&str> = subject
         .machine
         .iter()
         .flat_map(|m| m.axes.iter().map(|a| a.name.as_str()))
         .collect();
     assert_eq!(axes, expected);
-    let checked = check(subject, &Settings::default(), &mut |_| Box::new(()))
-        .unwrap_or_else(|(t, e)| panic!("{t}: {e}"));
-    for (task, done) in subject.tasks.iter().zip(&checked) {
+    for (task, done) in subject.tasks.iter().zip(checked) {
         let report = &done.outcome.report;
         assert!(
             report.complete && report.faults.is_empty(),
@@ -44,7 +58,7 @@ fn keeps_every_property(subject: &Subject, expected: &[&str]) -> usize {
             task.title
         );
     }
-    let summaries = summarise(subject, &checked);
+    let summaries = summarise(subject, checked);
     for one in &summaries {
         assert!(
             matches!(one.verdict, Verdict::Holds | Verdict::Reached),
@@ -59,15 +73,14 @@ fn keeps_every_property(subject: &Subject, expected: &[&str]) -> usize {
             one.id
         );
     }
-    assert_eq!(exit_status(&summaries, &checked), 0);
+    assert_eq!(exit_status(&summaries, checked), 0);
     summaries.len()
 }
 
 #[test]
 fn the_milling_machine_keeps_every_property() {
-    let subject = load("milling-840d.toml");
-    assert!(subject.tasks.len() >= 10);
-    let properties = keeps_every_property(&subject, &["X", "Y", "Z", "S"]);
+    assert!(MILLING.0.tasks.len() >= 10);
+    let properties = keeps_every_property(&MILLING, &["X", "Y", "Z", "S"]);
     assert!(properties >= 30, "{properties}");
 }
 
@@ -89,16 +102,15 @@ fn centre(deep: bool) -> Subject {
 
 #[test]
 fn the_machining_centre_keeps_every_property() {
-    let subject = centre(false);
-    assert!(subject.tasks.len() >= 10);
-    let properties = keeps_every_property(&subject, &CENTRE);
+    assert!(MACHINING_CENTRE.0.tasks.len() >= 10);
+    let properties = keeps_every_property(&MACHINING_CENTRE, &CENTRE);
     assert!(properties >= 200, "{properties}");
 }
 
 #[test]
 #[ignore = "deep: minutes"]
 fn the_logic_and_the_kernel_of_the_machining_centre_keep_every_property() {
-    let properties = keeps_every_property(&centre(true), &CENTRE);
+    let properties = keeps_every_property(&whole(centre(true)), &CENTRE);
     assert!(properties >= 10, "{properties}");
 }
 

@@ -45,9 +45,9 @@ fn bind(system: ir::System, params: &[(&str, i64)]) -> Bound {
 }
 
 /// So many reachable cycles are all compared; after each further so many, half as many states are picked.
-const STEP: u64 = 25_000;
+const STEP: u64 = 10_000;
 /// The same for single values: an expression is compared with every value of the inputs that it reads.
-const VALUES: u64 = 5_000_000;
+const VALUES: u64 = 1_500_000;
 
 /// Both evaluators, cycle by cycle.
 struct Both<'a> {
