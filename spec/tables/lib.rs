@@ -8,9 +8,10 @@
 use stillpoint_native::Family;
 
 /// Every family, and what is no family but has tables.
-pub static FAMILIES: [Family; 5] = [
+pub static FAMILIES: [Family; 6] = [
     stillpoint_tables_sinumerik_840d::FAMILY,
     stillpoint_tables_heidenhain_fs::FAMILY,
+    stillpoint_tables_iec_61800_5_2::FAMILY,
     stillpoint_tables_srm_fblocks::FAMILY,
     stillpoint_tables_sinamics_s120::FAMILY,
     stillpoint_tables_bench::FAMILY,

@@ -6,8 +6,9 @@ use std::path::{Path, PathBuf};
 
 use stillpoint_lang::catalogue::{self, Scope};
 
-const FAMILIES: [&str; 4] = [
+const FAMILIES: [&str; 5] = [
     "heidenhain-fs",
+    "iec-61800-5-2",
     "sinamics-s120",
     "sinumerik-840d",
     "srm-fblocks",
@@ -58,7 +59,7 @@ fn all_catalogues_load_and_nothing_is_lost() {
             assert_eq!(counted, lines(family, "scope", word), "{family} {word}");
         }
     }
-    assert_eq!(catalogue.requirements.len(), 2430);
+    assert_eq!(catalogue.requirements.len(), 2467);
     assert_eq!(catalogue.manuals.len(), FAMILIES.len());
     let merged = catalogue
         .requirements
