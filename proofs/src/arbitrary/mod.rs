@@ -6,3 +6,5 @@
 
 pub mod heidenhain;
 pub mod sinumerik;
+#[cfg(kani)]
+pub mod srm;

@@ -6,14 +6,16 @@ inventory! {
         tries: "window: 1 3 max; tolerance: 0 2 max; left: 0..3; stored: 0 5 min; position: 0 2 3 5 7 8 ends",
         caveat: "none",
     }]
-    [contract s120_safe_position_contract on sinamics::safe_position {
+    [contract [kani(solver(kissat))] s120_safe_position_contract on sinamics::safe_position {
         property: "every clause of SP: scaled mean, STOP F beyond 16 bits, mean, validity, counter",
         tries: "scale: 1 3 1000 max; state.cycle: 0 7 max; first: -29999 -1..2 32767 32768 98304 ends; second: -29999 -1..2 32767 32768 98304 ends",
+        few: [("scale", 0, 15)],
         caveat: "none",
     }]
-    [contract s120_actual_value_contract on sinamics::actual_value {
+    [contract [kani(solver(kissat))] s120_actual_value_contract on sinamics::actual_value {
         property: "every clause of the comparison of actual values: tolerance, slip, gear stage, alignment, the same in both channels",
         tries: "config.position: 0 10 max; slip: 0 4 max; factor: 1 3 max; aligned: 0 3 -10 4294967295 -4294967295; own: -3 0 4 5 10 11 13 31 ends; other: 0 1 ends",
+        few: [("factor", 0, 15)],
         caveat: "none",
     }]
     [contract s120_gear_contract on sinamics::gear {

@@ -1,9 +1,10 @@
 //! Limits of speed, direction and position.
 
 inventory! {
-    [contract s120_sls_contract on sinamics::sls {
+    [contract [kani(solver(kissat))] s120_sls_contract on sinamics::sls {
         property: "every clause of SLS: delay, four levels, lower and higher limits, telegram, without selection, stops",
         tries: "limits.0: 4; limits.1: 2; limits.2: 2 6; limits.3: 4; responses.0: 3 5; responses.1: 5 4; responses.2 responses.3: 4; delay: 0 1 3; left: 0..3; now.level: 0 1; now.limit: 0 2 4; next.level: 0 2; next.limit: 0..3; telegram: 0 16384 32767; speed: 0 2 4 5",
+        few: [("limits", 0, 255)],
         caveat: "a few limits; others only under Kani and in samples",
     }]
     [contract s120_sls_ramp_contract on sinamics::sls_ramp {
@@ -11,9 +12,10 @@ inventory! {
         tries: "limits.0 limits.3: 4; limits.1: 2; limits.2: 6; responses.0: 4 5; responses.1: 5; responses.2 responses.3: 4; config.ramp.reference: 1 3; time: 1 2; delay: 2; resolution: 1; ramp.left: 0..2; ramp.ramp: 0 2 4 5; rest: 0 1; settling: 0..2; speed: 0..6",
         caveat: "a few limits and ramps; others only under Kani and in samples",
     }]
-    [contract s120_setpoint_limit_contract on sinamics::setpoint_limit {
+    [contract [kani(solver(kissat))] s120_setpoint_limit_contract on sinamics::setpoint_limit {
         property: "every clause of the setpoint limit: part of SLS, blocked directions, acceptance test, STOP F",
         tries: "factor: 0 80 100; motor: 1 3 max; load: 1 2 max; limit: 0 1 5 1000 max",
+        few: [("motor", 0, 15), ("load", 0, 15)],
         caveat: "none",
     }]
     [contract s120_ssm_contract on sinamics::ssm {

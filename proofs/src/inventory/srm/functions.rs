@@ -28,9 +28,10 @@ inventory! {
         tries: "in1 in8: -2 0 1 ends; in2 in3 in4 in5 in6 in7: -1 0 5",
         caveat: "none",
     }]
-    [contract srm_interpolation_contract on srm::interpolation {
+    [contract [kani(solver(kissat), unwind(18))] srm_interpolation_contract on srm::interpolation {
         property: "every clause of F_INTERPOLATION: points, lines, ends, errors",
         tries: "x.0: 0 2; v.0: 0 -5; x.1: 0 2 5; v.1: -7 10 2147483647; x.2: 2 5 12; v.2: -7 10; x.3: 5 12; v.3: 30 5; x: 12; v: 40; x_16: 12 14; v_16: 35 40; x_actual: -1..15 ends",
+        few: [("x", 0, 15), ("v", 0, 15), ("x_16", 0, 15), ("v_16", 0, 15), ("x_actual", 0, 15)],
         caveat: "the other points are the last one",
     }]
 }
