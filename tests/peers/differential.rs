@@ -20,17 +20,27 @@ use stillpoint_tests::{exceptions, root};
 
 /// The tables compared: those of a machine, or with the parameters of their systems. What several files use is compared with
 /// the parameters of the first one, so the file of a machine's own table stands before those that put it together with others.
-const FILES: [&[&str]; 3] = [
-    OTHERS,
-    SINAMICS_FUNCTIONS,
-    SINAMICS_CONTROL,
-];
+const FILES: [&[&str]; 3] = [OTHERS, SINAMICS_FUNCTIONS, SINAMICS_CONTROL];
 
 /// The functions of a drive of the family sinamics-s120.
 const SINAMICS_FUNCTIONS: &[&str] = &[];
 
 /// Their control and their telegrams.
-const SINAMICS_CONTROL: &[&str] = &[];
+const SINAMICS_CONTROL: &[&str] = &[
+    "spec/families/sinamics-s120/terminals.toml",
+    "spec/families/sinamics-s120/sto.toml",
+    "spec/families/sinamics-s120/inputs.toml",
+    "spec/families/sinamics-s120/acknowledgement.toml",
+    "spec/families/sinamics-s120/arbiter.toml",
+    "spec/families/sinamics-s120/restart.toml",
+    "spec/families/sinamics-s120/communication.toml",
+    "spec/families/sinamics-s120/io-test.toml",
+    "spec/families/sinamics-s120/buffer.toml",
+    "spec/families/sinamics-s120/acceptance-mode.toml",
+    "spec/families/sinamics-s120/commissioning.toml",
+    "spec/families/sinamics-s120/enabling.toml",
+    "spec/families/sinamics-s120/words.toml",
+];
 
 /// The other families.
 const OTHERS: &[&str] = &[

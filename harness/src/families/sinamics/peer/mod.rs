@@ -8,10 +8,16 @@ use stillpoint_monitors::mutant::Mutant;
 use crate::diff::peer::{Made, Params, Peers};
 
 pub(super) const PEERS: Peers = Peers {
-    machines: &[functions::MACHINES, control::MACHINES],
-    systems: &[],
-    fixed: &[],
-    slices: &[],
+    machines: &[
+        functions::MACHINES,
+        control::SAME,
+        control::APART,
+        control::TELEGRAMS,
+    ],
+    systems: control::SYSTEMS,
+    // The cycle count of the telegrams has 16 bits: a smaller one only keeps a system small.
+    fixed: &[("cycle_count", "top", 32_767)],
+    slices: control::SLICES,
     calm: &[],
     make,
 };
