@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 
 use stillpoint_tests::fuzz::{TARGETS, altered};
 use stillpoint_tests::random::Random;
-use stillpoint_tests::{files, root};
+use stillpoint_tests::{files, root, telegram};
 
 /// Inputs for each target, in the daily run and in a deep one. The first ones are the same in both.
 const INPUTS: usize = 800;
@@ -48,6 +48,33 @@ fn tried(inputs: usize) {
             target.name
         );
     }
+}
+
+/// Frames of the telegrams of SINAMICS S120, in the daily run and in a deep one.
+const FRAMES: usize = 20_000;
+const DEEP_FRAMES: usize = 10_000_000;
+
+#[test]
+fn telegrams_are_what_the_manual_prints() {
+    sent_and_received(FRAMES);
+}
+
+#[test]
+#[ignore = "deep: a minute"]
+fn many_telegrams_are_what_the_manual_prints() {
+    sent_and_received(DEEP_FRAMES);
+}
+
+fn sent_and_received(frames: usize) {
+    let mut random = Random::new(120);
+    let mut accepted = 0;
+    for _ in 0..frames {
+        let frame = telegram::frame(&mut random);
+        let judged = std::panic::catch_unwind(|| telegram::telegram(&frame));
+        accepted += usize::from(judged.unwrap_or_else(|_| panic!("{frame:?}")));
+    }
+    println!("{accepted} of {frames} frames are telegrams");
+    assert!(accepted > frames / 2 && accepted < frames, "{accepted}");
 }
 
 #[test]

@@ -20,7 +20,30 @@ use stillpoint_tests::{exceptions, root};
 
 /// The tables compared: those of a machine, or with the parameters of their systems. What several files use is compared with
 /// the parameters of the first one, so the file of a machine's own table stands before those that put it together with others.
-const FILES: [&str; 45] = [
+const FILES: [&[&str]; 3] = [OTHERS, SINAMICS_FUNCTIONS, SINAMICS_CONTROL];
+
+/// The functions of a drive of the family sinamics-s120.
+const SINAMICS_FUNCTIONS: &[&str] = &[];
+
+/// Their control and their telegrams.
+const SINAMICS_CONTROL: &[&str] = &[
+    "spec/families/sinamics-s120/terminals.toml",
+    "spec/families/sinamics-s120/sto.toml",
+    "spec/families/sinamics-s120/inputs.toml",
+    "spec/families/sinamics-s120/acknowledgement.toml",
+    "spec/families/sinamics-s120/arbiter.toml",
+    "spec/families/sinamics-s120/restart.toml",
+    "spec/families/sinamics-s120/communication.toml",
+    "spec/families/sinamics-s120/io-test.toml",
+    "spec/families/sinamics-s120/buffer.toml",
+    "spec/families/sinamics-s120/acceptance-mode.toml",
+    "spec/families/sinamics-s120/commissioning.toml",
+    "spec/families/sinamics-s120/enabling.toml",
+    "spec/families/sinamics-s120/words.toml",
+];
+
+/// The other families.
+const OTHERS: &[&str] = &[
     "spec/families/sinumerik-840d/axis.toml",
     "spec/families/sinumerik-840d/bus.toml",
     "spec/families/sinumerik-840d/setpoint.toml",
@@ -80,7 +103,7 @@ fn name(pairing: &Pairing) -> Name {
 /// milling machine or its own default ones.
 static ALL: LazyLock<Vec<Pairing>> = LazyLock::new(|| {
     let mut all: Vec<Pairing> = Vec::new();
-    for file in FILES {
+    for file in FILES.concat() {
         let subject =
             subject::load(&root().join(file), &Readings::new()).unwrap_or_else(|e| panic!("{e}"));
         let more = pairings(&subject).unwrap_or_else(|e| panic!("{e}"));
@@ -133,11 +156,7 @@ fn explore(piece: &Pairing, mutant: Option<Mutant>) -> Compared {
 fn machines(mutant: Mutant) -> BTreeSet<Name> {
     let family = families::of_mutant(mutant).expect("a family with monitors");
     // Both channels are compared in parts of their own: see the test `pair`.
-    // A family whose monitors are not compared yet has no peers.
-    if mutant.monitor == "pair"
-        || family.peers.machines().count() == 0
-        || exceptions("uncompared").contains(mutant.name)
-    {
+    if mutant.monitor == "pair" || exceptions("uncompared").contains(mutant.name) {
         return BTreeSet::new();
     }
     let names = family
@@ -148,11 +167,9 @@ fn machines(mutant: Mutant) -> BTreeSet<Name> {
         .filter(|(_, module)| *module == mutant.monitor)
         .map(|(machine, _)| (family.name, machine.to_owned()))
         .collect();
-    // The filter is part of the table `splc`, which is paired with the blocks together.
-    let uncompared = ["channel", "key_filter", "safe_output"];
+    let monitor = format!("{}/{}", family.name, mutant.monitor);
     assert!(
-        found.is_empty()
-            == (family.name == "heidenhain-fs" && uncompared.contains(&mutant.monitor)),
+        found.is_empty() == exceptions("monitors").contains(&monitor),
         "{mutant:?} is one of no machine that is compared"
     );
     found

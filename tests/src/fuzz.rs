@@ -22,7 +22,7 @@ use stillpoint_logic::stl;
 use stillpoint_machine::{self as machine, Machine, families};
 
 use crate::random::Random;
-use crate::{files, root};
+use crate::{files, root, telegram};
 
 /// What a fuzzer drives.
 pub struct Target {
@@ -39,7 +39,7 @@ pub struct Target {
 }
 
 /// Every target.
-pub static TARGETS: [Target; 11] = [
+pub static TARGETS: [Target; 12] = [
     Target {
         name: "certificate",
         component: "`stillpoint certify`",
@@ -144,6 +144,13 @@ pub static TARGETS: [Target; 11] = [
         property: "a program with a table; or errors whose places lie in the text",
         seeds: || read(&files("tests/corpus/sinumerik-840d/stl", "stl")),
         run: statement_list,
+    },
+    Target {
+        name: "telegram",
+        component: "telegrams of SINAMICS S120, received and sent",
+        property: "a telegram whose fields are the bits that the manual prints, and the same when it is written; or refused for its length or a position that no drive sends",
+        seeds: telegram::seeds,
+        run: telegram::telegram,
     },
 ];
 

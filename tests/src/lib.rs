@@ -6,6 +6,7 @@ pub mod fuzz;
 pub mod guarantees;
 pub mod peer;
 pub mod random;
+pub mod telegram;
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};

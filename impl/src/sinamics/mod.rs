@@ -43,7 +43,7 @@ macro_rules! sinamics_monitors {
         brake_test_request data_set
         input_filter terminal_pair chatter basic_selection basic_stop fail_safe_input fail_safe_output safe_state
         stop_arbiter acknowledgement_edge acknowledgement restart communication io_test message_buffer
-        acceptance_mode commissioning
+        acceptance_mode commissioning replacement
     } };
 }
 

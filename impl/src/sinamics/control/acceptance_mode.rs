@@ -35,10 +35,10 @@ fields! {
 }
 
 impl State {
-    /// Off.
+    /// Off; a p9570 that is set is no edge.
     pub const INITIAL: Self = Self {
         left: Cycles::ZERO,
-        requested: false,
+        requested: true,
     };
 
     /// The mode lasts no longer than its time, and no longer than it is requested.

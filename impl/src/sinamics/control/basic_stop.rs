@@ -152,13 +152,18 @@ monitor! { sinamics::basic_stop;
     deselection_acknowledges_internally ["S120-STO-004", "S120-ACK-506"]:
         when |s| s.before.selected && !s.inputs.selected && !caused(&s.inputs) && !s.inputs.power_on
             && s.before.stop != Latched::None && s.before.stop != Latched::Locked && !s.inputs.internal_event_ack
-            => s.after.stop == Latched::None && !s.outputs.pulses_off && s.outputs.entered != s.inputs.acknowledge;
+            => s.after.stop == Latched::None && !s.outputs.pulses_off && s.outputs.entered;
 
-    /// The general acknowledgement alone does not clear a stop or the message of one.
+    /// The general acknowledgement alone does not clear a stop or the message of one: it has to follow.
     general_acknowledgement_comes_second ["S120-ACK-506"]:
         when |s| s.before.entered && !s.outputs.entered && !s.inputs.power_on
             => s.after.stop == Latched::None
-                && (s.inputs.internal_event_ack || (s.inputs.acknowledge && !s.inputs.selected));
+                && (s.inputs.internal_event_ack || (s.inputs.acknowledge && s.before.stop == Latched::None));
+
+    /// Once the stop has gone it clears the message, whatever is selected.
+    general_acknowledgement_clears ["S120-ACK-506", "S120-STO-004"]:
+        when |s| s.inputs.acknowledge && s.before.stop == Latched::None && !caused(&s.inputs)
+            => !s.outputs.entered;
 
     /// The edge over PROFIsafe clears both.
     edge_clears_both ["S120-ACK-503", "S120-ACK-506"]:
@@ -178,6 +183,7 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
     } else {
         state
     };
+    let none = after.stop == Latched::None;
     let deselected = after.selected && !inputs.selected;
     after.selected = inputs.selected;
     if after.stop == Latched::F {
@@ -193,8 +199,7 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
             after.stop = Latched::None;
             after.timer = Cycles::ZERO;
         }
-        let deselects = inputs.acknowledge && after.stop == Latched::None && !inputs.selected;
-        after.entered &= !(deselects || inputs.internal_event_ack);
+        after.entered &= !((inputs.acknowledge && none) || inputs.internal_event_ack);
     }
     if inputs.difference && after.stop == Latched::None {
         after.timer = config.delay;

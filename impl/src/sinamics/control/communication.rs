@@ -186,10 +186,11 @@ monitor! { sinamics::communication;
         when |s| s.after.phase == Phase::Delayed && (s.before.phase != Phase::Delayed || s.inputs.power_on)
             => !s.inputs.undelayed && s.after.esr == s.config.esr;
 
-    /// ESR ends: in each cycle less of p9580 is left; at its end comes STOP A, whether there is communication again or not.
+    /// ESR ends: in each cycle less of p9580 is left; at its end, or with an active function whose stop is not delayed, comes STOP A,
+    /// whether there is communication again or not.
     esr_ends_in_stop_a ["S120-COMM-504", "S120-COMM-505", "S120-PC-18"]:
         when |s| s.before.phase == Phase::Delayed && !s.inputs.power_on
-            => if s.before.esr > Cycles::new(1) {
+            => if s.before.esr > Cycles::new(1) && !s.inputs.undelayed {
                 s.after.phase == Phase::Delayed && s.after.esr == s.before.esr.tick() && s.outputs.esr
             } else {
                 s.after.phase == Phase::Failed && s.outputs.request == Stop::A
@@ -253,7 +254,11 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
             }
         }
         Phase::Delayed => {
-            after.esr = after.esr.tick();
+            after.esr = if inputs.undelayed {
+                Cycles::ZERO
+            } else {
+                after.esr.tick()
+            };
             if after.esr.is_zero() {
                 after.phase = Phase::Failed;
             }

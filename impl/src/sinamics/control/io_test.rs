@@ -146,13 +146,13 @@ fields! {
 }
 
 impl State {
-    /// POWER ON: the test is due.
+    /// POWER ON: the test is due; a start signal that is there is no edge.
     pub const INITIAL: Self = Self {
         step: TestStep::Idle,
         failed: false,
         timer: Cycles::ZERO,
         interval: Cycles::ZERO,
-        started: false,
+        started: true,
     };
 
     /// The timer runs exactly during a test; a test that has failed is due.
@@ -380,6 +380,7 @@ mod tests {
         let config = Config::new(false, Mode::Diagnostic, read, interval, false).expect("times");
         let run = |welded: bool| {
             let mut test = Monitor::new(config);
+            test.step(&Inputs::default());
             let start = Inputs {
                 start: true,
                 ready: true,

@@ -15,6 +15,7 @@
 //! | [`io_test`] | test stop of F-DI and F-DO |
 //! | [`message_buffer`] | safety messages |
 //! | [`acceptance_mode`], [`commissioning`] | acceptance test mode, commissioning mode |
+//! | [`replacement`] | replaced components |
 //! | [`level`], [`control_path`] | stops and functions; p9601 and what belongs to it: no step |
 
 pub mod acceptance_mode;
@@ -32,6 +33,7 @@ pub mod input_filter;
 pub mod io_test;
 pub mod level;
 pub mod message_buffer;
+pub mod replacement;
 pub mod restart;
 pub mod safe_state;
 pub mod stop_arbiter;

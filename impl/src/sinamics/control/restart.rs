@@ -86,10 +86,11 @@ monitor! { sinamics::restart;
         when |s| s.inputs.sto
             => !s.outputs.torque && s.outputs.sto_active && s.after.phase == Phase::Active;
 
-    /// Torque comes back by the rising edge of ON/OFF1 of a ready drive, and with its enables.
-    torque_needs_the_rising_edge ["S120-STO-005", "S120-PC-20"]:
+    /// Torque comes back by the rising edge of ON/OFF1 of a ready drive, with its enables and without a latched stop.
+    torque_needs_the_rising_edge ["S120-STO-005", "S120-STOP-525", "S120-PC-20"]:
         when |s| s.outputs.torque && s.before.phase != Phase::Run
-            => s.before.phase == Phase::Ready && s.inputs.on && !s.before.last && s.inputs.enabled && !s.inputs.power_on;
+            => s.before.phase == Phase::Ready && s.inputs.on && !s.before.last && s.inputs.enabled && !s.inputs.power_on
+                && !s.inputs.latched;
 
     /// A drive becomes ready by the falling edge of ON/OFF1 while it is inhibited.
     ready_needs_the_falling_edge ["S120-STO-005", "S120-PC-20"]:
@@ -100,7 +101,7 @@ monitor! { sinamics::restart;
     /// Both edges start it.
     edges_start_it ["S120-STO-005", "S120-PC-31"]:
         when |s| s.before.phase == Phase::Ready && s.inputs.on && !s.before.last && s.inputs.enabled && !s.inputs.sto
-            && !s.inputs.power_on
+            && !s.inputs.power_on && !s.inputs.latched
             => s.outputs.torque;
 
     /// While a stop is latched STO is not left.
@@ -133,7 +134,7 @@ pub(crate) fn transition(state: State, _config: &Config, inputs: &Inputs) -> (St
         Phase::Active if inputs.latched => Phase::Active,
         Phase::Active => Phase::Inhibit,
         Phase::Inhibit if fell => Phase::Ready,
-        Phase::Ready if rose && inputs.enabled => Phase::Run,
+        Phase::Ready if rose && inputs.enabled && !inputs.latched => Phase::Run,
         Phase::Run if !inputs.on => Phase::Ready,
         phase => phase,
     };

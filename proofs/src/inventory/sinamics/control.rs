@@ -87,4 +87,9 @@ inventory! {
         tries: "",
         caveat: "what a checksum is formed of is not part of this monitor",
     }]
+    [contract s120_replacement_contract on sinamics::replacement {
+        property: "every clause of replaced components: message, confirmation, saving",
+        tries: "",
+        caveat: "none",
+    }]
 }

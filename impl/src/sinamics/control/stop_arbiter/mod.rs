@@ -263,7 +263,7 @@ monitor! { sinamics::stop_arbiter;
     covered_stop_leaves_the_function ["S120-PC-30", "S120-STOP-511", "S120-STOP-512", "S120-STOP-513", "S120-STOP-514",
         "S120-STOP-526"]:
         when |s| s.after.phase == Phase::Covered
-            => !s.outputs.pulses_off && !s.outputs.off3 && !s.outputs.setpoint_zero && !s.outputs.sos && !s.outputs.esr
+            => !s.outputs.pulses_off && !s.outputs.off3 && !s.outputs.sos && !s.outputs.esr
                 && s.inputs.function.covers(s.after.stop);
 
     /// A request that the active function covers is latched, and the function goes on; in standstill it stands.
@@ -319,10 +319,11 @@ monitor! { sinamics::stop_arbiter;
                 && s.outputs.ramp_watched == s.outputs.off3 && s.outputs.setpoint_zero == s.outputs.off3
                 && s.outputs.esr == (s.after.stop == Stop::E) && !s.outputs.sos && !s.outputs.pulses_off;
 
-    /// The setpoint stays without effect until STOP C is acknowledged.
+    /// The setpoint stays without effect until STOP C is acknowledged, also while a function covers it; and so with what is above it.
     setpoint_waits_for_the_acknowledgement ["S120-ACK-508"]:
-        when |s| s.after.stop == Stop::C && s.after.phase == Phase::Holding
-            => s.outputs.setpoint_zero && s.outputs.sos && !s.outputs.off3;
+        when |s| s.after.stop >= Stop::C
+            => s.outputs.setpoint_zero != (s.after.stop == Stop::B && s.config.external)
+                && (s.after.phase != Phase::Holding || (s.outputs.sos && !s.outputs.off3));
 
     /// A latched stop or STOP F blocks the next start.
     latched_stop_blocks ["S120-STOP-525", "S120-PC-20"]:
@@ -331,8 +332,8 @@ monitor! { sinamics::stop_arbiter;
 
     /// A message is entered exactly when the level rises.
     message_when_the_level_rises ["S120-STOP-522", "S120-STOP-521"]:
-        when |s| s.outputs.initiated != Stop::None
-            => s.outputs.initiated == s.after.stop;
+        when |s| s.outputs.initiated != Stop::None || (s.after.stop > s.before.stop && !s.inputs.power_on)
+            => s.outputs.initiated == s.after.stop && (s.after.stop > s.before.stop || s.inputs.power_on);
 
     /// POWER ON acknowledges; what is requested in that cycle is latched anew.
     power_on_begins_anew ["S120-ACK-500"]:
@@ -354,14 +355,11 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
     };
     let mut after = acknowledged(before, config, inputs);
     after = advanced(after, config, inputs, before);
-    let mut initiated = Stop::None;
     if inputs.request > after.stop {
         after = requested(after, config, inputs.request, inputs.function);
-        initiated = inputs.request;
     }
     if followed_up(&mut after, before, config, inputs) && after.stop < Stop::B {
         after = requested(after, config, Stop::B, inputs.function);
-        initiated = Stop::B;
     }
     let ended = after.stop == Stop::B
         && (after.timer.is_zero()
@@ -370,8 +368,12 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
         after.stop = Stop::A;
         after.phase = Phase::PulsesOff;
         after.timer = Cycles::ZERO;
-        initiated = Stop::A;
     }
+    let initiated = if after.stop > before.stop {
+        after.stop
+    } else {
+        Stop::None
+    };
     if after.stop >= Stop::B || inputs.function.ends_without_pulses() {
         after.fault_timer = Cycles::ZERO;
     }
@@ -504,7 +506,7 @@ fn outputs(state: &State, config: &Config, initiated: Stop) -> Outputs {
         fault: state.fault,
         pulses_off: state.phase == Phase::PulsesOff,
         off3,
-        setpoint_zero: off3 || (sos && state.stop == Stop::C),
+        setpoint_zero: state.stop >= Stop::C && !(state.stop == Stop::B && config.external),
         ramp_watched: off3,
         sos,
         esr: state.stop == Stop::E && (running || sos),

@@ -1,7 +1,7 @@
 //! Wrong monitors of tests, messages and modes.
 
 use crate::kernel::Cycles;
-use crate::sinamics::{acceptance_mode, commissioning, io_test, message_buffer};
+use crate::sinamics::{acceptance_mode, commissioning, io_test, message_buffer, replacement};
 
 variants! { sinamics::io_test:
     /// The test is over when its start signal falls.
@@ -149,6 +149,27 @@ variants! { sinamics::commissioning:
         let inputs = commissioning::Inputs { copy: inputs.copy || inputs.leave, ..*inputs };
         let (mut after, outputs) = commissioning::transition(state, config, &inputs);
         after.copied &= state.copied && !inputs.write;
+        (after, outputs)
+    }
+}
+
+variants! { sinamics::replacement:
+    /// What was acknowledged is not told again.
+    "replacement-told-once" |mut state, config, inputs| {
+        state.foreign &= state.message != replacement::Message::None || !inputs.power_on;
+        replacement::transition(state, config, inputs)
+    }
+
+    /// Saving is enough.
+    "replacement-unconfirmed" |state, config, inputs| {
+        let inputs = replacement::Inputs { confirm: inputs.confirm || inputs.save, ..*inputs };
+        replacement::transition(state, config, &inputs)
+    }
+
+    /// One confirmation is for every component that follows.
+    "replacement-confirmed-for-ever" |state, config, inputs| {
+        let (mut after, outputs) = replacement::transition(state, config, inputs);
+        after.confirmed |= state.confirmed;
         (after, outputs)
     }
 }
