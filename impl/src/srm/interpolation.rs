@@ -41,21 +41,33 @@ impl Curve {
     }
 
     /// Its points in their order: X and V.
-    pub fn points(&self) -> [(i32, i32); POINTS] {
+    pub const fn points(&self) -> [(i32, i32); POINTS] {
         let mut points = [(self.x_16, self.v_16); POINTS];
-        for (point, (x, v)) in points.iter_mut().zip(self.x.iter().zip(&self.v)) {
-            *point = (*x, *v);
+        let mut place = 0;
+        while place < self.x.len() {
+            // `place` is below both lengths.
+            #[allow(clippy::indexing_slicing)]
+            {
+                points[place] = (self.x[place], self.v[place]);
+            }
+            place += 1;
         }
         points
     }
 
     /// No X is less than the one before (SRM-INTERP-002).
-    pub fn ascends(&self) -> bool {
+    pub const fn ascends(&self) -> bool {
         let points = self.points();
-        points
-            .iter()
-            .zip(points.iter().skip(1))
-            .all(|(here, next)| here.0 <= next.0)
+        let mut place = 1;
+        while place < POINTS {
+            // `place` is below the length.
+            #[allow(clippy::indexing_slicing)]
+            if points[place].0 < points[place - 1].0 {
+                return false;
+            }
+            place += 1;
+        }
+        true
     }
 
     /// The limit at a place; none where the points do not ascend or the arithmetic overflows.
@@ -63,26 +75,26 @@ impl Curve {
         if !self.ascends() {
             return None;
         }
-        let points = self.points();
-        let (first, last) = (points.first()?, points.last()?);
-        if place < first.0 {
-            return Some(first.1);
+        let (mut below, mut lowest, mut above) = (None, None, None);
+        for point in self.points() {
+            if point.0 < place {
+                below = Some(point);
+            } else if point.0 > place {
+                above = above.or(Some(point));
+            } else {
+                lowest = Some(lowest.map_or(point.1, |lowest: i32| lowest.min(point.1)));
+            }
         }
-        if place > last.0 {
-            return Some(last.1);
+        match (below, lowest, above) {
+            (_, Some(lowest), _) => Some(lowest),
+            (None, None, outer) | (outer, None, None) => Some(outer?.1),
+            (Some(below), None, Some(above)) => {
+                let rise = above.1.checked_sub(below.1)?;
+                let part = rise.checked_mul(place.checked_sub(below.0)?)?;
+                let width = above.0.checked_sub(below.0)?;
+                below.1.checked_add(part.checked_div(width)?)
+            }
         }
-        let at = points.iter().filter(|point| point.0 == place);
-        if let Some(lowest) = at.map(|point| point.1).min() {
-            return Some(lowest);
-        }
-        let below = points.iter().rev().find(|point| point.0 < place)?;
-        let above = points.iter().find(|point| point.0 > place)?;
-        let rise = above.1.checked_sub(below.1)?;
-        let way = place.checked_sub(below.0)?;
-        let part = rise.checked_mul(way)?;
-        below
-            .1
-            .checked_add(part.checked_div(above.0.checked_sub(below.0)?)?)
     }
 }
 
@@ -116,31 +128,38 @@ fields! {
     }
 }
 
-/// Whether a point with another velocity may be meant at this place: one with the same X and a lower velocity.
+/// Whether the limit is the velocity of a point at this place, and of none of those a higher one.
 fn lowest_at(curve: &Curve, place: i32, limit: i32) -> bool {
-    let points = curve.points();
-    let at = || points.iter().filter(|point| point.0 == place);
-    at().all(|point| limit <= point.1) && at().any(|point| limit == point.1)
+    let (mut all, mut any) = (true, false);
+    for point in curve.points() {
+        all &= point.0 != place || limit <= point.1;
+        any |= point.0 == place && limit == point.1;
+    }
+    all && any
 }
 
 /// The limit is less than 1 from the exact value on the line between two neighbours, on the side of the first of them; true of
 /// places that are not strictly between two.
 fn on_the_line(curve: &Curve, place: i32, limit: i32) -> bool {
     let points = curve.points();
-    let mut between = points
-        .iter()
-        .zip(points.iter().skip(1))
-        .filter(|(below, above)| below.0 < place && place < above.0);
-    between.all(|(below, above)| {
-        // Without an error every difference and the product are DInt, so that nothing here leaves 64 bits.
-        let (width, rise) = (
-            above.0 as i64 - below.0 as i64,
-            above.1 as i64 - below.1 as i64,
-        );
-        let exact = rise.saturating_mul(place as i64 - below.0 as i64);
-        let left = exact.saturating_sub((limit as i64 - below.1 as i64).saturating_mul(width));
-        left.abs() < width && (left == 0 || (left < 0) == (rise < 0))
-    })
+    let mut segment = None;
+    for (below, above) in points.into_iter().zip(points.into_iter().skip(1)) {
+        if below.0 < place && place < above.0 {
+            segment = Some((below, above));
+        }
+    }
+    // Points that ascend have a place between no other two.
+    let Some((below, above)) = segment else {
+        return true;
+    };
+    // Without an error every difference and the product are DInt, so that nothing here leaves 64 bits.
+    let (width, rise) = (
+        above.0 as i64 - below.0 as i64,
+        above.1 as i64 - below.1 as i64,
+    );
+    let exact = rise.saturating_mul(place as i64 - below.0 as i64);
+    let left = exact.saturating_sub((limit as i64 - below.1 as i64).saturating_mul(width));
+    left.abs() < width && (left == 0 || (left < 0) == (rise < 0))
 }
 
 monitor! { srm::interpolation;
@@ -189,15 +208,16 @@ monitor! { srm::interpolation;
 /// Whether no segment can overflow: its width, its rise and their product are DInt.
 pub fn segments_fit(curve: &Curve) -> bool {
     let points = curve.points();
-    let fits = |value: i64| i32::try_from(value).is_ok();
-    points
-        .iter()
-        .zip(points.iter().skip(1))
-        .all(|(below, above)| {
-            let width = above.0 as i64 - below.0 as i64;
-            let rise = above.1 as i64 - below.1 as i64;
-            fits(width) && fits(rise) && fits(width * rise)
-        })
+    let mut fit = true;
+    for (below, above) in points.into_iter().zip(points.into_iter().skip(1)) {
+        let width = above.0.checked_sub(below.0);
+        let product = match (width, above.1.checked_sub(below.1)) {
+            (Some(width), Some(rise)) => width.checked_mul(rise),
+            _ => None,
+        };
+        fit &= product.is_some();
+    }
+    fit
 }
 
 pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (State, Outputs) {

@@ -214,13 +214,14 @@ macro_rules! kani_case {
     };
 }
 
-/// The Kani harness of an entry; with `[parts(COUNT: NAME = NUMBER, ...)]` several in a module of its name. The parts of a
+/// The Kani harness of an entry, where it is one of the chosen ones (see `build.rs`); with `[parts(COUNT: NAME = NUMBER, ...)]` several in a module of its name. The parts of a
 /// contract share its clauses; those of a run are the parts that its property knows, and part 0 is the whole with the covers
 /// and without the assertion.
 #[cfg(kani)]
 macro_rules! kani_harness {
     (contract [kani $kani:tt parts($count:literal: $($part:ident = $number:literal),+)]
         $id:ident on $family:ident::$monitor:ident $rest:tt) => {
+        #[cfg(any(not(kani_chosen), $id))]
         mod $id {
             use super::*;
             $(kani_proof! { $kani [] $part {
@@ -246,6 +247,7 @@ macro_rules! kani_harness {
     };
     (run($unwind:literal) [kani $kani:tt parts($count:literal: $($part:ident = $number:literal),+)]
         $id:ident on $family:ident::$monitor:literal by $module:ident::$function:ident $rest:tt) => {
+        #[cfg(any(not(kani_chosen), $id))]
         mod $id {
             use super::*;
             kani_harness! { covers $kani [unwind($unwind)] false covers $family $module $function $rest }
@@ -256,6 +258,7 @@ macro_rules! kani_harness {
         }
     };
     (run($unwind:literal) [kani $kani:tt] $id:ident on $family:ident::$monitor:literal by $module:ident::$function:ident $rest:tt) => {
+        #[cfg(any(not(kani_chosen), $id))]
         mod $id {
             use super::*;
             kani_harness! { covers $kani [unwind($unwind)] true whole $family $module $function $rest }
