@@ -20,14 +20,32 @@ use stillpoint_tests::{exceptions, root};
 
 /// The tables compared: those of a machine, or with the parameters of their systems. What several files use is compared with
 /// the parameters of the first one, so the file of a machine's own table stands before those that put it together with others.
-const FILES: [&[&str]; 3] = [
-    OTHERS,
-    SINAMICS_FUNCTIONS,
-    SINAMICS_CONTROL,
-];
+const FILES: [&[&str]; 3] = [OTHERS, SINAMICS_FUNCTIONS, SINAMICS_CONTROL];
 
 /// The functions of a drive of the family sinamics-s120.
-const SINAMICS_FUNCTIONS: &[&str] = &[];
+const SINAMICS_FUNCTIONS: &[&str] = &[
+    "spec/families/sinamics-s120/sto.toml",
+    "spec/families/sinamics-s120/ss1-basic.toml",
+    "spec/families/sinamics-s120/ss1.toml",
+    "spec/families/sinamics-s120/sbc.toml",
+    "spec/families/sinamics-s120/ss2.toml",
+    "spec/families/sinamics-s120/sos.toml",
+    "spec/families/sinamics-s120/sam.toml",
+    "spec/families/sinamics-s120/sbr.toml",
+    "spec/families/sinamics-s120/sls.toml",
+    "spec/families/sinamics-s120/sls-ramp.toml",
+    "spec/families/sinamics-s120/ssm.toml",
+    "spec/families/sinamics-s120/sdi.toml",
+    "spec/families/sinamics-s120/slp.toml",
+    "spec/families/sinamics-s120/referencing.toml",
+    "spec/families/sinamics-s120/sp.toml",
+    "spec/families/sinamics-s120/actual-value.toml",
+    "spec/families/sinamics-s120/gear.toml",
+    "spec/families/sinamics-s120/setpoint-limit.toml",
+    "spec/families/sinamics-s120/encoderless.toml",
+    "spec/families/sinamics-s120/drive-test.toml",
+    "spec/families/sinamics-s120/sbt.toml",
+];
 
 /// Their control and their telegrams.
 const SINAMICS_CONTROL: &[&str] = &[];
