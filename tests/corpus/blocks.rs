@@ -63,7 +63,7 @@ fn every_block_of_the_library_is_a_monitor() {
     ];
     let family = FAMILIES.into_iter().find(|f| f.name == "srm-fblocks");
     let peers = &family.expect("the family").peers;
-    let compared = peers.machines().chain(peers.systems.iter().copied());
+    let compared = peers.machines().chain(peers.systems());
     let modules: BTreeSet<&str> = compared.map(|(_, module)| module).collect();
     assert_eq!(modules, BTreeSet::from(printed));
 }

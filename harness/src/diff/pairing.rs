@@ -67,7 +67,7 @@ pub fn pairings(subject: &Subject) -> Result<Vec<Pairing>, DiffError> {
                 add(&mut out, name, false, &task.axes, system, given)?;
             }
         }
-        for &(name, _) in family.peers.systems {
+        for (name, _) in family.peers.systems() {
             if task.bound.system.name.ends_with(&format!("/{name}")) {
                 let system = task.bound.system.clone();
                 let given = parameters_of(&task.bound, &system);
@@ -149,7 +149,8 @@ fn add_unused(out: &mut Vec<Pairing>, files: &mut Files, folder: &Path) -> Resul
         return Ok(());
     };
     let machines: Vec<_> = family.peers.machines().collect();
-    let kinds = [("machine", &machines[..]), ("system", family.peers.systems)];
+    let systems: Vec<_> = family.peers.systems().collect();
+    let kinds = [("machine", &machines[..]), ("system", &systems[..])];
     for path in paths {
         let text = files::read_to_string(&path).map_err(fault)?;
         for (kind, names) in kinds {

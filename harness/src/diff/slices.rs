@@ -30,7 +30,7 @@ pub struct Slice {
 pub fn slices(pairing: &Pairing) -> Result<Vec<Pairing>, DiffError> {
     let mut cuts = Vec::new();
     if let Some(family) = families::of_table(&pairing.bound.system.name) {
-        let slices = family.peers.slices.iter();
+        let slices = family.peers.slices.iter().copied().flatten();
         for slice in slices.filter(|s| s.system == pairing.machine) {
             cuts.push(cut(pairing, slice, family.peers.calm)?);
         }

@@ -109,9 +109,10 @@ fn asked(s: &Step) -> bool {
 }
 
 monitor! { sinamics::brake_test_request;
-    /// An edge of the request selects the brake test first.
+    /// An edge of the request selects the brake test first, but for one that comes with the automatic test stop.
     brake_test_comes_first ["S120-SBT-015"]:
         when |s| s.config.by_test_stop && s.before.phase == Phase::Idle && s.inputs.request && !s.before.request_held
+            && !(s.inputs.automatic && s.config.automatic == SbtAuto::Skip)
             => s.outputs.select && !s.outputs.test_stop;
 
     /// Without p10203 = 2 the test stop begins at once.
@@ -122,7 +123,7 @@ monitor! { sinamics::brake_test_request;
     /// So does the automatic one at POWER ON (AF-11).
     automatic_skips_the_brake ["S120-SBT-015", "S120-TEST-004"]:
         when |s| s.config.by_test_stop && s.config.automatic == SbtAuto::Skip && s.inputs.automatic
-            && s.before.phase == Phase::Idle && (!s.inputs.request || s.before.request_held)
+            && s.before.phase == Phase::Idle
             => s.outputs.test_stop && !s.outputs.select;
 
     /// The sequence is started when the brake test is ready, never sooner.
@@ -159,8 +160,8 @@ monitor! { sinamics::brake_test_request;
 
 pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (State, Outputs) {
     let edge = rises(inputs.request, state.request_held);
-    let with_brake =
-        config.by_test_stop && (edge || inputs.automatic && config.automatic == SbtAuto::Run);
+    let skips = inputs.automatic && config.automatic == SbtAuto::Skip;
+    let with_brake = config.by_test_stop && (edge || inputs.automatic) && !skips;
     let (phase, test_stop) = match state.phase {
         Phase::Idle if with_brake => (Phase::Selected, false),
         Phase::Idle => (Phase::Idle, edge || inputs.automatic),

@@ -133,7 +133,7 @@ fields! {
 
 /// A test is asked for: by an edge, at POWER ON, or again after a problem.
 fn asked(s: &Step) -> bool {
-    s.inputs.request && !s.before.request_held
+    s.inputs.request && !s.before.request_held && !s.inputs.power_on
         || s.inputs.power_on && s.config.automatic
         || s.before.phase == Phase::Retry && !s.inputs.power_on
 }
@@ -242,10 +242,7 @@ fn progress(state: &State, inputs: &Inputs) -> Progress {
 
 pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (State, Outputs) {
     let state = if inputs.power_on {
-        State {
-            request_held: state.request_held,
-            ..State::INITIAL
-        }
+        State::INITIAL
     } else {
         state
     };

@@ -92,7 +92,9 @@ fields! {
 
 /// Something begins the interval anew: STO or SS1 is deselected, a passed test stop, new settings.
 fn renews(s: &Step) -> bool {
-    s.before.selected_held && !s.inputs.selected || s.inputs.passed || s.inputs.activated
+    s.before.selected_held && !s.inputs.selected && !s.inputs.power_on
+        || s.inputs.passed
+        || s.inputs.activated
 }
 
 monitor! { sinamics::path_test;
@@ -119,8 +121,13 @@ monitor! { sinamics::path_test;
 
     /// Else the interval runs down and is told.
     interval_runs_down ["S120-TEST-001"]:
-        when |s| !renews(&s)
+        when |s| !renews(&s) && !s.inputs.power_on
             => s.after.left == s.before.left.tick() && s.outputs.left == s.after.left;
+
+    /// After POWER ON one is due until the first use has ended.
+    power_on_makes_it_due ["S120-TEST-001", "S120-TEST-003"]:
+        when |s| s.inputs.power_on && !renews(&s)
+            => s.outputs.due;
 
     /// Its end makes a test due, for as long as none is made; nothing else is affected.
     end_makes_it_due ["S120-TEST-001", "S120-PF-35"]:
@@ -145,6 +152,11 @@ monitor! { sinamics::path_test;
 }
 
 pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (State, Outputs) {
+    let state = if inputs.power_on {
+        State::INITIAL
+    } else {
+        state
+    };
     let tested = inputs.power_on || rises(inputs.selected, state.selected_held) || inputs.test_stop;
     let renewed = falls(inputs.selected, state.selected_held) || inputs.passed || inputs.activated;
     let left = if renewed && !inputs.path_error {

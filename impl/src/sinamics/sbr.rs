@@ -12,7 +12,7 @@ fields! {
     /// Reading AF-2: the speed at which the ramp begins.
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
     pub enum SbrStart {
-        /// That of the trigger, which is the limit during the delay too.
+        /// That of the trigger.
         #[default]
         Trigger,
         /// That at the end of the delay.
@@ -245,11 +245,15 @@ monitor! { sinamics::sbr;
                 SbrStart::Reference => s.config.reference,
             };
 
-    /// Under the recommended reading an acceleration during the delay is seen.
+    /// Under the recommended reading the speed of the trigger is kept, so that an acceleration during the delay is seen at its end.
     trigger_speed_is_kept ["S120-SBR-002"]:
-        when |s| s.config.start == SbrStart::Trigger && s.before.phase == Phase::Delay && s.after.phase == Phase::Delay
-            => s.after.ramp == s.before.ramp && s.outputs.monitored
-                && (s.outputs.violated || s.inputs.speed <= s.before.ramp.max(s.config.resolution));
+        when |s| s.config.start == SbrStart::Trigger && s.before.phase == Phase::Delay && s.inputs.braking
+            => s.after.ramp == s.before.ramp;
+
+    /// The delay is not monitored, the ramp is.
+    delay_is_not_monitored ["S120-SBR-001", "S120-SBR-003"]:
+        when |s| s.before.invariant(&s.config)
+            => s.outputs.monitored == (s.after.phase == Phase::Ramp);
 
     /// Standstill is no violation at any time.
     standstill_is_no_violation ["S120-SBR-002", "S120-SBR-006"]:
@@ -315,7 +319,7 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
         Phase::Delay => (state.ramp, 0),
         Phase::Ramp => fallen(&state, config),
     };
-    let monitored = phase == Phase::Ramp || at_trigger;
+    let monitored = phase == Phase::Ramp;
     let limit = if monitored {
         ramp.max(config.least())
     } else {

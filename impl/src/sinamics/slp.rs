@@ -121,9 +121,9 @@ fields! {
         pub enabled: bool,
         /// SLP is active (S_ZSW.6): a range is monitored.
         pub active: bool,
-        /// The position is below the lower limit of the monitored range: C01715, value 20.
+        /// The position is below the lower limit of the monitored range: C01715, with 10 for range 1 and 20 for range 2.
         pub below: bool,
-        /// It is above the upper one: C01715, value 10.
+        /// It is above the upper one: the same message.
         pub above: bool,
         /// The stop that is raised.
         pub demand: Stop,

@@ -176,7 +176,7 @@ monitor! { sinamics::sls_ramp;
     /// The limit that the ramp has reached takes over.
     reached_limit_takes_over ["S120-SLS-013", "S120-SBR-004", "S120-PF-34"]:
         when |s| s.before.next.is_some() && s.inputs.selected && s.before.ramp.phase == sbr::Phase::Ramp
-            && s.before.ramp.ramp <= s.config.limit(s.inputs.level)
+            && reached(&s.before.ramp, s.config.limit(s.inputs.level))
             => s.outputs.active && s.outputs.level == s.inputs.level && !s.outputs.braking;
 
     /// So does one that the speed has been below for p9582.
@@ -223,6 +223,11 @@ monitor! { sinamics::sls_ramp;
             => s.after.invariant(&s.config) && s.outputs.braking == s.after.next.is_some();
 }
 
+/// The exact ramp, which lies above the rounded one by its rest, has come down to the limit.
+fn reached(ramp: &sbr::State, limit: Speed) -> bool {
+    ramp.phase == sbr::Phase::Ramp && (ramp.ramp < limit || ramp.ramp == limit && ramp.rest == 0)
+}
+
 /// The state after a cycle, and whether the ramp is violated.
 fn moved(state: &State, config: &Config, inputs: &Inputs) -> (State, bool) {
     let limit = config.limit(inputs.level);
@@ -247,8 +252,7 @@ fn moved(state: &State, config: &Config, inputs: &Inputs) -> (State, bool) {
         config.ramp.delay()
     };
     let settled = same && state.settling == Cycles::new(1) && inputs.speed < limit;
-    let reached = ramp.phase == sbr::Phase::Ramp && ramp.ramp <= limit;
-    if settled || reached {
+    if settled || reached(&ramp, limit) {
         return (taken, false);
     }
     let after = State {

@@ -80,7 +80,7 @@ fields! {
     /// The outputs of one cycle.
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
     pub struct Outputs {
-        /// "SOS selected" for the control, which is to brake the axis.
+        /// "SOS selected" for the control, which has to keep the axis where it is: STOP D and E correspond to a selection.
         pub selected: bool,
         /// SOS is active (r9722.3, S_ZSW.3).
         pub active: bool,
@@ -146,6 +146,11 @@ monitor! { sinamics::sos;
         when |s| s.before.phase == Phase::Active && !s.inputs.selected && !s.inputs.held
             => s.after == State::INITIAL && s.outputs == Outputs::default();
 
+    /// The control is told from the selection on, and as long as a stop keeps it.
+    selection_is_told ["S120-SOS-004", "S120-SOS-002"]:
+        when |s| s.before.invariant(&s.config)
+            => s.outputs.selected == (s.inputs.selected || s.inputs.held);
+
     /// The state stays consistent.
     state_stays_consistent ["S120-SOS-003"]:
         when |s| s.before.invariant(&s.config)
@@ -165,7 +170,7 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
         config.delay
     };
     let mut outputs = Outputs {
-        selected: inputs.selected,
+        selected: true,
         ..Outputs::default()
     };
     if !left.is_zero() {

@@ -2,7 +2,7 @@
 //!
 //! The drive brakes along OFF3 while SAM or SBR watch; STO follows below the shutdown speed p9560 or after p9556. With SBR and no
 //! encoder (p9506 = 1) there is no time: the ramp bounds it (S120-SBR-006). With an external stop (p9507.3) the time alone counts.
-//! A speed that is low in the first cycle ends SS1 in the next one: braking has begun by then.
+//! What began the braking keeps its time: a STOP B during SS1 changes none (S120-STOP-524), but makes STOP A of its end.
 //!
 //! Readings: AF-1 and AF-16 as settled; AF-29 is a choice of the configuration, the recommended one first.
 
@@ -58,7 +58,7 @@ impl Config {
         })
     }
 
-    /// Whether the time ends a stop: a STOP B, or SS1.
+    /// Whether the time ends a stop that begins: with a STOP B, or SS1 alone.
     fn timed(&self, stop_b: bool) -> bool {
         self.external
             || self.braking != Braking::BareSbr
@@ -101,10 +101,15 @@ impl State {
         stop_b: false,
     };
 
-    /// Time and STOP B are kept while braking only; a time that counts has not run out.
+    /// Time and STOP B are kept while braking only; a time that counts has not run out, and no other runs.
     pub fn invariant(&self, config: &Config) -> bool {
         if self.phase == Phase::Braking {
-            self.left <= config.time && (!self.left.is_zero() || !config.timed(self.stop_b))
+            self.left <= config.time
+                && if self.left.is_zero() {
+                    !config.timed(false)
+                } else {
+                    config.timed(self.stop_b)
+                }
         } else {
             self.left.is_zero() && !self.stop_b
         }
@@ -158,9 +163,13 @@ monitor! { sinamics::ss1;
     /// A drive that is on brakes: OFF3, monitor and time begin in the same cycle.
     braking_begins ["S120-SS1-010", "S120-SS1-011", "S120-SS1-012", "S120-SAM-002", "S120-SBR-001", "S120-ARCH-003"]:
         when |s| s.before.phase == Phase::Idle && (s.inputs.selected || s.inputs.stop_b) && !s.inputs.sto
-            && s.inputs.drive_on && !s.config.external && !s.config.time.is_zero()
+            && s.inputs.drive_on && !s.config.external && !s.config.time.is_zero() && s.inputs.speed >= s.config.shutdown
             => s.outputs.off3 && s.outputs.monitored && s.outputs.active && !s.outputs.sto
-                && s.after.left == s.config.time;
+                && s.after.left == if s.config.timed(s.inputs.stop_b) {
+                    s.config.time
+                } else {
+                    Cycles::ZERO
+                };
 
     /// With an external stop nothing but the time begins.
     external_stop_is_not_monitored ["S120-SS1-016"]:
@@ -177,9 +186,10 @@ monitor! { sinamics::ss1;
         when |s| s.before.phase == Phase::Idle && s.inputs.selected && !s.inputs.drive_on
             => s.outputs.sto && !s.outputs.off3;
 
-    /// Below the shutdown speed STO follows in the same cycle.
+    /// Below the shutdown speed STO follows in the same cycle, also in that of the selection.
     shutdown_speed_ends_it ["S120-SS1-010", "S120-SS1-011", "S120-SS1-012", "S120-SS1-013", "S120-SBR-004"]:
-        when |s| s.before.phase == Phase::Braking && !s.config.external && s.inputs.speed < s.config.shutdown
+        when |s| (s.before.phase == Phase::Braking || s.before.phase == Phase::Idle && (s.inputs.selected || s.inputs.stop_b))
+            && !s.config.external && s.inputs.speed < s.config.shutdown
             => s.outputs.sto && !s.outputs.active;
 
     /// So it does when the time is over, but for SS1 with SBR and no encoder.
@@ -194,10 +204,10 @@ monitor! { sinamics::ss1;
             && s.inputs.speed >= s.config.shutdown && s.before.left > Cycles::new(1)
             => s.outputs.active && !s.outputs.sto;
 
-    /// Without encoder SS1 by the ramp knows no time.
+    /// Without encoder SS1 by the ramp knows no time, and none begins with a STOP B on the way.
     ramp_without_encoder_has_no_time ["S120-SS1-013", "S120-ENC-002"]:
         when |s| s.before.phase == Phase::Braking && s.config.braking == Braking::BareSbr && !s.config.external
-            && !s.before.stop_b && !s.inputs.stop_b && !s.inputs.sto && !s.inputs.ramp_violated
+            && s.before.left.is_zero() && !s.inputs.sto && !s.inputs.ramp_violated
             && s.inputs.speed >= s.config.shutdown
             => s.outputs.active && s.outputs.monitored;
 
@@ -214,11 +224,11 @@ monitor! { sinamics::ss1;
     /// STO and STOP A end the braking at once.
     sto_ends_it ["S120-STO-010", "S120-SS1-021"]:
         when |s| s.inputs.sto
-            => !s.outputs.active && !s.outputs.off3 && !s.outputs.monitored && !s.outputs.stop_a;
+            => !s.outputs.active && !s.outputs.off3 && !s.outputs.monitored;
 
-    /// STOP B ends in STOP A.
+    /// STOP B ends in STOP A, whatever ends it.
     stop_b_ends_in_stop_a ["S120-SS1-017", "S120-PF-30"]:
-        when |s| s.before.phase == Phase::Braking && (s.before.stop_b || s.inputs.stop_b) && s.outputs.sto && !s.inputs.sto
+        when |s| s.before.phase == Phase::Braking && (s.before.stop_b || s.inputs.stop_b) && s.outputs.sto
             => s.outputs.stop_a;
 
     /// An SS1 that nothing has disturbed ends without a stop.
@@ -246,21 +256,20 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
     let asked = inputs.selected || inputs.stop_b;
     let braking = state.phase == Phase::Braking;
     let stop_b = (braking && state.stop_b) || inputs.stop_b;
-    let left = if braking {
-        state.left.tick()
+    let timed = if braking {
+        !state.left.is_zero()
     } else {
-        config.time
+        config.timed(inputs.stop_b)
+    };
+    let left = match timed {
+        true if braking => state.left.tick(),
+        true => config.time,
+        false => Cycles::ZERO,
     };
     let violated = braking && !config.external && inputs.ramp_violated && !inputs.sto;
-    let over = left.is_zero() && config.timed(stop_b);
-    let ends = inputs.sto
-        || violated
-        || over
-        || if braking {
-            slow(config, inputs)
-        } else {
-            !inputs.drive_on
-        };
+    let over = timed && left.is_zero();
+    let off = !braking && !inputs.drive_on;
+    let ends = inputs.sto || violated || over || slow(config, inputs) || off;
     let phase = match state.phase {
         Phase::Idle | Phase::Sto if !asked => Phase::Idle,
         Phase::Sto => Phase::Sto,
@@ -274,7 +283,7 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
         monitored: active && !config.external,
         active,
         sto,
-        stop_a: violated || sto && stop_b && !inputs.sto,
+        stop_a: violated || sto && stop_b,
         violated,
     };
     let after = State {

@@ -81,7 +81,7 @@ fields! {
     pub struct Outputs {
         /// The drive brakes along OFF3.
         pub off3: bool,
-        /// SS1 is active: the time runs.
+        /// SS1 is active (r9773.5, r9773.6): the time runs, or it has ended in STO and is still selected.
         pub active: bool,
         /// SS1 has ended: STO, and SBC where it is enabled.
         pub sto: bool,
@@ -103,27 +103,32 @@ monitor! { sinamics::ss1_basic;
     /// In its last cycle STO acts, for at least this one cycle.
     time_ends_in_sto ["S120-SS1-002", "S120-SS1-003", "S120-SS1-004", "S120-SS1-009", "S120-PF-04"]:
         when |s| s.before.left == Cycles::new(1)
-            => s.outputs.sto && !s.outputs.active && !s.outputs.off3;
+            => s.outputs.sto && s.outputs.active && !s.outputs.off3;
 
     /// STO and STOP A end a running SS1 at once: nothing of it goes on.
     sto_ends_it ["S120-STO-010", "S120-SS1-021"]:
         when |s| s.inputs.sto
-            => !s.outputs.active && !s.outputs.off3 && s.after.left.is_zero();
+            => !s.outputs.off3 && s.after.left.is_zero();
 
     /// What is still selected at the end stays off; a deselected one lets go in the cycle after.
     deselection_after_the_end ["S120-SS1-004"]:
         when |s| s.before.phase == Phase::Sto && !s.inputs.sto
-            => s.outputs.sto == s.inputs.selected && !s.outputs.active;
+            => s.outputs.sto == s.inputs.selected && !s.outputs.off3;
 
     /// Without a time the terminals mean STO.
     no_time_means_sto ["S120-SS1-001"]:
         when |s| s.config.time.is_zero() && !s.inputs.sto
-            => s.outputs.sto == s.inputs.selected && !s.outputs.active && !s.outputs.off3;
+            => s.outputs.sto == s.inputs.selected && !s.outputs.off3;
 
     /// STO is reached only by the end of the time, by STO itself, or without a time.
     sto_has_its_reason ["S120-SS1-002", "S120-SS1-003"]:
         when |s| s.outputs.sto && s.before.phase != Phase::Sto && !s.config.time.is_zero()
             => s.inputs.sto || s.before.left == Cycles::new(1);
+
+    /// The status is that of SS1 from its selection to its end, STO included.
+    status_lasts_to_the_end ["S120-SS1-008"]:
+        when |s| s.before.invariant(&s.config)
+            => s.outputs.active == (s.after.phase != Phase::Idle) && (s.outputs.active || !s.inputs.selected);
 
     /// Unselected nothing begins.
     idle_stays_idle ["S120-SS1-001"]:
@@ -150,13 +155,13 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
     } else {
         Phase::Delay
     };
-    let active = phase == Phase::Delay;
+    let runs = phase == Phase::Delay;
     let outputs = Outputs {
-        off3: active && !config.external,
-        active,
+        off3: runs && !config.external,
+        active: phase != Phase::Idle,
         sto: phase == Phase::Sto,
     };
-    let left = if active { left } else { Cycles::ZERO };
+    let left = if runs { left } else { Cycles::ZERO };
     (State { phase, left }, outputs)
 }
 

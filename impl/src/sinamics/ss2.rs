@@ -88,8 +88,6 @@ fields! {
         pub phase: Phase,
         /// What is left of its time.
         pub left: Cycles,
-        /// The setpoint has been inhibited by SS2 or STOP C.
-        pub inhibited: bool,
     }
 }
 
@@ -98,18 +96,16 @@ impl State {
     pub const INITIAL: Self = Self {
         phase: Phase::Idle,
         left: Cycles::ZERO,
-        inhibited: false,
     };
 
-    /// A time runs exactly while its phase lasts; the setpoint is inhibited while the drive brakes, and at most in the operating stop
-    /// after it.
+    /// A time runs exactly while its phase lasts.
     pub fn invariant(&self, config: &Config) -> bool {
         let runs = |time: Cycles| !self.left.is_zero() && self.left <= time;
         match self.phase {
             Phase::Idle => *self == Self::INITIAL,
-            Phase::DelayE => runs(config.time_e) && !self.inhibited,
-            Phase::DelayD => runs(config.time_d) && !self.inhibited,
-            Phase::Braking => runs(config.time_c) && self.inhibited,
+            Phase::DelayE => runs(config.time_e),
+            Phase::DelayD => runs(config.time_d),
+            Phase::Braking => runs(config.time_c),
             Phase::Sos => self.left.is_zero(),
         }
     }
@@ -150,9 +146,12 @@ impl Inputs {
         self.ss2e || self.stop == Stop::D
     }
 
-    /// A latched stop finds the axis in the operating stop already (Table 9-3, row SOS).
+    /// A latched stop finds the axis in the operating stop already (Table 9-3, row SOS); a function that is selected goes its own way.
     fn stands(&self) -> bool {
-        self.sos_active && matches!(self.stop, Stop::C | Stop::D | Stop::E) && !self.ss2
+        self.sos_active
+            && matches!(self.stop, Stop::C | Stop::D | Stop::E)
+            && !self.ss2
+            && !self.ss2e
     }
 }
 
@@ -162,11 +161,11 @@ fields! {
     pub struct Outputs {
         /// The drive brakes along OFF3; SAM (p9506 = 0) or SBR (p9506 = 2) watch.
         pub off3: bool,
-        /// The setpoint of the control is inhibited.
+        /// The setpoint of the control is inhibited: while the drive brakes, and as long as SS2 is selected or STOP C latched.
         pub inhibited: bool,
-        /// SS2 is active (r9722.2): braking, or the operating stop after it.
+        /// SS2 or STOP C is active (r9722.2): braking, or the operating stop that it keeps.
         pub ss2_active: bool,
-        /// SS2E or STOP D is active (r9722.28, r10234.11).
+        /// SS2E or STOP D is active (r9722.28, r10234.11): its delay, or the operating stop that it keeps.
         pub ss2e_active: bool,
         /// Extended stop and retract is asked for.
         pub esr: bool,
@@ -245,7 +244,7 @@ monitor! { sinamics::ss2;
     /// The operating stop lasts while a function is selected or any stop is latched.
     sos_stays ["S120-SOS-009", "S120-SOS-010", "S120-PF-38"]:
         when |s| s.before.phase == Phase::Sos && (s.inputs.ss2 || s.inputs.ss2e || s.inputs.stop != Stop::None)
-            => s.outputs.sos && (s.after.inhibited || !s.before.inhibited);
+            => s.outputs.sos && !s.outputs.off3;
 
     /// It ends when none is.
     sos_ends ["S120-SOS-010", "S120-SS2-009"]:
@@ -259,18 +258,24 @@ monitor! { sinamics::ss2;
 
     /// A latched stop that finds the axis in the operating stop keeps it there.
     latched_stop_holds_sos ["S120-SOS-010", "S120-SOS-002"]:
-        when |s| s.before.phase == Phase::Idle && s.inputs.sos_active && !s.inputs.ss2 && !s.inputs.ss1_or_sto
+        when |s| s.before.phase == Phase::Idle && s.inputs.sos_active && !s.inputs.ss2 && !s.inputs.ss2e && !s.inputs.ss1_or_sto
             && (s.inputs.stop == Stop::C || s.inputs.stop == Stop::D || s.inputs.stop == Stop::E)
             => s.outputs.sos && !s.outputs.off3 && s.outputs.esr == (s.inputs.stop == Stop::E);
 
     /// The bits say what runs.
-    status_is_exact ["S120-SS2-008"]:
+    status_is_exact ["S120-SS2-001", "S120-SS2-008", "S120-SOS-002"]:
         when |s| s.before.invariant(&s.config)
-            => s.outputs.ss2e_active == (s.after.phase == Phase::DelayD)
-                && s.outputs.off3 == (s.after.phase == Phase::Braking)
-                && s.outputs.sos == (s.after.phase == Phase::Sos)
-                && s.outputs.ss2_active == s.after.inhibited
-                && s.outputs.inhibited == s.after.inhibited;
+            => {
+                let sos = s.after.phase == Phase::Sos;
+                s.outputs.sos == sos
+                    && s.outputs.off3 == (s.after.phase == Phase::Braking)
+                    && s.outputs.ss2_active
+                        == (s.outputs.off3 || sos && (s.inputs.ss2 || s.inputs.stop == Stop::C))
+                    && s.outputs.inhibited == s.outputs.ss2_active
+                    && s.outputs.ss2e_active
+                        == (s.after.phase == Phase::DelayD || sos && (s.inputs.ss2e || s.inputs.stop == Stop::D))
+                    && s.outputs.esr == (s.after.phase == Phase::DelayE || sos && s.inputs.stop == Stop::E)
+            };
 
     /// The state stays consistent.
     state_stays_consistent ["S120-SS2-001"]:
@@ -316,19 +321,15 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
             None => (running, state.left.tick()),
         },
     };
-    let kept = phase == Phase::Sos && (state.inhibited || inputs.brakes());
-    let after = State {
-        phase,
-        left,
-        inhibited: phase == Phase::Braking || kept,
-    };
+    // A function is active while it runs, and in the operating stop as long as it asks for it.
+    let sos = phase == Phase::Sos;
     outputs.off3 = phase == Phase::Braking;
-    outputs.inhibited = after.inhibited;
-    outputs.ss2_active = after.inhibited;
-    outputs.ss2e_active = phase == Phase::DelayD;
-    outputs.esr = inputs.stop == Stop::E && phase != Phase::Idle;
-    outputs.sos = phase == Phase::Sos;
-    (after, outputs)
+    outputs.ss2_active = outputs.off3 || sos && inputs.brakes();
+    outputs.inhibited = outputs.ss2_active;
+    outputs.ss2e_active = phase == Phase::DelayD || sos && inputs.external();
+    outputs.esr = phase == Phase::DelayE || sos && inputs.stop == Stop::E;
+    outputs.sos = sos;
+    (State { phase, left }, outputs)
 }
 
 #[cfg(test)]

@@ -49,12 +49,12 @@ pub trait Peer: Send + Sync {
 pub struct Peers {
     /// The machines that have a monitor, each with the name of its module; list by list.
     pub(crate) machines: &'static [&'static [(&'static str, &'static str)]],
-    /// The systems that have a monitor: several machines together.
-    pub systems: &'static [(&'static str, &'static str)],
+    /// The systems that have a monitor, several machines together; list by list.
+    pub(crate) systems: &'static [&'static [(&'static str, &'static str)]],
     /// Parameters of the tables with the only value for which a comparison means something.
     pub fixed: &'static [(&'static str, &'static str, i64)],
     /// What is explored of a system, or of a machine with too many inputs for one exploration.
-    pub(crate) slices: &'static [Slice],
+    pub(crate) slices: &'static [&'static [Slice]],
     /// The values of inputs that a slice holds, where they are not the least ones.
     pub(crate) calm: &'static [(&'static str, i32)],
     /// Makes the peer of a machine or a system.
@@ -65,6 +65,11 @@ impl Peers {
     /// The machines that have a monitor, each with the name of its module.
     pub fn machines(&self) -> impl Iterator<Item = (&'static str, &'static str)> + use<> {
         self.machines.iter().flat_map(|list| list.iter().copied())
+    }
+
+    /// The systems that have a monitor, each with the name of its module.
+    pub fn systems(&self) -> impl Iterator<Item = (&'static str, &'static str)> + use<> {
+        self.systems.iter().flat_map(|list| list.iter().copied())
     }
 }
 

@@ -35,7 +35,7 @@ monitor! { sinamics::brake_test;
         when |s| s.before.phase == Phase::Idle && s.inputs.select && !s.before.select_held && fit(&s.inputs)
             => s.outputs.selected && s.outputs.own_setpoint && !s.outputs.runs && !s.outputs.refused;
 
-    /// Elsewhere it is refused, with A01784, and a level selects nothing.
+    /// Elsewhere it is refused, and a level selects nothing.
     selection_is_refused ["S120-SBT-001", "S120-SBT-006", "S120-SBT-017"]:
         when |s| s.before.phase == Phase::Idle && s.inputs.select && (s.before.select_held || !fit(&s.inputs))
             => !s.outputs.selected && s.outputs.refused != s.before.select_held;

@@ -297,7 +297,7 @@ fields! {
         pub close_motor: bool,
         /// The test torque acts, its sign as chosen.
         pub torque: bool,
-        /// The selection was refused (A01784).
+        /// The selection was refused: by the mode of the control (A01784), the pulses, the speed or a stop.
         pub refused: bool,
         /// A sequence was interrupted by the start signal (A01782).
         pub interrupted: bool,

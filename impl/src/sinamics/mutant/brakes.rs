@@ -187,11 +187,9 @@ variants! { sinamics::brake_test:
 variants! { sinamics::brake_test_request:
     /// The automatic test stop at POWER ON builds up torque.
     "brake-test-request-at-power-on" |state, config, inputs| {
-        let request = inputs.request || inputs.automatic;
-        let inputs = brake_test_request::Inputs { request, ..*inputs };
-        let (mut after, outputs) = brake_test_request::transition(state, config, &inputs);
-        after.request_held = request;
-        (after, outputs)
+        let automatic = brake_test_request::SbtAuto::Run;
+        let config = brake_test_request::Config { automatic, ..*config };
+        brake_test_request::transition(state, &config, inputs)
     }
 
     /// A brake test that has failed leaves out the test stop.

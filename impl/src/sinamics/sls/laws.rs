@@ -108,11 +108,12 @@ monitor! { sinamics::sls;
                 taken <= exact && exact < taken + WHOLE
             };
 
-    /// A value that is none raises the stop of level 1, with its message; what is monitored does not rise.
+    /// A value that is none raises the stop of level 1, with its message; what is monitored does not rise, and a new limit is 0.
     wrong_value_is_a_stop ["S120-SLS-009", "S120-PF-18"]:
         when |s| telegram(&s) && s.inputs.selected && s.inputs.telegram < 1
             => s.outputs.wrong_value && s.outputs.demand >= s.config.response(Level::FIRST)
-                && (!monitored(&s.before) || s.after.now == s.before.now);
+                && (!monitored(&s.after) || s.after.now.limit == Speed(0)
+                    || monitored(&s.before) && s.after.now == s.before.now && s.after.next.limit == Speed(0));
 
     /// Without p9501.24, at another level and without selection the word has no effect.
     telegram_is_ignored ["S120-SLS-009", "S120-SLS-019"]:

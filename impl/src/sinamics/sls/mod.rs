@@ -1,7 +1,7 @@
 //! Safely limited speed (SLS) of one channel, with encoder or with SAM (p9506 = 0, 2, 3): four levels, one speed limit each.
 //!
 //! A lower limit takes effect after p9551, a higher one at once; until then the old one is monitored. The limit of level 1 may come
-//! from the telegram (p9501.24). Without selection (p9512.4) level 1 is monitored for ever. With SBR and no encoder
+//! from the telegram (p9501.24); the limit of a value that is none is 0, for the manual names only its stop. Without selection (p9512.4) level 1 is monitored for ever. With SBR and no encoder
 //! (p9506 = 1) see [`crate::sinamics::sls_ramp`].
 //!
 //! A stop that the function has raised ends in SOS: then its status goes off and nothing is compared, until SOS lets go.
@@ -175,7 +175,7 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
     if !on {
         return (State::INITIAL, Outputs::default());
     }
-    let (request, wrong_value) = setting::request(&state, config, inputs);
+    let (request, wrong_value) = setting::request(config, inputs);
     let after = setting::next(&state, config, request);
     let monitored = matches!(after.phase, Phase::Active | Phase::Lower);
     let active = monitored && !inputs.sos_after_stop;

@@ -80,8 +80,8 @@ pub(super) const fn of_telegram(value: i16, first: Speed) -> Option<Speed> {
     Some(Speed((first.0 as u64 * value as u64 / WHOLE) as u32))
 }
 
-/// What is asked for, and whether the telegram's value is wrong: then what is monitored stays.
-pub(super) fn request(state: &State, config: &Config, inputs: &Inputs) -> (Request, bool) {
+/// What is asked for, and whether the telegram's value is wrong: then no limit but 0 is safe.
+pub(super) fn request(config: &Config, inputs: &Inputs) -> (Request, bool) {
     let level = if config.unselected {
         Level::FIRST
     } else {
@@ -96,8 +96,7 @@ pub(super) fn request(state: &State, config: &Config, inputs: &Inputs) -> (Reque
     }
     match of_telegram(inputs.telegram, parameter.limit) {
         Some(limit) => (Request { level, limit }, false),
-        None if matches!(state.phase, Phase::Idle | Phase::Delay) => (parameter, true),
-        None => (state.now, true),
+        None => (Request::NONE, true),
     }
 }
 

@@ -13,7 +13,7 @@ pub(super) const PEERS: Peers = Peers {
     machines: &[same::MACHINES, safe_plc::MACHINES],
     systems: &[],
     fixed: &[],
-    slices: slices::SLICES,
+    slices: &[slices::SLICES],
     calm: &[],
     make,
 };

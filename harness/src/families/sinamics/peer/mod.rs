@@ -9,15 +9,21 @@ use crate::diff::peer::{Made, Params, Peers};
 
 pub(super) const PEERS: Peers = Peers {
     machines: &[
-        functions::MACHINES,
+        functions::SAME,
+        functions::APART,
         control::SAME,
         control::APART,
         control::TELEGRAMS,
     ],
-    systems: control::SYSTEMS,
-    // The cycle count of the telegrams has 16 bits: a smaller one only keeps a system small.
-    fixed: &[("cycle_count", "top", 32_767)],
-    slices: control::SLICES,
+    systems: &[functions::SYSTEMS, control::SYSTEMS],
+    // Constants of the monitors; smaller values only keep a system small. Without SBC the switches are no business of the monitor.
+    fixed: &[
+        ("sls", "full", 32_767),
+        ("sp", "x_top", 32_767),
+        ("cycle_count", "top", 32_767),
+        ("sbc", "enabled", 1),
+    ],
+    slices: &[functions::SLICES, control::SLICES],
     calm: &[],
     make,
 };
@@ -25,6 +31,6 @@ pub(super) const PEERS: Peers = Peers {
 fn make(machine: &str, params: &Params, mutant: Option<Mutant>) -> Made {
     match functions::make(machine, params, mutant)? {
         None => control::make(machine, params, mutant),
-        made => Ok(made),
+        adapter => Ok(adapter),
     }
 }

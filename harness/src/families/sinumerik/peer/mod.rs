@@ -14,14 +14,14 @@ use crate::diff::peer::{Made, Params, Peers};
 
 pub(super) const PEERS: Peers = Peers {
     machines: &[same::MACHINES, apart::MACHINES],
-    systems: &[
+    systems: &[&[
         ("axis_core", "channel"),
         ("pair_stops", "pair"),
         ("pair_reference", "pair"),
-    ],
+    ]],
     // Constants of the monitors (smaller values only keep a system small), and a variant that a system leaves out.
     fixed: &[("compare", "factor", 10), ("axis_core", "one_encoder", 0)],
-    slices: slices::SLICES,
+    slices: &[slices::SLICES],
     calm: slices::CALM,
     make,
 };

@@ -19,7 +19,7 @@ pub(super) const PEERS: Peers = Peers {
         arithmetic::MACHINES,
         first_call::MACHINES,
     ],
-    systems: &[brake::SYSTEM, position::SYSTEM],
+    systems: &[&[brake::SYSTEM, position::SYSTEM]],
     // Constants of the monitors: the width of a DInt and of a counter, full load, um in a mm. Smaller values only keep a system small.
     fixed: &[
         ("arithmetic", "low", -2_147_483_647),
@@ -30,7 +30,7 @@ pub(super) const PEERS: Peers = Peers {
         ("safe_pos_block", "counts", 65_536),
         ("safe_pos_block", "v_top", 2_147_483_647),
     ],
-    slices: slices::SLICES,
+    slices: &[slices::SLICES],
     calm: slices::CALM,
     make,
 };

@@ -112,7 +112,7 @@ fn output(mutant: Option<Mutant>) -> Adapter {
 /// The first cells start with the values of these states.
 fn kept(adapter: Adapter, states: &[&'static str]) -> Adapter {
     let states = states.iter().enumerate();
-    states.fold(adapter, |adapter, (cell, name)| adapter.kept(cell, *name))
+    states.fold(adapter, |adapter, (cell, name)| adapter.kept(cell, name))
 }
 
 /// The word of these bits, the lowest first.
