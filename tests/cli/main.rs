@@ -9,6 +9,7 @@ mod book;
 mod certify;
 mod commands;
 mod common;
+mod crane;
 mod distributed;
 mod explore;
 mod export_and_trace;

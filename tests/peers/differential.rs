@@ -365,7 +365,7 @@ fn random_runs_find_every_wrong_monitor() {
         .filter(|(mutant, machines)| !differs(*mutant, machines))
         .map(|(mutant, _)| mutant.name.to_owned())
         .collect();
-    assert_eq!(missed, exceptions("random"), "random runs miss these");
+    assert!(missed.is_empty(), "random runs miss {missed:?}");
 }
 
 /// What the fuzz target does with its bytes: the production monitors agree, a wrong one is found.

@@ -176,7 +176,7 @@ fn give(rig: &mut dyn Rig, owners: &[(usize, &Owner)], fed: &Fed, value: i32) {
 /// The signals: the state of the walk, then of each channel what it sees and says.
 fn signals(
     owners: &[(usize, &Owner)],
-    channels: [&str; 2],
+    channels: &[&str],
     task: &Task,
     told: &dyn Fn(&str) -> bool,
 ) -> Vec<Signal> {

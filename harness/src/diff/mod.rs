@@ -215,7 +215,9 @@ fn batch(
     let pairing = varied.as_ref().unwrap_or(pairing);
     let peer = monitor(pairing, mutant)?;
     let product = Product::new(&pairing.bound, peer.as_ref()).map_err(DiffError::Sides)?;
-    let mut driver = Driver::new(&product);
+    let family = crate::families::of_table(&pairing.bound.system.name);
+    let calm = family.map_or(&[][..], |family| family.peers.calm);
+    let mut driver = Driver::new(&product, calm);
     let mut out = Compared::nothing(pairing);
     for run in 0..BATCH {
         let length = left.saturating_sub(run * random::RUN).min(random::RUN);

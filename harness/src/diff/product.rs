@@ -277,6 +277,13 @@ impl<'a> Product<'a> {
         all.filter(|(p, _)| p.reading.is_none()).map(|(_, v)| *v)
     }
 
+    /// The value of input `k` in a list of names.
+    pub fn named(&self, k: usize, list: &[(&str, i32)]) -> Option<i32> {
+        let input = &self.bound.system.inputs[k].name;
+        let found = list.iter().find(|(name, _)| is(input, name));
+        found.map(|(_, value)| *value)
+    }
+
     /// The values input `k` of the table can have.
     pub fn values(&self, k: usize) -> Values {
         self.values[k]

@@ -2,7 +2,9 @@
 //!
 //! A run is a sequence of moves, not of independent values: a signal changes and is held, a timer is waited out, one cycle
 //! shorter or longer, a measured value stops one unit before or behind a limit, or jumps, RESET or power-on come for one
-//! cycle. Each run has its own taste: moves and inputs that it likes, and others that it leaves alone.
+//! cycle. Each run has its own taste: moves and inputs that it likes, and others that it leaves alone. Where a family says what its
+//! inputs are while nothing is wrong, one run of four begins so and likes few of them: what several things in order bring about comes in
+//! such a run.
 
 use super::product::{Product, Values, Work};
 
@@ -90,6 +92,8 @@ pub struct Driver<'a> {
     live: Vec<usize>,
     /// Those of them with a wide range: measured values.
     wide: Vec<usize>,
+    /// What the inputs are while nothing is wrong; empty where nobody has said it of any.
+    calm: Vec<i32>,
     /// Parameters that can be limits, and times.
     limits: Vec<i64>,
     cells: Vec<i32>,
@@ -104,8 +108,8 @@ struct Taste {
 }
 
 impl<'a> Driver<'a> {
-    /// A driver of this product.
-    pub fn new(product: &'a Product<'a>) -> Self {
+    /// A driver of this product; `calm`: values of inputs while nothing is wrong.
+    pub fn new(product: &'a Product<'a>, calm: &[(&str, i32)]) -> Self {
         let count = |k: usize| product.values(k).count();
         let live: Vec<usize> = (0..product.inputs()).filter(|k| count(*k) > 1).collect();
         let wide = live
@@ -120,6 +124,7 @@ impl<'a> Driver<'a> {
             work: product.new_work(),
             wide: wide.collect(),
             live,
+            calm: at_rest(product, calm),
             limits,
             cells: Vec::new(),
             history: Vec::new(),
@@ -165,6 +170,9 @@ impl<'a> Driver<'a> {
     }
 
     fn taste(&self, random: &mut Random) -> Taste {
+        let calm = !self.calm.is_empty() && random.below(4) == 0;
+        // Two of three inputs, or one.
+        let likes = if calm { 2 } else { 1 };
         let mut moves: Vec<Move> = MOVES.into_iter().filter(|_| random.below(3) > 0).collect();
         if moves.is_empty() {
             moves.push(Move::Change);
@@ -173,14 +181,16 @@ impl<'a> Driver<'a> {
             .live
             .iter()
             .copied()
-            .filter(|_| random.below(3) > 0)
+            .filter(|_| random.below(3) >= likes)
             .collect();
         if inputs.is_empty() {
             inputs.clone_from(&self.live);
         }
-        let home = (0..self.product.inputs())
-            .map(|k| any(self.product.values(k), random))
-            .collect();
+        let any = |k: usize| any(self.product.values(k), random);
+        let home = match calm {
+            true => self.calm.clone(),
+            false => (0..self.product.inputs()).map(any).collect(),
+        };
         Taste {
             moves,
             inputs,
@@ -255,6 +265,16 @@ impl<'a> Driver<'a> {
         let beside = random.below(3) as i64 - 1;
         clamped(self.product.values(input), from + away + beside)
     }
+}
+
+/// The inputs while nothing is wrong: those named by their values, the others as near to 0 as they can be. Empty where none is named.
+fn at_rest(product: &Product, calm: &[(&str, i32)]) -> Vec<i32> {
+    let named = |k: usize| product.named(k, calm);
+    if !(0..product.inputs()).any(|k| named(k).is_some()) {
+        return Vec::new();
+    }
+    let rest = |k: usize| clamped(product.values(k), i64::from(named(k).unwrap_or(0)));
+    (0..product.inputs()).map(rest).collect()
 }
 
 /// The nearest value of a range; of a list, one of it.

@@ -8,7 +8,7 @@ use crate::plant::{Axis, Door};
 use crate::recording::vocabulary::Unit;
 use crate::recording::{Allowed, Kind, Role, Signal, Value};
 
-/// A family of drives whose production monitors run in both channels.
+/// A family of drives whose production monitors run whole axes.
 pub trait Drive: Sync {
     /// What it calls things.
     fn words(&self) -> &'static Words;
@@ -19,7 +19,7 @@ pub trait Drive: Sync {
     /// A sentence that names the axis.
     fn accepts(&self, machine: &Machine) -> Result<(), String>;
 
-    /// What has signals in both channels: the axes of the machine in their order, then what else there is.
+    /// What has signals in the channels: the axes of the machine in their order, then what else there is.
     fn owners(&self, machine: &Machine) -> Vec<Owner>;
 
     /// The alarms, each with the channel that raises it.
@@ -30,6 +30,12 @@ pub trait Drive: Sync {
 
     /// The limit of a stage of [`Words::stages`], in base units per minute.
     fn stage(&self, machine: &Machine, axis: &MachineAxis, stage: usize) -> Option<i64>;
+
+    /// With which acceleration the control moves an axis and with which the drive brakes along its ramp, where the machine file tells
+    /// it: texts as a scenario has them.
+    fn ramps(&self, _axis: &MachineAxis) -> Option<[String; 2]> {
+        None
+    }
 
     /// Why a channel stops, in words.
     fn reason(&self, said: &Said<'_>) -> String;
@@ -68,8 +74,18 @@ pub trait Drive: Sync {
 
 /// What a family calls things, in scenarios, in reports and in diagrams.
 pub struct Words {
-    /// The channels, in the order in which they are stored.
-    pub channels: [&'static str; 2],
+    /// The channels, one or two, in the order in which they are stored.
+    pub channels: &'static [&'static str],
+    /// The encoders of an axis, at most [`crate::plant::ENCODERS`]: those of the channels, or others.
+    pub encoders: &'static [&'static str],
+    /// Which of them comes by a telegram that may stand, by its place.
+    pub telegram: Option<usize>,
+    /// The function that an axis needs for brakes that are simulated; none: there are no such brakes.
+    pub brakes: Option<&'static str>,
+    /// The same for the load on its rope.
+    pub load: Option<&'static str>,
+    /// How fine a channel sees a position, in um or thousandths of a degree.
+    pub resolution: i64,
     /// The stops in rising order, from none on.
     pub stops: &'static [&'static str],
     /// The same for a reader who looks for one.
@@ -94,7 +110,7 @@ pub struct Words {
     pub example: &'static str,
     /// Inputs that are true for a cycle: lanes of their own.
     pub events: &'static [&'static str],
-    /// Outputs that are shown where they change: both channels in one lane while they agree.
+    /// Outputs that are shown where they change: all channels in one lane while they agree.
     pub lanes: &'static [&'static str],
     /// What is drawn beside a curve: limit of the speed, the same backwards, window of the standstill, limit positions.
     pub curves: [&'static str; 4],
@@ -201,8 +217,8 @@ pub struct Forced {
     pub side: usize,
     /// Which one, by its place among those of the owner.
     pub input: usize,
-    /// The value.
-    pub value: bool,
+    /// The value, one that the input admits.
+    pub value: Value,
 }
 
 /// A cycle of a simulation.

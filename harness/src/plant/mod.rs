@@ -1,21 +1,28 @@
 //! The plant model, what is simulated of a machine: its axes with their encoders, and what its user has done to them. No family of drives is
 //! known here.
 
+mod hoist;
 mod motion;
 
+pub use hoist::{Brake, Load};
 pub use motion::{Actuation, Mechanics, Plant, Setpoint};
 
-/// What is wrong with the encoder of a channel or with the drive.
+/// How many encoders an axis may have.
+pub const ENCODERS: usize = 3;
+
+/// What is wrong with an encoder or with the drive.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Fault {
     /// Nothing.
     #[default]
     None,
-    /// The position of the channel stays what it was.
+    /// The position that it shows stays what it was.
     Freeze,
-    /// The position of the channel is too large by that many thousandths of an increment.
+    /// Its telegram stands: the position, and the counter by which its reader tells its age.
+    Telegram,
+    /// The position that it shows is too large by that many thousandths of an increment.
     Offset(i64),
-    /// The encoder of the channel slips: so many thousandths of an increment more in each cycle. What it has slipped stays.
+    /// It slips: so many thousandths of an increment more in each cycle. What it has slipped stays.
     Slip(i64),
     /// The drive goes on following its setpoint, whatever stop is in force, as long as it has torque.
     NoBraking,
@@ -34,6 +41,8 @@ pub struct Pulse {
     pub withdraw: bool,
     /// With the key switch.
     pub key: bool,
+    /// The axis is referenced.
+    pub reference: bool,
 }
 
 /// A guard door.
@@ -58,10 +67,14 @@ pub struct Axis {
     pub limits: usize,
     /// The stop asked for from outside in each channel, by its place.
     pub asked: [Option<usize>; 2],
-    /// What is wrong in each channel, and the position when it began.
-    pub faults: [(Fault, i64); 2],
-    /// What the encoder of each channel has slipped.
-    slipped: [i64; 2],
+    /// What is wrong with each encoder, and the position when it began. Where the channels have the encoders, in their order.
+    pub faults: [(Fault, i64); ENCODERS],
+    /// What each encoder has slipped.
+    slipped: [i64; ENCODERS],
+    /// Its brakes, where the family has any.
+    pub brakes: [Brake; 2],
+    /// What hangs on its rope.
+    pub load: Load,
     /// The cycle from which drive and control have run up; none before power-on.
     pub run_up_at: Option<u32>,
     /// It is referenced.
@@ -83,8 +96,10 @@ impl Axis {
             selected: None,
             limits: 0,
             asked: [None; 2],
-            faults: [(Fault::None, 0); 2],
-            slipped: [0; 2],
+            faults: [(Fault::None, 0); ENCODERS],
+            slipped: [0; ENCODERS],
+            brakes: [Brake::default(); 2],
+            load: Load::default(),
             run_up_at: running.then_some(0),
             referenced: running,
             reference: position,
@@ -95,18 +110,18 @@ impl Axis {
 
     /// The encoders slip on.
     pub fn slip(&mut self) {
-        for side in 0..2 {
-            if let Fault::Slip(by) = self.faults[side].0 {
-                self.slipped[side] += by;
+        for (slipped, (fault, _)) in self.slipped.iter_mut().zip(&self.faults) {
+            if let Fault::Slip(by) = fault {
+                *slipped += by;
             }
         }
     }
 
-    /// The position that the encoder of a channel shows.
-    pub fn shown(&self, side: usize) -> i64 {
-        let measured = self.plant.position + self.slipped[side];
-        match self.faults[side] {
-            (Fault::Freeze, at) => at,
+    /// The position that an encoder shows.
+    pub fn shown(&self, encoder: usize) -> i64 {
+        let measured = self.plant.position + self.slipped[encoder];
+        match self.faults[encoder] {
+            (Fault::Freeze | Fault::Telegram, at) => at,
             (Fault::Offset(by), _) => measured.saturating_add(by),
             (Fault::None | Fault::NoBraking | Fault::Slip(_), _) => measured,
         }

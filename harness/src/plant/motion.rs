@@ -49,6 +49,8 @@ pub enum Actuation {
     Path,
     /// It brakes at the current limit.
     CurrentLimit,
+    /// It presses against its closed brakes, to test them.
+    BrakeTest,
     /// It has no torque.
     Coast,
 }
@@ -60,6 +62,7 @@ impl Actuation {
             Self::Follow => "FOLLOW",
             Self::Path => "BRAKE_PATH",
             Self::CurrentLimit => "BRAKE_MAX",
+            Self::BrakeTest => "BRAKE_TEST",
             Self::Coast => "COAST",
         }
     }
@@ -85,6 +88,10 @@ pub struct Plant {
     pub setpoint: Setpoint,
     /// The greatest speed that the control lets its setpoint have; none: any.
     pub limit: Option<i64>,
+    /// What its brakes hold against in this cycle, as an acceleration; none: it has the brake of [`Mechanics::brake_time`], or none.
+    pub held: Option<i64>,
+    /// The acceleration that the torque of a brake test would give it if nothing held it, with its sign.
+    pub press: i64,
     without_torque: u32,
     /// What it was asked for in the last cycles and has not done yet.
     underway: VecDeque<Command>,
@@ -104,6 +111,8 @@ impl Plant {
                 target: None,
             },
             limit: None,
+            held: None,
+            press: 0,
             without_torque: 0,
             underway: VecDeque::new(),
             ideal: (position, 0),
@@ -145,7 +154,8 @@ impl Plant {
             Actuation::Coast => self.without_torque.saturating_add(1),
             _ => 0,
         };
-        if drive == Actuation::Follow {
+        let held = self.held.unwrap_or(0);
+        if drive == Actuation::Follow && held == 0 {
             self.follow(self.asked(setpoint, limit));
             return;
         }
@@ -154,20 +164,24 @@ impl Plant {
         let towards =
             |speed: i64, wanted: i64, rate: i64| speed + (wanted - speed).clamp(-rate, rate);
         self.speed = match drive {
-            Actuation::Follow => self.speed,
+            // Nothing moves against a closed brake.
+            Actuation::Follow => towards(self.speed, 0, held),
+            Actuation::BrakeTest => towards(self.speed + self.press, 0, held),
             Actuation::Path => towards(self.speed, 0, m.path_braking),
             Actuation::CurrentLimit => towards(self.speed, 0, m.braking),
             Actuation::Coast if closed => towards(self.speed, 0, m.braking),
+            Actuation::Coast if held > 0 => towards(self.speed - m.sag, 0, held),
             Actuation::Coast if m.sag > 0 => {
                 self.speed - m.sag + friction(self.speed, m.friction.min(m.sag))
             }
             Actuation::Coast => towards(self.speed, 0, m.friction),
         };
         self.position += match drive {
-            Actuation::Follow => 0,
+            Actuation::Follow | Actuation::BrakeTest => way(before, self.speed, held.max(1)),
             Actuation::Path => way(before, self.speed, m.path_braking),
             Actuation::CurrentLimit => way(before, self.speed, m.braking),
             Actuation::Coast if closed => way(before, self.speed, m.braking),
+            Actuation::Coast if held > 0 => way(before, self.speed, held),
             Actuation::Coast => way(before, self.speed, m.friction),
         };
         self.ideal = (self.position, self.speed);
@@ -211,6 +225,11 @@ impl Plant {
             false => error / lag,
         };
         self.position += self.speed;
+    }
+
+    /// With which acceleration the hardest stop brakes it, and a brake that is in order.
+    pub const fn braking(&self) -> i64 {
+        self.mechanics.braking
     }
 
     /// Somebody moves it by hand, at once.
@@ -380,6 +399,29 @@ mod tests {
             assert!(plant.position <= target);
         }
         assert_eq!((plant.position, plant.speed), (target, 0));
+    }
+
+    /// A brake that holds 100 % of the torque holds, one of 60 % lets it go with 40 %; without torque a hoist hangs on a brake of 60 %.
+    #[test]
+    fn a_brake_holds_no_more_than_its_torque() {
+        let mut plant = Plant::new(M, 0);
+        plant.press = 300;
+        plant.held = Some(300);
+        plant.advance(Actuation::BrakeTest);
+        assert_eq!((plant.speed, plant.position), (0, 0));
+        plant.held = Some(180);
+        plant.advance(Actuation::BrakeTest);
+        plant.advance(Actuation::BrakeTest);
+        assert_eq!((plant.speed, plant.position), (240, 60 + 180));
+        plant.advance(Actuation::Follow);
+        assert_eq!(plant.speed, 60);
+        let mut hoist = Plant::new(Mechanics { sag: 40, ..M }, 0);
+        hoist.held = Some(180);
+        hoist.advance(Actuation::Coast);
+        assert!(hoist.stands());
+        hoist.held = Some(30);
+        hoist.advance(Actuation::Coast);
+        assert_eq!(hoist.speed, -10);
     }
 
     #[test]

@@ -26,6 +26,10 @@ pub enum Unit {
     Increment,
     /// 0.1 um or 0.0001 degrees.
     Tenth,
+    /// 1 mm.
+    Millimetre,
+    /// 1 mm/min.
+    MillimetrePerMinute,
     /// Increments per cycle.
     IncrementPerCycle,
     /// Pulses of the encoder per cycle.
@@ -41,6 +45,8 @@ impl Unit {
             (Self::Increment, true) => "mdeg",
             (Self::Tenth, false) => "0.1 um",
             (Self::Tenth, true) => "0.1 mdeg",
+            (Self::Millimetre, _) => "mm",
+            (Self::MillimetrePerMinute, _) => "mm/min",
             (Self::IncrementPerCycle, false) => "um/cycle",
             (Self::IncrementPerCycle, true) => "mdeg/cycle",
             (Self::PulsesPerCycle, _) => "pulses/cycle",

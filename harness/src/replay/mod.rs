@@ -1,7 +1,7 @@
 //! `diff --trace`, a passive conformance test: the inputs of a recording on the monitors and on the tables, its outputs against
 //! theirs.
 //!
-//! The monitors of both channels get what each channel saw and tell each other what they tell, as in a machine. The tables,
+//! The monitors of all channels get what each channel saw and tell each other what they tell, as in a machine. The tables,
 //! where a family has some that describe the same, get the same inputs of a channel; what no table says comes from the monitors. A recorded output agrees within a tolerance of n cycles if its value is there within n cycles on the other
 //! side, and the other way round.
 
@@ -22,6 +22,8 @@ pub struct Replayed {
     pub cycles: u64,
     /// The declared tolerance in cycles.
     pub tolerance: u32,
+    /// The number of channels.
+    pub channels: usize,
     /// The axes replayed.
     pub axes: Vec<AxisReplayed>,
     /// The axes that were not: no position of a channel is recorded, or no output.
@@ -41,7 +43,7 @@ pub struct AxisReplayed {
     pub name: String,
     /// Outputs of the recording that were compared.
     pub outputs: usize,
-    /// Cycles in which the tables stepped too, of both channels.
+    /// Cycles in which the tables stepped too, of all channels.
     pub table_cycles: u64,
     /// Inputs that the recording does not have, in neither channel: they kept their value at rest.
     pub missing: Vec<String>,
@@ -142,6 +144,7 @@ pub fn replay(
         machine: machine.name.clone(),
         cycles: recording.rows.len() as u64,
         tolerance,
+        channels: drive.words().channels.len(),
         outputs_compared: columns.iter().map(told).sum(),
         diagram: report::diagram(recording, &columns, &divergences),
         axes,
@@ -189,8 +192,9 @@ struct Recorded<'a> {
 impl<'a> Recorded<'a> {
     fn new(recording: &Recording, place: usize, owner: &'a Owner, words: &Words) -> Self {
         let find = |side: usize, signal: &str, role: Role| {
+            let channel = words.channels.get(side)?;
             recording
-                .find(&owner.signal(words.channels[side], signal))
+                .find(&owner.signal(channel, signal))
                 .filter(|k| recording.signals[*k].role == role)
         };
         let inputs = owner.inputs.iter();

@@ -126,11 +126,15 @@ impl Replayed {
         for axis in &self.axes {
             let _ = writeln!(
                 out,
-                "{}: {} recorded outputs; both channels on the monitors, on the tables {} of {}",
+                "{}: {} recorded outputs; {} on the monitors, on the tables {} of {}",
                 axis.name,
                 axis.outputs,
+                match self.channels {
+                    1 => "the channel",
+                    _ => "both channels",
+                },
                 grouped(axis.table_cycles.into()),
-                cycles(2 * self.cycles)
+                cycles(self.channels as u64 * self.cycles)
             );
             if !axis.missing.is_empty() {
                 let _ = writeln!(

@@ -26,12 +26,12 @@ impl Simulation {
             .iter()
             .filter(|s| s.name.starts_with("door."))
         {
-            lanes.extend(self.lane("machine", &door.name, &[&door.name]));
+            let name = door.name.clone();
+            lanes.extend(self.lane("machine", &door.name, &[name]));
         }
         for (owner, signals) in &self.others {
             for name in signals {
-                let [first, second] = &self.words.channels.map(|c| format!("{owner}.{c}.{name}"));
-                lanes.extend(self.lane(owner, name, &[first, second]));
+                lanes.extend(self.lane(owner, name, &self.names(owner, name)));
             }
         }
         for axis in self.axes.iter().filter(|axis| self.is_concerned(axis)) {
@@ -116,6 +116,12 @@ impl Simulation {
         .collect()
     }
 
+    /// The full names of a signal in all channels.
+    fn names(&self, owner: &str, name: &str) -> Vec<String> {
+        let channels = self.words.channels.iter();
+        channels.map(|c| format!("{owner}.{c}.{name}")).collect()
+    }
+
     /// The full name of a signal in the first channel.
     fn first(&self, axis: &Shown, name: &str) -> String {
         format!("{}.{}.{name}", axis.name, self.words.channels[0])
@@ -133,7 +139,7 @@ impl Simulation {
         let backwards = actual.iter().flatten().any(|v| *v < 0.0);
         let forwards = actual.iter().flatten().any(|v| *v > 0.0) || !backwards;
         let watched = self.whether(axis, "Safety.SLS.ActivationState", |s| s != "NONE");
-        let [first, _] = self.words.channels;
+        let first = self.words.channels[0];
         let limit = self.curve(axis, &format!("{first}.Safety.SLS.Limit"), factor * 1e3);
         let limited = |sign: f64| -> Vec<Option<f64>> {
             let both = limit.iter().zip(&watched);
@@ -180,8 +186,9 @@ impl Simulation {
         // What a channel sees is shown where it is another position: a fault of an encoder.
         for channel in self.words.channels {
             let seen = self.curve(axis, &format!("{channel}.{}", vocabulary::POSITION), 1e-3);
+            let fine = 0.0015 * self.words.resolution as f64;
             let differs = seen.iter().zip(&actual).any(|(a, b)| match (a, b) {
-                (Some(a), Some(b)) => (a - b).abs() > 0.0015,
+                (Some(a), Some(b)) => (a - b).abs() > fine,
                 _ => false,
             });
             if differs {
@@ -193,7 +200,7 @@ impl Simulation {
                 });
             }
         }
-        let [first, _] = self.words.channels;
+        let first = self.words.channels[0];
         let standing = self.whether(axis, "Safety.SOS.ActivationState", |s| s != "NONE");
         let reference = self.curve(axis, &format!("{first}.standstill_reference"), 1e-3);
         let window = |sign: f64| -> Vec<Option<f64>> {
@@ -253,30 +260,28 @@ impl Simulation {
                 values.any(|v| v == Some(&Value::Bool(true)))
             });
             if later {
-                lanes.extend(self.lane(&axis.name, event, &[&name]));
+                lanes.extend(self.lane(&axis.name, event, &[name]));
             }
         }
-        let channels = self.words.channels;
-        let both = |name: &str| channels.map(|c| format!("{}.{c}.{name}", axis.name));
         for input in &axis.flags {
-            let [first, second] = &both(input);
-            if self.differ(first, second) {
-                for (channel, name) in channels.iter().zip([first, second]) {
+            let names = self.names(&axis.name, input);
+            if matches!(&names[..], [first, second] if self.differ(first, second)) {
+                for (channel, name) in self.words.channels.iter().zip(names) {
                     let shown = format!("{input} {channel}");
                     lanes.extend(self.lane(&axis.name, &shown, &[name]));
                 }
             }
         }
         for name in self.words.lanes {
-            let [first, second] = &both(name);
+            let names = self.names(&axis.name, name);
             let short = name
                 .trim_start_matches("Safety.")
                 .replace(".SelectionState", "")
                 .replace(".ActivationState", "");
-            lanes.extend(self.lane(&axis.name, &short, &[first, second]));
+            lanes.extend(self.lane(&axis.name, &short, &names));
         }
         let name = format!("{}.drive", axis.name);
-        lanes.extend(self.lane(&axis.name, "drive does", &[&name]));
+        lanes.extend(self.lane(&axis.name, "drive does", &[name]));
     }
 
     fn differ(&self, a: &str, b: &str) -> bool {
@@ -288,7 +293,7 @@ impl Simulation {
     }
 
     /// A lane of the signals `names`, `a/b` where they differ; none if nothing changes.
-    fn lane(&self, group: &str, shown: &str, names: &[&String]) -> Option<Lane> {
+    fn lane(&self, group: &str, shown: &str, names: &[String]) -> Option<Lane> {
         let signals: Vec<usize> = names
             .iter()
             .filter_map(|n| self.recording.find(n))

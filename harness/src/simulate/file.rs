@@ -5,6 +5,8 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 use toml::Spanned;
 
+use crate::recording::Value;
+
 /// A text with its place.
 pub(super) type Text = Spanned<String>;
 
@@ -40,6 +42,10 @@ pub(super) struct File {
     pub moved: Vec<Moved>,
     #[serde(default)]
     pub fault: Vec<Fault>,
+    #[serde(default)]
+    pub brake: Vec<Brake>,
+    #[serde(default)]
+    pub load: Vec<Load>,
     #[serde(default)]
     pub expect: Vec<Expect>,
 }
@@ -102,7 +108,7 @@ pub(super) struct Signal {
     pub axis: Option<Spanned<Names>>,
     pub channel: Option<Text>,
     pub signal: Text,
-    pub value: bool,
+    pub value: Spanned<Scalar>,
 }
 
 #[derive(Deserialize)]
@@ -164,11 +170,34 @@ pub(super) struct Fault {
     pub until: Option<Text>,
     pub axis: Spanned<Names>,
     pub channel: Option<Text>,
+    pub encoder: Option<Text>,
     pub kind: Text,
     pub offset: Option<Text>,
     pub speed: Option<Text>,
     pub signal: Option<Text>,
-    pub value: Option<Spanned<bool>>,
+    pub value: Option<Spanned<Scalar>>,
+}
+
+/// What becomes of a brake: without a key it is in order again.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Brake {
+    pub at: Text,
+    pub axis: Spanned<Names>,
+    pub brake: Spanned<i64>,
+    pub torque: Option<Text>,
+    #[serde(default)]
+    pub stuck: bool,
+}
+
+/// Another load on the rope.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Load {
+    pub at: Text,
+    pub axis: Spanned<Names>,
+    pub load: Spanned<i64>,
+    pub rests: Option<Text>,
 }
 
 #[derive(Deserialize)]
@@ -177,6 +206,17 @@ pub(super) enum Scalar {
     Bool(bool),
     Int(i64),
     Text(String),
+}
+
+impl Scalar {
+    /// The value of a signal.
+    pub(super) fn value(&self) -> Value {
+        match self {
+            Self::Bool(b) => Value::Bool(*b),
+            Self::Int(n) => Value::Int(*n),
+            Self::Text(text) => Value::Text(text.clone().into()),
+        }
+    }
 }
 
 #[derive(Deserialize)]

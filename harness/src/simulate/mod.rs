@@ -1,7 +1,7 @@
-//! `simulate`: a scenario on the production monitors of both channels, with a simple axis before them.
+//! `simulate`: a scenario on the production monitors of all channels, with a simple axis before them.
 //!
 //! ```text
-//! scenario -> inputs of both channels -> monitors -> drive -> axis -> positions of the next cycle
+//! scenario -> inputs of the channels -> monitors -> drive -> axis -> positions of the next cycle
 //! ```
 //!
 //! Everything is an integer; equal files give equal results on every machine. What is simulated is the axis and the
@@ -51,7 +51,7 @@ pub fn signals(machine: &Machine) -> Vec<Signal> {
         .collect();
     let drive = families::of(machine).ok();
     let owners = drive.map_or_else(Vec::new, |drive| drive.owners(machine));
-    let channels = drive.map_or(["", ""], |drive| drive.words().channels);
+    let channels = drive.map_or(&[][..], |drive| drive.words().channels);
     for owner in owners {
         if let Some(kind) = owner.axis {
             let rotary = kind == AxisKind::Rotary;

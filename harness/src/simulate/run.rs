@@ -47,6 +47,7 @@ struct Simulator<'a> {
     forced: Vec<Forced>,
     monitors: Box<dyn Monitors + 'a>,
     owners: Vec<Owner>,
+    channels: usize,
     /// The machine was running before the scenario began, so its first cycle is power-on.
     running: bool,
 }
@@ -72,6 +73,7 @@ impl<'a> Simulator<'a> {
             doors: vec![Door::default(); machine.doors.len()],
             forced: Vec::new(),
             owners: drive.owners(machine),
+            channels: drive.words().channels.len(),
             running,
         })
     }
@@ -117,7 +119,7 @@ impl<'a> Simulator<'a> {
                     DoorChange::Open(open) => door.open = open,
                 }
             }
-            What::Force { input, value } => self.force(event, *input, *value),
+            What::Force { input, value } => self.force(event, *input, value.as_ref()),
             what => {
                 for k in &event.axes {
                     befall(&mut self.axes[*k], cycle, event.sides, what);
@@ -126,7 +128,7 @@ impl<'a> Simulator<'a> {
         }
     }
 
-    fn force(&mut self, event: &Event, input: usize, value: Option<bool>) {
+    fn force(&mut self, event: &Event, input: usize, value: Option<&Value>) {
         for owner in event.axes.iter().copied() {
             let sides = (0..2).filter(|side| event.sides[*side]);
             self.forced
@@ -136,7 +138,7 @@ impl<'a> Simulator<'a> {
                     owner,
                     side,
                     input,
-                    value,
+                    value: value.clone(),
                 }));
             }
         }
@@ -159,7 +161,7 @@ impl<'a> Simulator<'a> {
                 row.extend(of_plant.map(Value::Int));
                 row.push(Value::Text(axis.drive.keyword().into()));
             }
-            for side in 0..2 {
+            for side in 0..self.channels {
                 row.extend(self.monitors.told(owner, side));
             }
         }
@@ -192,11 +194,24 @@ fn befall(axis: &mut Axis, cycle: u32, on: [bool; 2], what: &What) {
         What::Moved(by) => axis.plant.shift(*by),
         What::Reference => {
             axis.referenced = true;
+            axis.pulse.reference = true;
             axis.reference = axis.plant.position;
         }
-        What::Fault(fault) => {
+        What::Fault { fault, encoders } => {
             let at = axis.plant.position;
-            sides.for_each(|side| axis.faults[side] = (*fault, at));
+            let all = axis.faults.iter_mut().zip(encoders);
+            for (own, _) in all.filter(|(_, meant)| **meant) {
+                *own = (*fault, at);
+            }
         }
+        What::Brake {
+            brake,
+            torque,
+            stuck,
+        } => {
+            axis.brakes[*brake].torque = *torque;
+            axis.brakes[*brake].stuck = *stuck;
+        }
+        What::Load(load) => axis.load = *load,
     }
 }

@@ -1,6 +1,6 @@
 //! What a scenario asks for, resolved: cycles instead of times, increments instead of lengths, axes by their place.
 
-use crate::plant::{Fault, Mechanics, Setpoint};
+use crate::plant::{ENCODERS, Fault, Load, Mechanics, Setpoint};
 use crate::recording::Value;
 
 /// A scenario for one machine.
@@ -67,7 +67,7 @@ pub enum What {
         /// Which input.
         input: usize,
         /// Its value; none: it is released again.
-        value: Option<bool>,
+        value: Option<Value>,
     },
     /// A stop asked for by the safety logic, by its place; none: it is withdrawn.
     Stop(Option<usize>),
@@ -87,7 +87,23 @@ pub enum What {
     /// The axis is referenced where it is.
     Reference,
     /// An encoder or drive fault begins, or ends with [`Fault::None`].
-    Fault(Fault),
+    Fault {
+        /// Which.
+        fault: Fault,
+        /// Of which encoders, by their places.
+        encoders: [bool; ENCODERS],
+    },
+    /// A brake becomes weak, or sticks; or it is in order again.
+    Brake {
+        /// Which, by its place.
+        brake: usize,
+        /// Its torque in percent.
+        torque: u32,
+        /// It stays what it is.
+        stuck: bool,
+    },
+    /// Another load on the rope.
+    Load(Load),
 }
 
 /// What happens to a door.

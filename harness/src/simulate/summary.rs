@@ -147,12 +147,14 @@ fn stops_of(drive: &dyn Drive, axis: &Axis, recording: &Recording) -> Vec<Stop> 
     let rank = |letter: &str| words.stops.iter().position(|l| *l == letter).unwrap_or(0);
     let channel =
         |channel: &str, name: &str| texts(recording, &format!("{}.{channel}.{name}", axis.name));
-    let [first, second] = words.channels.map(|c| channel(c, vocabulary::STOP));
+    let channels = words.channels.iter();
+    let stops: Vec<Vec<&str>> = channels.map(|c| channel(c, vocabulary::STOP)).collect();
     let plant = |name: &str| numbers(recording, &format!("{}.{name}", axis.name));
     let (positions, speeds) = (plant(vocabulary::POSITION), plant(vocabulary::VELOCITY));
-    let higher = |k: usize| match rank(first[k]) >= rank(second[k]) {
-        true => first[k],
-        false => second[k],
+    // The first of the highest.
+    let higher = |k: usize| {
+        let stops = stops.iter().rev().map(|of_channel| of_channel[k]);
+        stops.max_by_key(|stop| rank(stop)).unwrap_or("")
     };
     let changes: Vec<usize> = (0..recording.rows.len())
         .filter(|k| rank(higher(*k)) > 0 && (*k == 0 || higher(*k) != higher(k - 1)))
@@ -179,22 +181,22 @@ fn stops_of(drive: &dyn Drive, axis: &Axis, recording: &Recording) -> Vec<Stop> 
             .map(|p| (p - positions[row]).abs())
             .max();
         let travel = travel.unwrap_or(0);
-        let told = [first[row] == letter, second[row] == letter];
-        let channels: Vec<&str> = words
-            .channels
-            .into_iter()
-            .zip(told)
-            .filter_map(|(name, here)| here.then_some(name))
+        let channels = words.channels.iter().zip(&stops);
+        let channels: Vec<&str> = channels
+            .filter_map(|(name, stops)| (stops[row] == letter).then_some(*name))
             .collect();
+        let mut sides = words.channels.iter();
+        let side = sides.position(|name| Some(name) == channels.first());
+        let side = side.unwrap_or(0);
         out.push(Stop {
             axis: axis.name.clone(),
             name: format!("{}{letter}", words.stop),
             cycle: recording.cycle(row),
             channels: channels.join(" and "),
             reason: drive.reason(&Said {
-                side: usize::from(!told[0]),
+                side,
                 value: &|name, before| {
-                    let side = words.channels[usize::from(!told[0])];
+                    let side = words.channels[side];
                     let signal = recording.find(&format!("{}.{side}.{name}", axis.name))?;
                     recording
                         .rows

@@ -32,7 +32,12 @@ struct Heidenhain;
 const MACHINE: &str = "machine";
 
 const WORDS: Words = Words {
-    channels: ["mc", "cc"],
+    channels: &["mc", "cc"],
+    encoders: &["mc", "cc"],
+    telegram: None,
+    brakes: None,
+    load: None,
+    resolution: 1,
     stops: &["NONE", "SS2", "SS1D", "SS1", "SS1F", "SS0"],
     stops_listed: &["SS0", "SS1F", "SS1", "SS1D", "SS2", "NONE"],
     stop: "",

@@ -75,11 +75,10 @@ impl<'a> Simulated<'a> {
             axes: axes.collect(),
         };
         for forced in now.forced.iter().filter(|f| f.side == side) {
-            // Forced inputs are flags: the scenario has been checked.
-            let value = Value::Bool(forced.value);
             match read.axes.get_mut(forced.owner) {
-                Some(axis) => drop(axis.set(forced.input, &value)),
-                None => read.bits[forced.input] = forced.value,
+                // The scenario has been checked.
+                Some(axis) => drop(axis.set(forced.input, &forced.value)),
+                None => read.bits[forced.input] = forced.value == Value::Bool(true),
             }
         }
         read

@@ -29,7 +29,12 @@ pub(super) static FAMILY: Family = Family {
 struct Sinumerik;
 
 const WORDS: Words = Words {
-    channels: vocabulary::CHANNELS,
+    channels: &vocabulary::CHANNELS,
+    encoders: &vocabulary::CHANNELS,
+    telegram: None,
+    brakes: None,
+    load: None,
+    resolution: 1,
     stops: &["NONE", "F", "E", "D", "C", "TEST", "B", "A"],
     stops_listed: &["A", "B", "C", "D", "E", "F", "TEST", "NONE"],
     stop: "STOP ",

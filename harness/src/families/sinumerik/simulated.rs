@@ -149,9 +149,8 @@ impl Monitors for Simulated<'_> {
                 let mut local = monitored.local(&now.axes[k], now.cycle, logic, side);
                 let forced = now.forced.iter();
                 for forced in forced.filter(|f| f.owner == k && f.side == side) {
-                    // Forced inputs are flags: the scenario has been checked.
-                    let value = Value::Bool(forced.value);
-                    let _ = self.inputs[forced.input].set(&mut local, &value);
+                    // The scenario has been checked.
+                    let _ = self.inputs[forced.input].set(&mut local, &forced.value);
                 }
                 *side_of(&mut monitored.inputs, side) = local;
             }

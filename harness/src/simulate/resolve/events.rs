@@ -3,9 +3,10 @@
 use super::{BOTH, Resolver, Round};
 use toml::Spanned;
 
+use crate::families::Owner;
 use crate::plant::Setpoint;
-use crate::recording::Kind;
-use crate::simulate::file::{self, File, Names, Text};
+use crate::recording::{Allowed, Value};
+use crate::simulate::file::{self, File, Names, Scalar, Text};
 use crate::simulate::scenario::{DoorChange, Event, What};
 
 impl Resolver<'_> {
@@ -125,39 +126,81 @@ impl Resolver<'_> {
         None
     }
 
-    /// An input of a channel that is true or false, with its owners: the axes named, or what else has it.
-    pub(super) fn input(
+    /// The inputs of this name, each with its owner: those of the axes named, of every axis that has one where none is, or of what
+    /// else has it.
+    pub(super) fn inputs(
         &mut self,
         text: &Text,
         axes: Option<&Spanned<Names>>,
-    ) -> Option<(Vec<usize>, usize)> {
-        let place = |owner: &crate::families::Owner| {
+    ) -> Vec<(usize, usize)> {
+        let place = |owner: &Owner| {
             let mut inputs = owner.inputs.iter();
-            inputs.position(|i| i.name == text.get_ref() && i.kind == Kind::Bool)
+            inputs.position(|i| i.name == text.get_ref())
         };
-        let owner = self.owners.iter().position(|owner| place(owner).is_some());
-        let Some(owner) = owner else {
+        let owners = self.owners.iter().enumerate();
+        let having: Vec<(usize, usize)> = owners
+            .filter_map(|(k, owner)| place(owner).map(|input| (k, input)))
+            .collect();
+        let Some((first, _)) = having.first().copied() else {
             let mut known: Vec<&str> = Vec::new();
             for owner in &self.owners {
-                let flags = owner.inputs.iter().filter(|i| i.kind == Kind::Bool);
-                let new: Vec<&str> = flags
-                    .map(|i| i.name)
-                    .filter(|n| !known.contains(n))
-                    .collect();
+                let names = owner.inputs.iter().map(|i| i.name);
+                let new: Vec<&str> = names.filter(|n| !known.contains(n)).collect();
                 known.extend(new);
             }
             self.no_such(text, "signal that a channel reads", &known);
-            return None;
+            return Vec::new();
         };
-        let input = place(&self.owners[owner])?;
-        if self.owners[owner].axis.is_some() {
-            return Some((self.axes(axes), input));
-        }
-        if let Some(axes) = axes {
+        let Some(axes) = axes else {
+            return having;
+        };
+        if self.owners[first].axis.is_none() {
             let message = format!("{} is no signal of an axis", text.get_ref());
             self.add(axes.span(), message, "not used", "remove axis".to_owned());
+            return having;
         }
-        Some((vec![owner], input))
+        let mut found = Vec::new();
+        for axis in self.axes(Some(axes)) {
+            match having.iter().find(|(owner, _)| *owner == axis) {
+                Some(one) => found.push(*one),
+                None => {
+                    let name = &self.machine.axes[axis].name;
+                    let message = format!("axis {name} has no signal {}", text.get_ref());
+                    let having = having.iter().map(|(k, _)| self.owners[*k].name.as_str());
+                    let having: Vec<&str> = having.collect();
+                    let help = format!("axes that have it: {}", having.join(", "));
+                    self.add(axes.span(), message, "without it", help);
+                }
+            }
+        }
+        found
+    }
+
+    /// Gives inputs a value for a time.
+    pub(super) fn forced(
+        &mut self,
+        inputs: &[(usize, usize)],
+        (cycle, until): (Option<u32>, Option<u32>),
+        sides: [bool; 2],
+        value: &Spanned<Scalar>,
+        events: &mut Vec<Event>,
+    ) {
+        for (owner, input) in inputs.iter().copied() {
+            let port = self.owners[owner].inputs[input];
+            let given = value.get_ref().value();
+            if !port.admits(&given) {
+                let message = format!("{} is {}; got {given}", port.name, port.kind.noun());
+                let help = match port.allowed {
+                    Allowed::All => "correct the value or the name".to_owned(),
+                    allowed => format!("allowed: {allowed}"),
+                };
+                self.add(value.span(), message, "not such a value", help);
+                return;
+            }
+            if let Some(cycle) = cycle {
+                force(events, (cycle, until), (owner, sides), (input, given));
+            }
+        }
     }
 
     pub(super) fn signals(&mut self, list: &[file::Signal], events: &mut Vec<Event>) {
@@ -165,16 +208,8 @@ impl Resolver<'_> {
             let cycle = self.at(&signal.at);
             let until = self.until(signal.until.as_ref(), cycle);
             let sides = self.sides(signal.channel.as_ref());
-            let found = self.input(&signal.signal, signal.axis.as_ref());
-            if let (Some((owners, input)), Some(cycle)) = (found, cycle) {
-                force(
-                    events,
-                    cycle,
-                    until,
-                    (&owners, sides),
-                    (input, signal.value),
-                );
-            }
+            let inputs = self.inputs(&signal.signal, signal.axis.as_ref());
+            self.forced(&inputs, (cycle, until), sides, &signal.value, events);
         }
     }
 
@@ -262,20 +297,18 @@ impl Resolver<'_> {
 }
 
 /// An input keeps a value from `cycle` on, perhaps not for ever.
-pub(super) fn force(
+fn force(
     events: &mut Vec<Event>,
-    cycle: u32,
-    until: Option<u32>,
-    (axes, sides): (&[usize], [bool; 2]),
-    (input, value): (usize, bool),
+    (cycle, until): (u32, Option<u32>),
+    (owner, sides): (usize, [bool; 2]),
+    (input, value): (usize, Value),
 ) {
     let mut push = |cycle, value| {
-        let what = What::Force { input, value };
         events.push(Event {
             cycle,
-            axes: axes.to_vec(),
+            axes: vec![owner],
             sides,
-            what,
+            what: What::Force { input, value },
         });
     };
     push(cycle, Some(value));

@@ -167,11 +167,7 @@ impl Resolver<'_> {
         names: Vec<String>,
         value: &Spanned<Scalar>,
     ) -> Option<Condition> {
-        let value_given = match value.get_ref() {
-            Scalar::Bool(b) => Value::Bool(*b),
-            Scalar::Int(n) => Value::Int(*n),
-            Scalar::Text(text) => Value::Text(text.clone().into()),
-        };
+        let value_given = value.get_ref().value();
         let signals = crate::simulate::signals(self.machine);
         for name in &names {
             let Some(found) = signals.iter().find(|s| s.name == *name) else {

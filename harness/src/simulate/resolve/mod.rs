@@ -3,6 +3,7 @@
 mod events;
 mod expect;
 mod faults;
+mod hoist;
 mod start;
 
 use std::ops::Range;
@@ -138,6 +139,8 @@ impl Resolver<'_> {
         self.stops(&file.stop, &mut events);
         self.user(&file, &mut events);
         self.faults(&file.fault, &mut events);
+        self.brakes(&file.brake, &mut events);
+        self.loads(&file.load, &mut events);
         // The sort keeps the order of what happens in the same cycle.
         events.sort_by_key(|e: &Event| e.cycle);
         let expects = file.expect.iter().filter_map(|e| self.expect(e)).collect();
@@ -291,16 +294,15 @@ impl Resolver<'_> {
         let known = self.drive.words().channels;
         match channel.map(|c| c.get_ref().as_str()) {
             None | Some("both") => BOTH,
-            Some(one) if known.contains(&one) => known.map(|name| name == one),
+            Some(one) if known.contains(&one) => [0, 1].map(|k| known.get(k) == Some(&one)),
             Some(other) => {
                 let message = format!("\"{other}\" is no channel");
                 let at = channel.map(Spanned::span).unwrap_or_default();
-                self.add(
-                    at,
-                    message,
-                    "no such channel",
-                    format!("write \"{}\", \"{}\" or \"both\"", known[0], known[1]),
-                );
+                let help = match known {
+                    [first, second] => format!("write \"{first}\", \"{second}\" or \"both\""),
+                    _ => "remove channel: there is one only".to_owned(),
+                };
+                self.add(at, message, "no such channel", help);
                 BOTH
             }
         }

@@ -38,6 +38,7 @@ impl Resolver<'_> {
             let none = file::Axis::default();
             let given = given.map_or(&none, |(_, given)| given);
             let kind = axis.kind;
+            let known = self.drive.ramps(axis);
             let position = given
                 .position
                 .as_ref()
@@ -48,7 +49,7 @@ impl Resolver<'_> {
                 None => rate_of(default, kind, self.cycle_us()).unwrap_or(1),
             };
             // Usual ones of machine tools; the book names them.
-            let defaults = match kind {
+            let mut defaults = match kind {
                 AxisKind::Linear => ["2000 mm/s2", "5000 mm/s2", "2000 mm/s2", "500 mm/s2"],
                 AxisKind::Rotary => [
                     "10000 deg/s2",
@@ -57,6 +58,9 @@ impl Resolver<'_> {
                     "1000 deg/s2",
                 ],
             };
+            if let Some([acceleration, path]) = &known {
+                (defaults[0], defaults[2]) = (acceleration.as_str(), path.as_str());
+            }
             let mechanics = Mechanics {
                 acceleration: rate(&given.acceleration, defaults[0]),
                 braking: rate(&given.braking, defaults[1]),
@@ -166,14 +170,15 @@ impl Resolver<'_> {
             return Some(limit.saturating_mul(percent) / 100);
         }
         let first = stages.first().unwrap_or(&"");
+        let range = match stages {
+            [_, .., last] => format!(", {first} to {last}"),
+            _ => String::new(),
+        };
         self.add(
             text.span(),
             format!("\"{}\" is no share of a speed limit", text.get_ref()),
             "not such a value",
-            format!(
-                "write for example \"120 % of {first}\": -1000 % to 1000 %, {first} to {}",
-                stages.last().unwrap_or(first)
-            ),
+            format!("write for example \"120 % of {first}\": -1000 % to 1000 %{range}"),
         );
         None
     }
