@@ -302,6 +302,7 @@ macro_rules! inventory {
 }
 
 mod heidenhain;
+mod iec;
 mod sinamics;
 mod sinumerik;
 mod srm;
@@ -312,7 +313,8 @@ pub fn all() -> impl Iterator<Item = &'static Entry> {
         .into_iter()
         .chain(heidenhain::ENTRIES)
         .chain(sinamics::ENTRIES)
-        .chain(srm::ENTRIES);
+        .chain(srm::ENTRIES)
+        .chain(iec::ENTRIES);
     families.flatten()
 }
 
