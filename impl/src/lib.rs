@@ -6,6 +6,7 @@
 //! | [`heidenhain`] | HEIDENHAIN Functional Safety (iTNC 530 HSCI): one module is one safety function of one channel |
 //! | [`sinamics`] | SINAMICS S120: one module is one safety function of one channel |
 //! | [`srm`] | fail-safe blocks for storage and retrieval machines: one module is one block |
+//! | [`iec`] | functions of IEC 61800-5-2 that none of these has: one module is one safety function of one channel |
 //! | [`kernel`] | what the monitors of every family are made of: durations, positions, speeds, windows, timers |
 //! | [`units`] | user values to increments, rounded to the safe side |
 //! | [`contract`] | how a step carries its contract |
@@ -30,6 +31,7 @@ pub mod contract;
 #[macro_use]
 pub mod mutant;
 pub mod heidenhain;
+pub mod iec;
 pub mod kernel;
 pub mod sinamics;
 pub mod sinumerik;

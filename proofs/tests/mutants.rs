@@ -34,6 +34,7 @@ macro_rules! family {
 }
 
 stillpoint_monitors::heidenhain_monitors! { family }
+stillpoint_monitors::iec_monitors! { family }
 stillpoint_monitors::sinamics_monitors! { family }
 stillpoint_monitors::sinumerik_monitors! { family }
 stillpoint_monitors::srm_monitors! { family }

@@ -5,6 +5,7 @@
 
 mod drive;
 pub mod heidenhain;
+pub mod iec;
 pub mod sinamics;
 pub mod sinumerik;
 pub mod srm;
@@ -16,11 +17,12 @@ use crate::diff::peer::Peers;
 pub use drive::*;
 
 /// The families with monitors. A new one is registered here, and nowhere else in the harness.
-pub static FAMILIES: [&Family; 4] = [
+pub static FAMILIES: [&Family; 5] = [
     &sinumerik::FAMILY,
     &heidenhain::FAMILY,
     &sinamics::FAMILY,
     &srm::FAMILY,
+    &iec::FAMILY,
 ];
 
 /// A family of drives: what of it is code.

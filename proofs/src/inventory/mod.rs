@@ -305,6 +305,7 @@ macro_rules! inventory {
 }
 
 mod heidenhain;
+mod iec;
 mod sinamics;
 mod sinumerik;
 mod srm;
@@ -315,7 +316,8 @@ pub fn all() -> impl Iterator<Item = &'static Entry> {
         .into_iter()
         .chain(heidenhain::ENTRIES)
         .chain(sinamics::ENTRIES)
-        .chain(srm::ENTRIES);
+        .chain(srm::ENTRIES)
+        .chain(iec::ENTRIES);
     families.flatten()
 }
 

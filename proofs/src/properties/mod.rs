@@ -69,6 +69,7 @@ pub fn clauses<M: Contract>() -> Vec<ClauseText> {
 }
 
 pub mod heidenhain;
+pub mod iec;
 pub mod sinamics;
 pub mod sinumerik;
 pub mod srm;
@@ -78,6 +79,8 @@ pub mod srm;
 pub struct Subject {
     /// HEIDENHAIN Functional Safety.
     pub heidenhain: heidenhain::Subject,
+    /// Functions of IEC 61800-5-2.
+    pub iec: iec::Subject,
     /// SINAMICS S120.
     pub sinamics: sinamics::Subject,
     /// SINUMERIK 840D.
@@ -90,6 +93,7 @@ impl Subject {
     /// The production monitors.
     pub const PRODUCTION: Self = Self {
         heidenhain: heidenhain::Subject::PRODUCTION,
+        iec: iec::Subject::PRODUCTION,
         sinamics: sinamics::Subject::PRODUCTION,
         sinumerik: sinumerik::Subject::PRODUCTION,
         srm: srm::Subject::PRODUCTION,

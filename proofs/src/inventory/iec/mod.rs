@@ -1,0 +1,7 @@
+//! Harnesses of the functions of IEC 61800-5-2.
+
+mod places;
+mod values;
+
+/// The lists of this family.
+pub(super) static ENTRIES: [&[super::Entry]; 2] = [values::ENTRIES, places::ENTRIES];
