@@ -20,7 +20,7 @@ use stillpoint_tests::{exceptions, root};
 
 /// The tables compared: those of a machine, or with the parameters of their systems. What several files use is compared with
 /// the parameters of the first one, so the file of a machine's own table stands before those that put it together with others.
-const FILES: [&[&str]; 3] = [OTHERS, SINAMICS_FUNCTIONS, SINAMICS_CONTROL];
+const FILES: [&[&str]; 4] = [OTHERS, SINAMICS_FUNCTIONS, SINAMICS_CONTROL, IEC];
 
 /// The functions of a drive of the family sinamics-s120.
 const SINAMICS_FUNCTIONS: &[&str] = &[
@@ -62,6 +62,14 @@ const SINAMICS_CONTROL: &[&str] = &[
     "spec/families/sinamics-s120/commissioning.toml",
     "spec/families/sinamics-s120/enabling.toml",
     "spec/families/sinamics-s120/words.toml",
+];
+
+/// Functions of IEC 61800-5-2.
+const IEC: &[&str] = &[
+    "spec/families/iec-61800-5-2/window.toml",
+    "spec/families/iec-61800-5-2/motor-temperature.toml",
+    "spec/families/iec-61800-5-2/cam.toml",
+    "spec/families/iec-61800-5-2/increment.toml",
 ];
 
 /// The other families.

@@ -1,7 +1,7 @@
 //! Safe motor temperature (SMT).
 //!
 //! A hysteresis that leads below the lowest temperature is accepted: the demand of a function that stays selected then never ends.
-//! Reading: the warning asks for no selection, for nothing in its definition does (IEC-SMT-003).
+//! The warning asks for no selection (IEC-SMT-003).
 
 use crate::iec::common::{latch, rises};
 use crate::kernel::ConfigError;
