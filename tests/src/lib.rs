@@ -53,9 +53,11 @@ fn families() -> Vec<PathBuf> {
     entries.map(|e| e.expect("an entry").path()).collect()
 }
 
-/// Whether machine files can be written for the family of this folder.
+/// Whether the family of this folder is finished: machine files can be written for it, or it is one of functions alone.
 fn registered(folder: &Path) -> bool {
+    let name = folder.file_name().unwrap_or_default().to_string_lossy();
     folder.join("family.toml").exists()
+        || exceptions("family without machine files").contains(name.as_ref())
 }
 
 /// The specification files of these folders, in the order of their names.

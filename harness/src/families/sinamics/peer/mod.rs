@@ -24,7 +24,8 @@ pub(super) const PEERS: Peers = Peers {
         ("sbc", "enabled", 1),
     ],
     slices: &[functions::SLICES, control::SLICES],
-    calm: &[],
+    // What a brake test waits for.
+    calm: &[("allowed", 1), ("slow", 1), ("known", 1)],
     make,
 };
 
