@@ -5,9 +5,10 @@ use stillpoint_monitors::sinamics::telegram::channel::{
     InfoWord1, InfoWord2, InfoWord3, RequestWord1, RequestWord3,
 };
 use stillpoint_monitors::sinamics::telegram::control::{ControlWord1, ControlWord2};
-use stillpoint_monitors::sinamics::telegram::diagnosis::StatusSignals;
+use stillpoint_monitors::sinamics::telegram::diagnosis::{StatusSignals, control_signals};
 use stillpoint_monitors::sinamics::telegram::frame::{FrameError, Received, Sent, Telegram};
 use stillpoint_monitors::sinamics::telegram::status::{StatusWord1, StatusWord2};
+use stillpoint_monitors::sinamics::telegram::values::LARGEST_XIST32;
 
 /// Table 5-7, by byte and bit.
 const S_STW1: &str = "0.0 sto, 0.1 ss1, 0.2 ss2, 0.3 sos, 0.4 sls, 0.6 slp, 0.7 internal_event_ack, 1.1 sls_level_0, \
@@ -85,7 +86,7 @@ fn agrees(printed: &[&str], bits: u32, decoded: impl Fn(u32) -> Vec<&'static str
 }
 
 /// S120-PSAFE-508, S120-PSAFE-510, S120-PSAFE-512, S120-PSAFE-513, S120-SIC-503, S120-SIC-504, S120-SIC-505, S120-SIC-507,
-/// S120-SIC-508, S120-DIAG-501, S120-TESTSTOP-516, S120-ACCEPT-503: each bit of the printed tables.
+/// S120-SIC-508, S120-DIAG-501, S120-TESTSTOP-516, S120-ACCEPT-503, S120-SDI-006, S120-SLP-006: each bit of the printed tables.
 #[test]
 fn the_printed_bits() {
     agrees(&[S_STW1], 16, |word| {
@@ -108,6 +109,68 @@ fn the_printed_bits() {
         names(RequestWord3::decode(word as u16))
     });
     agrees(&[R9722], 32, |word| names(StatusSignals::decode(word)));
+}
+
+/// r9720, by bit, as far as it is printed.
+const R9720: [(u32, &str); 15] = [
+    (0, "sto"),
+    (1, "ss1"),
+    (2, "ss2"),
+    (3, "sos"),
+    (4, "sls"),
+    (6, "slp"),
+    (9, "sls_level_0"),
+    (10, "sls_level_1"),
+    (12, "sdi_positive"),
+    (13, "sdi_negative"),
+    (19, "slp_area_2"),
+    (24, "gear_0"),
+    (25, "gear_1"),
+    (26, "gear_2"),
+    (27, "gear_tolerance"),
+];
+
+/// S120-DIAG-500, S120-SDI-006, S120-SLP-006: the printed bits of r9720 are the levels of the selections, 1 where they are
+/// deselected; the acknowledgement is none of them.
+#[test]
+fn the_printed_control_signals() {
+    for (bit, name) in R9720 {
+        let word = ControlWord2::decode(1 << bit);
+        assert_eq!(names(word), [name], "bit {bit}");
+        assert_eq!(control_signals(word), 1 << bit, "{name}");
+    }
+    assert_eq!(control_signals(ControlWord2::decode(1 << 7)), 0);
+}
+
+/// S120-SIC-511: no bit of the Safety Control Channel has the name of one that selects a function over PROFIsafe.
+#[test]
+fn the_control_channel_selects_no_function() {
+    let selects = names(ControlWord2::decode(u32::MAX));
+    let word1 = names(RequestWord1::decode(u16::MAX));
+    let word3 = names(RequestWord3::decode(u16::MAX));
+    assert_eq!((word1.len(), word3.len()), (1, 6));
+    for name in word1.iter().chain(&word3) {
+        assert!(!selects.contains(name), "{name}");
+    }
+}
+
+/// S120-REF-007: a position has the printed range of +-737280000, 2048 revolutions in thousandths of a degree; what is safely
+/// referenced is r9722.23.
+#[test]
+fn the_printed_range_of_the_position() {
+    assert_eq!(LARGEST_XIST32, 2048 * 360_000);
+    for (position, accepted) in [
+        (737_280_000, true),
+        (-737_280_000, true),
+        (737_280_001, false),
+        (-737_280_001, false),
+    ] {
+        let mut bytes = vec![0; Sent::length(Telegram::T902) - 4];
+        bytes.extend(i32::to_be_bytes(position));
+        let found = Sent::decode(Telegram::T902, &bytes);
+        assert_eq!(found.is_ok(), accepted, "{position}: {found:?}");
+    }
+    assert_eq!(names(StatusSignals::decode(1 << 23)), ["safely_referenced"]);
 }
 
 /// S120-PSAFE-500, S120-PSAFE-501, S120-SIC-500, S120-SIC-501: the words of each telegram, as they are printed.

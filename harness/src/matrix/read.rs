@@ -176,7 +176,7 @@ fn is_mutant(place: &str) -> bool {
 /// The harness of the contract of the module a file of `impl/src` belongs to: `stop_contract` for
 /// `impl/src/family/stop.rs`, where the inventory says `[contract stop_contract on family::stop {`.
 fn contract<'a>(place: &str, harnesses: &'a [Harness]) -> Option<&'a str> {
-    modules(place).into_iter().flatten().find_map(|module| {
+    modules(place).into_iter().find_map(|module| {
         harnesses
             .iter()
             .find(|h| h.contract.as_ref() == Some(&module))
@@ -184,22 +184,19 @@ fn contract<'a>(place: &str, harnesses: &'a [Harness]) -> Option<&'a str> {
     })
 }
 
-/// The modules a file of `impl/src` may belong to: one of its own, or its folder's. `family::stop` for
-/// `impl/src/family/stop.rs`, `family::channel` for `impl/src/family/channel/laws.rs`; none for what all families share.
-fn modules(place: &str) -> [Option<String>; 2] {
-    let name = |path: Option<&str>| {
-        let (family, _) = place.strip_prefix("impl/src/")?.split_once('/')?;
-        let name = path.map(|path| path.strip_suffix(".rs").unwrap_or(path))?;
-        Some(format!("{family}::{name}"))
-    };
+/// The modules a file of `impl/src` may belong to, the nearest first: one of its own, or one of its folders'. `family::stop` for
+/// `impl/src/family/stop.rs`, `family::channel` for `impl/src/family/channel/laws.rs` and for
+/// `impl/src/family/part/channel/laws.rs`; none for what all families share.
+fn modules(place: &str) -> Vec<String> {
     let inside = place
         .strip_prefix("impl/src/")
         .and_then(|rest| rest.split_once('/'));
-    let parts = || inside.map(|(_, inside)| inside.split('/'));
-    [
-        name(parts().and_then(|mut parts| parts.next_back())),
-        name(parts().and_then(|mut parts| parts.next())),
-    ]
+    let Some((family, path)) = inside else {
+        return Vec::new();
+    };
+    path.rsplit('/')
+        .map(|part| format!("{family}::{}", part.strip_suffix(".rs").unwrap_or(part)))
+        .collect()
 }
 
 /// The must-fail set: of each file the property that its second line expects to be violated. What else the file names is
@@ -358,13 +355,11 @@ mod tests {
 
     #[test]
     fn modules_are_files_or_folders() {
-        let named = |[own, folder]: [Option<String>; 2]| (own, folder);
-        let some = |name: &str| Some(name.to_owned());
         assert_eq!(
-            named(modules("impl/src/family/channel/laws.rs")),
-            (some("family::laws"), some("family::channel"))
+            modules("impl/src/family/part/channel/laws.rs"),
+            ["family::laws", "family::channel", "family::part"]
         );
-        assert_eq!(named(modules("impl/src/kernel.rs")), (None, None));
+        assert!(modules("impl/src/kernel.rs").is_empty());
         let harnesses = [Harness {
             name: "c".to_owned(),
             contract: some("family::stop"),
@@ -373,6 +368,7 @@ mod tests {
         let found = |place| contract(place, &harnesses);
         assert_eq!(found("impl/src/family/stop.rs"), Some("c"));
         assert_eq!(found("impl/src/family/stop/laws.rs"), Some("c"));
+        assert_eq!(found("impl/src/family/part/stop/laws.rs"), Some("c"));
         assert_eq!(found("impl/src/family/folder/stop.rs"), Some("c"));
         assert_eq!(found("impl/src/other/stop.rs"), None);
     }

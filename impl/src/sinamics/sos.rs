@@ -10,7 +10,7 @@ config! {
     /// The parameters.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub struct Config {
-        /// p9551: from the selection to the monitoring.
+        /// p9551: from the selection to the monitoring; the timer value of SLS too (S120-SLS-500).
         pub delay: Cycles,
         /// p9530: the standstill tolerance to either side.
         pub tolerance: Distance,

@@ -102,7 +102,7 @@ fields! {
     /// The outputs of one cycle.
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
     pub struct Outputs {
-        /// The value: 1 deselected, 0 selected; r10051.
+        /// The value: 1 deselected, 0 selected; r10051. Two that are latched at 0 select the level SLS1 (S120-FDI-504).
         pub value: bool,
         /// The inputs agree and nothing is frozen: an edge of the value is one (S120-ACK-514).
         pub stable: bool,

@@ -23,7 +23,8 @@ fields! {
     /// The inputs of one cycle.
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
     pub struct Inputs {
-        /// The sources; of those that are not connected nothing counts.
+        /// The sources, any of the signals of a drive or of a drive group, which the status word has, and Safe State (S120-FDO-501); of
+        /// those that are not connected nothing counts.
         pub sources: [bool; 6],
         /// The test stop runs.
         pub testing: bool,

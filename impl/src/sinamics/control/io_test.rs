@@ -193,7 +193,8 @@ fields! {
     /// The outputs of one cycle.
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
     pub struct Outputs {
-        /// The test runs, A01772 or A35012; F-DI are frozen, F-DO not registered off.
+        /// The test runs, A01772 or A35012; F-DI are frozen, F-DO not registered off. Not longer than the manual grants
+        /// (S120-TESTSTOP-502, S120-TESTSTOP-510).
         pub running: bool,
         /// The test is due, A01774 or A35014.
         pub due: bool,

@@ -31,8 +31,8 @@ config! {
 }
 
 impl Config {
-    /// `limits`: p9531. `responses`: p9563. `delay`: p9551. `encoder`: p9506 is 0 or 2. `by_telegram`: p9501.24. `unselected`:
-    /// p9512.4.
+    /// `limits`: p9531. `responses`: p9563. `delay`: p9551, of a selection and of a lower level, the same as that of SOS
+    /// (S120-SLS-500). `encoder`: p9506 is 0 or 2. `by_telegram`: p9501.24. `unselected`: p9512.4.
     ///
     /// # Errors
     /// [`ConfigError::StopNotAllowed`] for a response that is none, or none without encoder (S120-SLS-014).
