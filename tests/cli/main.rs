@@ -21,6 +21,7 @@ mod reaction;
 mod recording;
 mod report;
 mod simulate;
+mod sinamics;
 mod structured_text;
 mod survival;
 mod terminal;

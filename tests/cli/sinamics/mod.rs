@@ -1,0 +1,3 @@
+//! `stillpoint acceptance` for machines with SINAMICS S120.
+
+mod acceptance;
