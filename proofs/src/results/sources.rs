@@ -65,18 +65,22 @@ fn named(text: &str, modules: &BTreeMap<String, Vec<String>>) -> Vec<String> {
     modules.keys().filter(is_named).cloned().collect()
 }
 
-/// The modules of a family of monitors, each with its files without comments; the wrong variants are left out.
+/// The modules of a family of monitors, however deep, each with its files without comments: a folder has all that is in it. The
+/// wrong variants are left out.
 fn modules(folder: &Path) -> BTreeMap<String, Vec<String>> {
     let mut modules: BTreeMap<String, Vec<String>> = BTreeMap::new();
     for (path, text) in texts(folder) {
         let inside = path.strip_prefix(folder).unwrap_or(&path);
-        let name = inside
+        let names: Vec<String> = inside
             .components()
-            .next()
-            .map(|part| part.as_os_str().to_string_lossy());
-        let name = name.unwrap_or_default().trim_end_matches(".rs").to_owned();
-        if name != "mutant" && name != "mod" {
-            modules.entry(name).or_default().push(text);
+            .map(|part| part.as_os_str().to_string_lossy())
+            .map(|name| name.trim_end_matches(".rs").to_owned())
+            .filter(|name| name != "mod")
+            .collect();
+        if !names.iter().any(|name| name == "mutant") {
+            for name in names {
+                modules.entry(name).or_default().push(text.clone());
+            }
         }
     }
     modules
@@ -147,6 +151,16 @@ mod tests {
         let needed = |name: &str| named(&modules[name].join("\n"), &modules);
         assert!(needed("channel").contains(&"ramp".to_owned()));
         assert!(!needed("ramp").contains(&"channel".to_owned()));
+    }
+
+    /// Else an answer would never be older than its monitor.
+    #[test]
+    fn every_monitor_has_its_file() {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../impl/src");
+        for entry in crate::inventory::all().filter(|entry| entry.file.is_none()) {
+            let modules = modules(&root.join(entry.family));
+            assert!(modules.contains_key(entry.monitor), "{}", entry.id);
+        }
     }
 
     #[test]
