@@ -164,11 +164,55 @@ reason  = \"The ram lies level: nothing sags when the drive is off.\"
     );
 }
 
+/// The addresses of its drives in the network, and the brake of its vertical axis.
+#[test]
+fn a_gantry_from_nothing_to_a_clean_verdict() {
+    let options = [
+        "--name",
+        "gantry",
+        "--linear",
+        "Z",
+        "--rotary",
+        "C",
+        "--doors",
+        "front,rear",
+    ];
+    to_a_clean_verdict(
+        "sinamics-s120",
+        &options,
+        "front_axes",
+        |folder, _, text| {
+            let text = text.replacen(
+            "functions = [\"motion monitoring\", \"SDI\"]",
+            "functions = [\"motion monitoring\", \"SDI\", \"SBC\", \"SBT\"]\np1215 = true\np10202 = [\"motor holding brake\", \"none\"]",
+            1,
+        );
+            // With the closing time of the brake the times of SS1 are too short for it.
+            let closing = text.replacen("p1215 = true", "p1215 = true\np1217 = \"120 ms\"", 1);
+            let short = folder.write("short.toml", &closing);
+            let valid = stillpoint(&["validate", &short, "--deny-warnings"]);
+            let said = stdout(&valid);
+            assert_eq!(status(&valid), 1, "{said}");
+            assert!(
+                said.contains("basic-ss1-time-short") && said.contains("stop-b-time-short"),
+                "{said}"
+            );
+            let (first, second) = text.rsplit_once("p9610   = 1 ").expect("two drives");
+            let second = second.replacen("p9810   = 1", "p9810   = 2", 1);
+            format!("{first}p9610   = 2 {second}").replacen(
+                "p1215 = true",
+                "p1215 = true\np1217 = \"60 ms\"",
+                1,
+            )
+        },
+    );
+}
+
 /// What it writes is plausible for every kind of machine, without warnings but those that only the builder can answer.
 #[test]
 fn every_machine_that_begins_is_plausible() {
     let folder = Folder::new("new-kinds");
-    for family in ["sinumerik-840d", "heidenhain-fs"] {
+    for family in ["sinumerik-840d", "heidenhain-fs", "sinamics-s120"] {
         for (n, options) in [
             &["--linear", "X,Y,Z", "--rotary", "B,C", "--spindles", "S"][..],
             &["--linear", "X", "--doors", "front,rear"],

@@ -26,6 +26,7 @@ fn unusual_values_are_told_with_place_reason_and_what_is_better() {
             &["--deny-warnings"],
             0,
         ),
+        ("spec/machines/gantry-s120.toml", &["--deny-warnings"], 0),
         ("spec/bench/two-axis.toml", &["--deny-warnings"], 0),
     ] {
         let mut arguments = vec!["validate", file];
