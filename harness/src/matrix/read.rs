@@ -362,7 +362,7 @@ mod tests {
         assert!(modules("impl/src/kernel.rs").is_empty());
         let harnesses = [Harness {
             name: "c".to_owned(),
-            contract: some("family::stop"),
+            contract: Some("family::stop".to_owned()),
             ids: Vec::new(),
         }];
         let found = |place| contract(place, &harnesses);
