@@ -11,7 +11,7 @@ use stillpoint_monitors::sinamics::telegram::diagnosis::StatusSignals;
 use stillpoint_monitors::sinamics::telegram::status::StatusWord2;
 use stillpoint_monitors::sinamics::types::{self, Braking};
 use stillpoint_monitors::sinamics::{
-    fail_safe_input, fail_safe_output, setpoint_limit, sos, stop_arbiter,
+    basic_stop, fail_safe_input, fail_safe_output, setpoint_limit, sos, stop_arbiter,
 };
 
 /// S120-STO-002: STO can be selected with the printed values of p9601, and with no other.
@@ -79,6 +79,30 @@ fn the_rows_that_the_table_of_priorities_does_not_have() {
         assert!(stops.iter().all(|stop| !function.displaces(*stop)));
         assert!(function.follows_up() && !function.ends_without_pulses());
     }
+}
+
+/// S120-STOP-001: a fault that cannot be acknowledged takes the pulses at once; neither a deselection nor an acknowledgement ends that,
+/// and POWER ON only with the cause gone.
+#[test]
+fn a_locked_stop_of_the_basic_functions_needs_power_on() {
+    let config = basic_stop::Config::new(Cycles::new(5)).expect("a short delay");
+    let mut stop = basic_stop::Monitor::new(config);
+    let mut off = |power_on, locking, other: bool| {
+        let inputs = basic_stop::Inputs {
+            power_on,
+            locking,
+            acknowledge: other,
+            internal_event_ack: other,
+            ..basic_stop::Inputs::default()
+        };
+        stop.step(&inputs).pulses_off
+    };
+    assert!(!off(false, false, false));
+    assert!(off(false, true, false), "in the same cycle");
+    assert!(off(false, false, true) && off(false, false, false));
+    assert!(off(true, true, false), "the cause is there");
+    assert!(off(false, false, true));
+    assert!(!off(true, false, false));
 }
 
 fn arbiter() -> stop_arbiter::Monitor {

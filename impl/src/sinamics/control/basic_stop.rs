@@ -39,7 +39,7 @@ fields! {
         F,
         /// STOP A.
         A,
-        /// STOP A that POWER ON alone acknowledges.
+        /// STOP A that POWER ON alone acknowledges (S120-STOP-001).
         Locked,
     }
 }
@@ -118,7 +118,7 @@ const fn caused(inputs: &Inputs) -> bool {
 
 monitor! { sinamics::basic_stop;
     /// A fault with STOP A takes the pulses at once, whatever is acknowledged.
-    fault_takes_the_pulses_at_once ["S120-STOP-500", "S120-STOP-001", "S120-PC-02", "S120-PC-10"]:
+    fault_takes_the_pulses_at_once ["S120-STOP-500", "S120-PC-02", "S120-PC-10"]:
         when |s| s.inputs.fault || s.inputs.locking
             => s.outputs.pulses_off && s.after.stop >= Latched::A;
 
@@ -144,7 +144,7 @@ monitor! { sinamics::basic_stop;
                 && (s.inputs.internal_event_ack || (s.before.selected && !s.inputs.selected)));
 
     /// A stop that may not be acknowledged stays until POWER ON.
-    locked_stop_stays ["S120-ACK-506", "S120-STOP-001", "S120-PC-01"]:
+    locked_stop_stays ["S120-ACK-506", "S120-PC-01"]:
         when |s| s.before.stop == Latched::Locked && !s.inputs.power_on
             => s.after.stop == Latched::Locked && s.outputs.pulses_off && s.outputs.entered;
 

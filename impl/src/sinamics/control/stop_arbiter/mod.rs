@@ -143,9 +143,10 @@ fields! {
         pub power_on: bool,
         /// The highest stop that a monitor requests now.
         pub request: Stop,
-        /// The highest stop whose cause persists; of no effect unless something is acknowledged.
+        /// The highest stop whose cause persists; of no effect unless something is acknowledged: what is selected and violated is not
+        /// released (S120-SDI-004, S120-SDI-009).
         pub remaining: Stop,
-        /// A cross-check finds a difference now (S120-STOP-505).
+        /// A cross-check finds a difference now (S120-STOP-505), also while SOS is active (S120-SOS-006).
         pub difference: bool,
         /// The safety function that decides.
         pub function: Function,
@@ -195,8 +196,7 @@ monitor! { sinamics::stop_arbiter;
             => s.after.stop >= s.inputs.request;
 
     /// The level falls only by an acknowledgement whose cause is gone, or by POWER ON.
-    level_falls_only_by_acknowledgement ["S120-PC-01", "S120-PC-10", "S120-STOP-525", "S120-STOP-517", "S120-SDI-004",
-        "S120-SDI-009"]:
+    level_falls_only_by_acknowledgement ["S120-PC-01", "S120-PC-10", "S120-STOP-525", "S120-STOP-517"]:
         when |s| s.after.stop < s.before.stop
             => s.inputs.power_on
                 || (s.inputs.acknowledge && s.before.stop != Stop::Locked && s.inputs.remaining < s.before.stop
@@ -208,7 +208,7 @@ monitor! { sinamics::stop_arbiter;
             => s.after.stop == Stop::Locked && s.outputs.pulses_off;
 
     /// An acknowledgement clears what has no cause any more.
-    acknowledgement_clears ["S120-ACK-503", "S120-STOP-509", "S120-SDI-004", "S120-SDI-009"]:
+    acknowledgement_clears ["S120-ACK-503", "S120-STOP-509"]:
         when |s| s.inputs.acknowledge && !s.inputs.power_on && s.before.stop != Stop::Locked
             && s.inputs.remaining == Stop::None && s.inputs.request == Stop::None && !s.inputs.difference
             => s.after == State::INITIAL && !s.outputs.blocks_run;
@@ -291,7 +291,7 @@ monitor! { sinamics::stop_arbiter;
 
     /// STOP F whose time is up while something is monitored, or C, D or E is latched, is STOP B; with SS1, STO, B or A it is not.
     fault_follows_up ["S120-PC-06", "S120-STOP-505", "S120-STOP-506", "S120-STOP-513", "S120-STOP-514", "S120-STOP-515",
-        "S120-STOP-523", "S120-SOS-006"]:
+        "S120-STOP-523"]:
         when |s| s.before.fault && s.before.fault_timer <= Cycles::new(1) && !s.inputs.power_on && !s.inputs.acknowledge
             && !s.inputs.function.ends_without_pulses()
             => s.after.stop >= Stop::B
@@ -309,7 +309,7 @@ monitor! { sinamics::stop_arbiter;
                 || (s.after.fault_timer.is_zero() && (s.after.stop >= Stop::B || s.inputs.function.ends_without_pulses())));
 
     /// A difference is latched as STOP F.
-    difference_is_latched ["S120-STOP-505", "S120-SOS-006"]:
+    difference_is_latched ["S120-STOP-505"]:
         when |s| s.inputs.difference
             => s.after.fault;
 
