@@ -1,147 +1,112 @@
 //! Simulations of the storage crane and their replay, as their user meets them.
 
-use std::process::Output;
-
 use crate::common::{Folder, messages, root, status, stderr, stdout, stillpoint};
+use crate::scenarios::{Scenarios, simulate};
 
 const CRANE: &str = "spec/machines/storage-crane.toml";
 
-fn simulate(machine: &str, scenario: &str, more: &[&str]) -> Output {
-    let arguments = ["simulate", machine, "--scenario", scenario, "--brief"];
-    stillpoint(&[&arguments, more].concat())
-}
-
-fn read(name: &str) -> String {
-    let path = root().join("spec/scenarios/srm-fblocks").join(name);
-    std::fs::read_to_string(path).expect("readable")
-}
+const SCENARIOS: Scenarios = Scenarios {
+    machine: CRANE,
+    family: "srm-fblocks",
+};
 
 /// Every scenario holds, and its recording is what the blocks say when they are given its inputs again.
 #[test]
 fn the_scenarios_hold_and_their_recordings_are_replayed() {
-    let folder = Folder::new("crane-scenarios");
-    let mut run = 0;
-    for entry in std::fs::read_dir(root().join("spec/scenarios/srm-fblocks")).expect("readable") {
-        let path = entry.expect("readable").path();
-        let trace = folder.file("trace.ndjson");
-        let output = simulate(CRANE, path.to_str().expect("UTF-8"), &["--trace", &trace]);
-        let said = stdout(&output);
-        assert_eq!(status(&output), 0, "{path:?}: {said}{}", stderr(&output));
-        assert!(said.contains("holds") && !said.contains("FAILS"), "{said}");
-        let output = stillpoint(&["diff", CRANE, "--trace", &trace]);
-        let said = stdout(&output);
-        assert_eq!(status(&output), 0, "{path:?}: {said}{}", stderr(&output));
-        assert!(said.starts_with("NO DIVERGENCE"), "{said}");
-        run += 1;
-    }
+    let run = SCENARIOS.hold_and_are_replayed();
     assert!(run >= 8, "{run}");
 }
 
 /// Each thing that a scenario depends on: with another one, it fails.
 #[test]
 fn a_scenario_of_the_crane_can_fail() {
-    let folder = Folder::new("crane-fails");
-    for (name, from, to, fails) in [
+    SCENARIOS.can_fail(&[
         // It brakes late, and does not obey the limit.
-        (
+        [
             "end-zone.toml",
             "[axis.X]",
             "acceptance_mode = true\n\n[axis.X]\nacceleration = \"900 mm/s2\"",
             "never X.cpu.stop = SS1",
-        ),
+        ],
         // The setpoint does not obey the envelope, but it is slow enough for it.
-        (
+        [
             "over-speed.toml",
             "speed = \"230000 mm/min\"",
             "speed = \"230000 mm/min\"\nto = \"99000 mm\"",
             "alarm EZ.9 in X.cpu.alarms",
-        ),
+        ],
         // A drive that brakes less than its ramp passes the end.
-        (
+        [
             "over-speed.toml",
             "position = \"60000 mm\"",
             "position = \"60000 mm\"\npath_braking = \"480 mm/s2\"",
             "never X.cpu.X_POSITIVE_OK = FALSE",
-        ),
+        ],
         // The external brake sticks open: T_CLOSE_BR_1 is over without its feedback.
-        (
+        [
             "brake-test.toml",
             "[[signal]]",
             "[[brake]]\nat = \"0 s\"\naxis = \"Y\"\nbrake = 1\nstuck = true\n\n[[signal]]",
             "Y.cpu.BR_1_OK = TRUE",
-        ),
-        (
+        ],
+        [
             "weak-brake.toml",
             "torque = \"60 %\"",
             "torque = \"100 %\"",
             "alarm BT.6 in Y.cpu.alarms",
-        ),
+        ],
         // It hangs free.
-        (
+        [
             "slack-rope.toml",
             "rests = \"3000 mm\"",
             "",
             "alarm LOAD.2 in Y.cpu.alarms",
-        ),
+        ],
         // Without RELEASE nothing goes back up.
-        (
+        [
             "slack-rope.toml",
             "give = true",
             "give = false",
             "Y.cpu.stop = NONE in a cycle from 7.5 s",
-        ),
+        ],
         // Within both windows.
-        (
+        [
             "encoder-stands.toml",
             "kind    = \"encoder freeze\"",
             "kind = \"encoder offset\"\noffset = \"19 mm\"",
             "alarm POS.8 in X.cpu.alarms",
-        ),
-        (
+        ],
+        [
             "encoder-jumps.toml",
             "offset  = \"300 mm\"",
             "offset  = \"19 mm\"",
             "alarm POS.9 in Y.cpu.alarms",
-        ),
-        (
+        ],
+        [
             "encoder-jumps.toml",
             "speed   = \"2400 mm/min\"",
             "speed   = \"1000 mm/min\"",
             "alarm POS.6 in Y.cpu.alarms in a cycle from 4.48 s",
-        ),
-        (
+        ],
+        [
             "no-braking.toml",
             "kind = \"no braking\"",
             "encoder = \"POS1\"\nkind = \"encoder offset\"\noffset = \"1 mm\"",
             "X.cpu.stop = STO",
-        ),
-        (
+        ],
+        [
             "power-up.toml",
             "signal = \"SYNC\"",
             "signal = \"RELEASE\"",
             "X.cpu.POS_VALID = TRUE in a cycle from 2 s",
-        ),
-        (
+        ],
+        [
             "power-up.toml",
             "signal = \"EXECUTE\"",
             "signal = \"CALIBRATE\"",
             "Y.cpu.BT_TEST_REQ = FALSE",
-        ),
-    ] {
-        let text = read(name);
-        assert!(text.contains(from), "{name}: {from}");
-        let file = folder.write(name, &text.replacen(from, to, 1));
-        let output = simulate(CRANE, &file, &[]);
-        let text = stdout(&output);
-        assert_eq!(
-            status(&output),
-            1,
-            "{name}, {to}: {text}{}",
-            stderr(&output)
-        );
-        let mut failed = text.lines().filter(|l| l.starts_with("FAILS"));
-        assert!(failed.any(|l| l.contains(fails)), "{name}, {to}: {text}");
-    }
+        ],
+    ]);
 }
 
 /// A monitor that is called before F_SAFE_POS, and the logic before the monitor, stop the drive a call later each.
@@ -171,36 +136,20 @@ fn the_order_of_the_calls_of_the_file_is_that_of_the_simulation() {
 /// The replay finds a recorded output that the blocks do not say.
 #[test]
 fn a_changed_recording_of_the_crane_diverges() {
-    let folder = Folder::new("crane-changed");
-    let trace = folder.file("trace.ndjson");
-    let scenario = root().join("spec/scenarios/srm-fblocks/encoder-jumps.toml");
-    let scenario = scenario.to_str().expect("UTF-8");
-    let output = simulate(CRANE, scenario, &["--trace", &trace]);
-    assert_eq!(status(&output), 0, "{}", stderr(&output));
-    let text = std::fs::read_to_string(&trace).expect("written");
     // The counter of the telegram changes in each cycle.
-    let (from, to) = (
-        "{\"cycle\":299,\"time_us\":5980000,\"signals\":{",
-        "\"Y.cpu.V_VALID\":true,",
-    );
-    assert!(text.contains(from), "{text}");
-    let file = folder.write(
-        "changed.ndjson",
-        &text.replacen(from, &format!("{from}{to}"), 1),
-    );
-    let output = stillpoint(&["diff", CRANE, "--trace", &file]);
-    let said = stdout(&output);
-    assert_eq!(status(&output), 1, "{said}{}", stderr(&output));
-    assert!(
-        said.contains("cycle 299: Y.cpu.V_VALID: recorded"),
-        "{said}"
+    SCENARIOS.a_change_diverges(
+        "encoder-jumps.toml",
+        [
+            "{\"cycle\":299,\"time_us\":5980000,\"signals\":{",
+            "\"Y.cpu.V_VALID\":true,",
+            "cycle 299: Y.cpu.V_VALID: recorded",
+        ],
     );
 }
 
 #[test]
 fn what_is_no_signal_or_part_of_the_crane_is_refused() {
-    let folder = Folder::new("crane-mistakes");
-    for (scenario, message) in [
+    SCENARIOS.are_refused(&[
         (
             "[[signal]]\nat = \"0 s\"\naxis = \"Z\"\nsignal = \"LOAD1\"\nvalue = 3\n",
             "axis Z has no signal LOAD1",
@@ -253,12 +202,8 @@ fn what_is_no_signal_or_part_of_the_crane_is_refused() {
             "[[motion]]\nat = \"0 s\"\naxis = \"X\"\nspeed = \"50 % of SG1\"\n",
             "120 % of VMAX_RELEASE",
         ),
-    ] {
-        let file = folder.write("m.toml", &format!("duration = \"1 s\"\n{scenario}"));
-        let output = simulate(CRANE, &file, &[]);
-        assert_eq!(status(&output), 2, "{scenario}{}", stdout(&output));
-        assert!(messages(&output).contains(message), "{}", stderr(&output));
-    }
+    ]);
+    let folder = Folder::new("crane-others");
     // Nothing of a hoist is simulated for a machine tool.
     let file = folder.write(
         "tool.toml",

@@ -20,6 +20,8 @@ mod proof;
 mod reaction;
 mod recording;
 mod report;
+mod s120;
+mod scenarios;
 mod simulate;
 mod sinamics;
 mod structured_text;

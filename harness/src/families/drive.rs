@@ -164,6 +164,33 @@ pub struct Port {
 }
 
 impl Port {
+    /// One that is true or false.
+    pub const fn flag(name: &'static str) -> Self {
+        Self {
+            name,
+            kind: Kind::Bool,
+            unit: Unit::None,
+            allowed: Allowed::All,
+        }
+    }
+
+    /// A text.
+    pub const fn text(name: &'static str) -> Self {
+        Self {
+            kind: Kind::Text,
+            ..Self::flag(name)
+        }
+    }
+
+    /// A number.
+    pub const fn number(name: &'static str, unit: Unit) -> Self {
+        Self {
+            kind: Kind::Int,
+            unit,
+            ..Self::flag(name)
+        }
+    }
+
     /// Whether it can have this value.
     pub fn admits(&self, value: &Value) -> bool {
         self.kind.admits(value) && self.allowed.admits(value)

@@ -6,7 +6,7 @@ use stillpoint_monitors::heidenhain::{axis_release, channel, reference};
 use super::axis::Said;
 use crate::families::Port;
 use crate::recording::vocabulary::{ALARMS, POSITION, STOP, Unit, VELOCITY};
-use crate::recording::{Allowed, Kind, Value};
+use crate::recording::{Allowed, Value};
 
 /// An input of the machine in a channel. What is 1 in order is named as the manual names it: a lost signal stops.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -78,44 +78,17 @@ impl Bit {
 /// The safe operating modes.
 pub(super) const SOMS: [&str; 4] = ["SOM_1", "SOM_2", "SOM_3", "SOM_4"];
 
-const fn flag(name: &'static str) -> Port {
-    Port {
-        name,
-        kind: Kind::Bool,
-        unit: Unit::None,
-        allowed: Allowed::All,
-    }
-}
-
-const fn text(name: &'static str) -> Port {
-    Port {
-        name,
-        kind: Kind::Text,
-        unit: Unit::None,
-        allowed: Allowed::All,
-    }
-}
-
-const fn number(name: &'static str, unit: Unit) -> Port {
-    Port {
-        name,
-        kind: Kind::Int,
-        unit,
-        allowed: Allowed::All,
-    }
-}
-
 /// What a channel reads of the machine.
 pub(super) fn machine_inputs() -> Vec<Port> {
-    BITS.map(flag).to_vec()
+    BITS.map(Port::flag).to_vec()
 }
 
 /// What it says of it.
 pub(super) const MACHINE_OUTPUTS: [Port; 4] = [
-    text("PP_GenSOM"),
-    flag(VOLTAGE),
-    flag("STOS.G"),
-    flag("NN_GenOutputEnable"),
+    Port::text("PP_GenSOM"),
+    Port::flag(VOLTAGE),
+    Port::flag("STOS.G"),
+    Port::flag("NN_GenOutputEnable"),
 ];
 
 /// The feed enable of an axis.
@@ -145,44 +118,44 @@ const fn place(name: &'static str) -> Port {
     const MOST: i64 = i32::MAX as i64 * 10;
     Port {
         allowed: Allowed::Between(-MOST, MOST),
-        ..number(name, Unit::Tenth)
+        ..Port::number(name, Unit::Tenth)
     }
 }
 
 /// What a channel reads of an axis.
 pub(super) const AXIS_INPUTS: [Port; 6] = [
-    flag(FEED),
+    Port::flag(FEED),
     place(SEEN),
     place(NOMINAL),
-    flag(HOMED),
-    flag(CONFIRMED),
+    Port::flag(HOMED),
+    Port::flag(CONFIRMED),
     Port {
         allowed: Allowed::OneOf(&STOP_CODES),
-        ..text(ASKED)
+        ..Port::text(ASKED)
     },
 ];
 
 /// What it says of an axis and of its group.
 pub(super) const AXIS_OUTPUTS: [Port; 19] = [
-    number(POSITION, Unit::Increment),
-    text(STOP),
-    text("stop_phase"),
-    text("cause"),
-    text("PP_AxGrpStateReq"),
-    text(STATE),
-    flag("STO"),
-    flag("BRK_REL"),
-    text("axis_release"),
-    text("axis_state"),
-    flag("NN_AxSafe"),
-    text("Safety.SOS.ActivationState"),
-    number("standstill_reference", Unit::Increment),
-    text("Safety.SLS.ActivationState"),
-    number("Safety.SLS.Limit", Unit::IncrementPerCycle),
-    text("Safety.SLP.SelectionState"),
-    text("Safety.SLP.ActivationState"),
-    number(VELOCITY, Unit::IncrementPerCycle),
-    text(ALARMS),
+    Port::number(POSITION, Unit::Increment),
+    Port::text(STOP),
+    Port::text("stop_phase"),
+    Port::text("cause"),
+    Port::text("PP_AxGrpStateReq"),
+    Port::text(STATE),
+    Port::flag("STO"),
+    Port::flag("BRK_REL"),
+    Port::text("axis_release"),
+    Port::text("axis_state"),
+    Port::flag("NN_AxSafe"),
+    Port::text("Safety.SOS.ActivationState"),
+    Port::number("standstill_reference", Unit::Increment),
+    Port::text("Safety.SLS.ActivationState"),
+    Port::number("Safety.SLS.Limit", Unit::IncrementPerCycle),
+    Port::text("Safety.SLP.SelectionState"),
+    Port::text("Safety.SLP.ActivationState"),
+    Port::number(VELOCITY, Unit::IncrementPerCycle),
+    Port::text(ALARMS),
 ];
 
 /// The values of these outputs; `group`: what its kernel says and why it stops.

@@ -1,8 +1,20 @@
-//! SINAMICS S120: its monitors.
+//! SINAMICS S120: its monitors, and what a machine with them is to a simulation, a recording and a replay. Each axis is a drive in two channels;
+//! what they do together is said by its F-CPU.
 
+mod channel;
+mod functions;
+mod messages;
 mod peer;
+mod rig;
+mod signals;
+mod simulated;
+mod values;
 
-use super::Family;
+use stillpoint_machine::{Axis as MachineAxis, Machine};
+
+use self::channel::Said as Told;
+use super::{Drive, Family, Feed, Monitors, Owner, Rig, Said, Start, Windows, Words};
+use crate::plant::Axis;
 
 /// The family.
 pub(super) static FAMILY: Family = Family {
@@ -10,5 +22,141 @@ pub(super) static FAMILY: Family = Family {
     module: "sinamics",
     peers: peer::PEERS,
     mutants: || stillpoint_monitors::sinamics::mutant::all().collect(),
-    drive: None,
+    drive: Some(&Sinamics),
 };
+
+/// Its whole machines.
+struct Sinamics;
+
+const CHANNELS: [&str; 2] = ["ch1", "ch2"];
+
+const WORDS: Words = Words {
+    channels: &CHANNELS,
+    encoders: &CHANNELS,
+    telegram: None,
+    brakes: Some(values::SBC),
+    load: None,
+    resolution: 1,
+    stops: &signals::STOPS,
+    stops_listed: &["A", "B", "C", "D", "E", "F", "LOCKED", "NONE"],
+    stop: "STOP ",
+    selections: (&simulated::SELECTIONS, Some(values::MOTION)),
+    of_machine: false,
+    limits: (&["SLP1", "SLP2", "none"], Some(values::SLP)),
+    asked: &[("STO", None), ("SS1", None), ("SS2", Some(values::MOTION))],
+    stages: &["SLS1", "SLS2", "SLS3", "SLS4"],
+    position: signals::PLACE,
+    told: &[],
+    example: "SLS",
+    events: &["power_on"],
+    lanes: &[
+        "terminal",
+        "telegram",
+        "function",
+        "stop",
+        "alarms",
+        "STO_active",
+        "Safety.SOS.ActivationState",
+        "Safety.SLS.ActivationState",
+        "SDI_positive_active",
+        "SDI_negative_active",
+        "internal_event",
+        signals::TORQUE,
+        "brake_open",
+    ],
+    curves: ["SLS limit", "SLS backwards", "SOS", "SLP"],
+};
+
+impl Drive for Sinamics {
+    fn words(&self) -> &'static Words {
+        &WORDS
+    }
+
+    fn accepts(&self, machine: &Machine) -> Result<(), String> {
+        values::axes(machine).map(drop)
+    }
+
+    fn owners(&self, machine: &Machine) -> Vec<Owner> {
+        let owner = |axis: &MachineAxis| {
+            let inputs = signals::inputs(axis).into_iter();
+            let outputs = signals::outputs(axis, 0, &Told::default()).into_iter();
+            Owner {
+                name: axis.name.clone(),
+                axis: Some(axis.kind),
+                inputs: inputs.map(|input| input.port()).collect(),
+                outputs: outputs.map(|(port, _)| port).collect(),
+            }
+        };
+        machine.axes.iter().map(owner).collect()
+    }
+
+    fn alarms(&self) -> Vec<(String, usize)> {
+        messages::numbers()
+    }
+
+    fn windows(&self, axis: &MachineAxis) -> Windows {
+        let cell = |name, k| {
+            let value = values::cell(&axis.values, name, k);
+            i32::try_from(value).unwrap_or(if value < 0 { i32::MIN } else { i32::MAX })
+        };
+        Windows {
+            standstill: values::cell(&axis.values, "p9530", 0),
+            plus: [0, 1].map(|k| cell("p9534", k)),
+            minus: [0, 1].map(|k| cell("p9535", k)),
+            limited: values::has(axis, values::SLP),
+        }
+    }
+
+    fn stage(&self, _machine: &Machine, axis: &MachineAxis, stage: usize) -> Option<i64> {
+        values::extended(axis).then(|| values::cell(&axis.values, "p9531", stage))
+    }
+
+    /// OFF3 brakes from the fastest limit in p1135, and the control accelerates as fast.
+    fn ramps(&self, axis: &MachineAxis) -> Option<[String; 2]> {
+        let time = values::cell(&axis.values, "p1135", 0);
+        if time <= 0 || !values::extended(axis) {
+            return None;
+        }
+        // Base units per minute by us: um/s2 or mdeg/s2.
+        let rate = i128::from(values::fastest(axis)) * 1_000_000 / 60 / i128::from(time);
+        let unit = match axis.kind {
+            stillpoint_machine::AxisKind::Linear => "mm/s2",
+            stillpoint_machine::AxisKind::Rotary => "deg/s2",
+        };
+        let text = format!("{}.{:03} {unit}", rate / 1_000, rate % 1_000);
+        (rate > 0).then(|| [text.clone(), text])
+    }
+
+    fn reason(&self, said: &Said<'_>) -> String {
+        said.text(signals::CAUSE)
+    }
+
+    fn power<'a>(
+        &self,
+        machine: &'a Machine,
+        _axes: &[Axis],
+        start: &Start,
+    ) -> Result<Box<dyn Monitors + 'a>, String> {
+        Ok(Box::new(simulated::Simulated::new(machine, start)?))
+    }
+
+    /// No drive reads of another one.
+    fn together(&self, machine: &Machine) -> Vec<Vec<usize>> {
+        (0..machine.axes.len()).map(|axis| vec![axis]).collect()
+    }
+
+    fn play(
+        &self,
+        machine: &Machine,
+        owners: &[usize],
+        _tables: bool,
+        play: &mut dyn FnMut(&mut dyn Rig),
+    ) -> Result<(), String> {
+        rig::play(machine, *owners.first().ok_or("no axis is named")?, play)
+    }
+
+    /// A walk through a table has values of its own for positions and speeds: it is no recording of a machine.
+    fn feeds(&self) -> &'static [Feed] {
+        &[]
+    }
+}

@@ -8,7 +8,7 @@ use super::blocks::{Said, Stop, Told};
 use super::values::{self, BRAKE_TEST, END_ZONE, LOAD, RAMP, SLP};
 use crate::families::Port;
 use crate::recording::vocabulary::{ALARMS, POSITION, STOP, Unit, VELOCITY};
-use crate::recording::{Allowed, Kind, Value};
+use crate::recording::{Allowed, Value};
 
 /// An input that is true or false.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -123,11 +123,11 @@ impl Input {
         let name = name.map_or("", |(_, name, _)| *name);
         let number = |unit, least: i64, most: i64| Port {
             allowed: Allowed::Between(least, most),
-            ..number(name, unit)
+            ..Port::number(name, unit)
         };
         let dint = |unit| number(unit, i64::from(i32::MIN), i64::from(i32::MAX));
         match self {
-            Self::Flag(_) => flag(name),
+            Self::Flag(_) => Port::flag(name),
             Self::Number(Number::Pos1 | Number::Pos2) => dint(Unit::Millimetre),
             Self::Number(Number::Possi) => dint(Unit::Increment),
             Self::Number(Number::PossiCount) => {
@@ -137,7 +137,7 @@ impl Input {
             Self::Number(Number::StatusWord) => number(Unit::None, 0, i64::from(u16::MAX)),
             Self::Asked => Port {
                 allowed: Allowed::OneOf(&STOPS),
-                ..text(name)
+                ..Port::text(name)
             },
         }
     }
@@ -213,30 +213,6 @@ impl Read {
     }
 }
 
-const fn flag(name: &'static str) -> Port {
-    Port {
-        name,
-        kind: Kind::Bool,
-        unit: Unit::None,
-        allowed: Allowed::All,
-    }
-}
-
-const fn text(name: &'static str) -> Port {
-    Port {
-        kind: Kind::Text,
-        ..flag(name)
-    }
-}
-
-const fn number(name: &'static str, unit: Unit) -> Port {
-    Port {
-        kind: Kind::Int,
-        unit,
-        ..flag(name)
-    }
-}
-
 /// The blocks whose DIAG words are told bit by bit: `POS.9` is bit 9 of F_SAFE_POS.
 const DIAGS: [&str; 6] = ["POS", "SLP", "EZ", "SBR", "BT", "LOAD"];
 
@@ -271,14 +247,14 @@ fn set_bits(axis: &Axis, told: &Told) -> String {
 /// What is told of an axis, in the order of its signals. `t_sample`: ms of a call.
 pub(super) fn outputs(axis: &Axis, said: &Said, t_sample: i32) -> Vec<(Port, Value)> {
     let (told, logic) = (&said.told, &said.told.logic);
-    let on = |name, value: bool| (flag(name), Value::Bool(value));
-    let int = |name, unit, value: i32| (number(name, unit), Value::Int(value.into()));
-    let name = |port, value: &'static str| (text(port), Value::Text(value.into()));
+    let on = |name, value: bool| (Port::flag(name), Value::Bool(value));
+    let int = |name, unit, value: i32| (Port::number(name, unit), Value::Int(value.into()));
+    let name = |port, value: &'static str| (Port::text(port), Value::Text(value.into()));
     // mm/min in um per call.
     let per_call = |v: i32| i64::from(v) * i64::from(t_sample) / 60;
     let counted = |port, v| {
         (
-            number(port, Unit::IncrementPerCycle),
+            Port::number(port, Unit::IncrementPerCycle),
             Value::Int(per_call(v)),
         )
     };
@@ -288,10 +264,10 @@ pub(super) fn outputs(axis: &Axis, said: &Said, t_sample: i32) -> Vec<(Port, Val
     let has = |function| values::has(axis, function);
     let ranged = has(SLP) || has(END_ZONE);
     let mut all = vec![
-        (number(POSITION, Unit::Increment), position),
+        (Port::number(POSITION, Unit::Increment), position),
         name(STOP, STOPS[said.stop as usize]),
         name(CAUSE, said.cause),
-        (text(ALARMS), Value::Text(set_bits(axis, told).into())),
+        (Port::text(ALARMS), Value::Text(set_bits(axis, told).into())),
         int(SAFE_POS, Unit::Millimetre, pos.safe_pos),
         on("POS_VALID", pos.pos_valid),
         on(REFERENCED, pos.referenced),

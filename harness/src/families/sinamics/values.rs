@@ -1,0 +1,381 @@
+//! The values of a machine file in the units of the monitors, checked by them: increments, cycles, increments per cycle.
+
+use std::num::NonZeroU32;
+
+use stillpoint_machine::{Axis, Machine, Settings};
+use stillpoint_monitors::kernel::{ConfigError, Cycles, Distance, Percent, Position, Speed};
+use stillpoint_monitors::sinamics::control_path::ControlPath;
+use stillpoint_monitors::sinamics::sdi::Permitted;
+use stillpoint_monitors::sinamics::types::{Braking, Stop};
+use stillpoint_monitors::sinamics::{
+    acknowledgement, actual_value, basic_selection, basic_stop, communication, sam, sbc, sbr, sdi,
+    setpoint_limit, slp, sls, sos, ss1, ss1_basic, ss2, ssm, sto, stop_arbiter, terminal_pair,
+};
+
+/// Functions of an axis in a machine file.
+pub(super) const MOTION: &str = "motion monitoring";
+pub(super) const SLP: &str = "SLP";
+pub(super) const SDI: &str = "SDI";
+pub(super) const SBC: &str = "SBC";
+pub(super) const SS2E: &str = "SS2E";
+pub(super) const BY_TELEGRAM: &str = "SLS limit by telegram";
+
+/// What the monitors of an axis run with.
+#[derive(Clone)]
+pub(super) struct Values {
+    /// Cycles of the Basic Functions in one of p9500.
+    pub basic_cycles: u32,
+    pub selection: basic_selection::Config,
+    pub terminals: Option<terminal_pair::Config>,
+    pub ss1_basic: ss1_basic::Config,
+    pub basic_stop: basic_stop::Config,
+    pub sto: sto::Config,
+    pub sbc: Option<sbc::Config>,
+    pub communication: Option<communication::Config>,
+    pub acknowledgement: acknowledgement::Config,
+    pub extended: Option<Extended>,
+}
+
+/// The same for the Extended Functions.
+#[derive(Clone)]
+pub(super) struct Extended {
+    pub arbiter: stop_arbiter::Config,
+    pub ss1: ss1::Config,
+    pub ss2: ss2::Config,
+    pub sos: sos::Config,
+    pub sls: sls::Config,
+    /// p9563 by level: its code.
+    pub sls_codes: [i64; 4],
+    /// Positive and negative.
+    pub sdi: Option<[sdi::Config; 2]>,
+    /// p9566: its code.
+    pub sdi_code: i64,
+    pub slp: Option<slp::Config>,
+    /// p9562 by range: its code.
+    pub slp_codes: [i64; 2],
+    pub ssm: ssm::Config,
+    pub braking: BrakingMonitor,
+    pub actual: actual_value::Config,
+    /// None with p9533 = 0: r9733 would leave nothing, so nobody has wired it.
+    pub setpoint: Option<setpoint_limit::Config>,
+    /// p9560.
+    pub shutdown: Speed,
+    /// p9531.
+    pub limits: [Speed; 4],
+}
+
+/// What monitors braking, by p9506.
+#[derive(Clone)]
+pub(super) enum BrakingMonitor {
+    Sam(sam::Config),
+    Sbr(sbr::Config),
+}
+
+/// Whether an axis has a function.
+pub(super) fn has(axis: &Axis, function: &str) -> bool {
+    axis.functions.iter().any(|f| f == function)
+}
+
+/// A value of a parameter, in base units; 0 where the file has none.
+pub(super) fn cell(values: &Settings, name: &str, place: usize) -> i64 {
+    let cells = values.get(name).map(|v| v.cells.as_slice());
+    cells.and_then(|c| c.get(place).copied()).unwrap_or(0)
+}
+
+/// p9500 in us.
+pub(super) fn cycle_us(machine: &Machine) -> u32 {
+    u32::try_from(machine.monitoring_cycle).unwrap_or(1).max(1)
+}
+
+/// Whether p9601 enables something; the choices of the family are those of the manual.
+pub(super) fn enables(axis: &Axis, path: fn(ControlPath) -> bool) -> bool {
+    let code = u32::try_from(cell(&axis.values, "p9601", 0)).unwrap_or(0);
+    ControlPath::new(code).is_ok_and(path)
+}
+
+/// Its Extended Functions are enabled.
+pub(super) fn extended(axis: &Axis) -> bool {
+    enables(axis, ControlPath::extended) && has(axis, MOTION)
+}
+
+/// Something selects its functions bit by bit: PROFIsafe or F-DIs.
+pub(super) fn bits(axis: &Axis) -> bool {
+    enables(axis, ControlPath::profisafe) || enables(axis, ControlPath::inputs)
+}
+
+/// A value, or what is wrong with which parameter.
+type Fit<T> = Result<T, String>;
+
+fn fit<T>(name: &str, result: Result<T, ConfigError>) -> Fit<T> {
+    result.map_err(|error| format!("the monitors refuse the value of {name}: {error}"))
+}
+
+/// What the monitors of every axis run with.
+pub(super) fn axes(machine: &Machine) -> Fit<Vec<Values>> {
+    let of_axis = |axis: &Axis| {
+        let reader = Reader { machine, axis };
+        reader
+            .all()
+            .map_err(|error| format!("axis {}: {error}", axis.name))
+    };
+    machine.axes.iter().map(of_axis).collect()
+}
+
+/// The brake closes or opens in so many cycles: p1217.
+pub(super) fn brake_cycles(machine: &Machine, axis: &Axis) -> u32 {
+    let us = u32::try_from(cell(&axis.values, "p1217", 0)).unwrap_or(0);
+    us.div_ceil(cycle_us(machine))
+}
+
+/// Cycles from the contact of a door to the input of the drive.
+pub(super) fn door_cycles(machine: &Machine, door: &Settings) -> u32 {
+    let us = u32::try_from(cell(door, "signal", 0)).unwrap_or(0);
+    us.div_ceil(cycle_us(machine))
+}
+
+/// The fastest limit of SLS, from which the OFF3 ramp brakes in p1135: base units per minute.
+pub(super) fn fastest(axis: &Axis) -> i64 {
+    let levels = 0..4;
+    let speeds = levels.map(|k| cell(&axis.values, "p9531", k));
+    speeds.max().unwrap_or(0)
+}
+
+struct Reader<'a> {
+    machine: &'a Machine,
+    axis: &'a Axis,
+}
+
+impl Reader<'_> {
+    fn cell(&self, name: &str) -> i64 {
+        cell(&self.axis.values, name, 0)
+    }
+
+    fn is(&self, name: &str) -> bool {
+        self.cell(name) != 0
+    }
+
+    /// A time in cycles of so many us, rounded up.
+    fn cycles(us: i64, cycle: u32) -> Cycles {
+        let count = us.unsigned_abs().div_ceil(u64::from(cycle.max(1)));
+        Cycles::new(u32::try_from(count).unwrap_or(u32::MAX))
+    }
+
+    /// A time in cycles of p9500.
+    fn time(&self, name: &str) -> Cycles {
+        Self::cycles(self.cell(name), cycle_us(self.machine))
+    }
+
+    /// A speed in increments per cycle, rounded down.
+    fn speed(&self, name: &str, place: usize) -> Speed {
+        let per_minute = i128::from(cell(&self.axis.values, name, place));
+        let product = per_minute * i128::from(cycle_us(self.machine)) / 60_000_000;
+        Speed(u32::try_from(product).unwrap_or(u32::MAX))
+    }
+
+    fn distance(&self, name: &str) -> Distance {
+        Distance(u32::try_from(self.cell(name)).unwrap_or(u32::MAX))
+    }
+
+    fn position(&self, name: &str, place: usize) -> Position {
+        let value = cell(&self.axis.values, name, place);
+        let most = if value < 0 { i32::MIN } else { i32::MAX };
+        Position(i32::try_from(value).unwrap_or(most))
+    }
+
+    fn stop(&self, name: &str, place: usize) -> Fit<Stop> {
+        let code = u8::try_from(cell(&self.axis.values, name, place)).unwrap_or(u8::MAX);
+        Stop::from_code(code).ok_or_else(|| format!("{name} is no stop"))
+    }
+
+    fn all(&self) -> Fit<Values> {
+        let control = &self.machine.control;
+        let p9500 = cycle_us(self.machine);
+        let r9780 = u32::try_from(cell(control, "r9780", 0)).unwrap_or(1).max(1);
+        let basic_cycles = (p9500 / r9780).max(1);
+        let basic = |name| Self::cycles(self.cell(name), p9500 / basic_cycles);
+        let delayed = !basic("p9652").is_zero();
+        let extended = extended(self.axis);
+        let bits = bits(self.axis);
+        let profisafe = enables(self.axis, ControlPath::profisafe);
+        let by_terminals = enables(self.axis, ControlPath::terminals);
+        let millis = |us: i64| u32::try_from(us / 1_000).unwrap_or(u32::MAX);
+        let communication = || {
+            let esr = match has(self.axis, "ESR") {
+                true => millis(self.cell("p9580")),
+                false => 0,
+            };
+            let watchdog = millis(cell(control, "F_WD_Time", 0));
+            let cycle = NonZeroU32::new(p9500).unwrap_or(NonZeroU32::MIN);
+            let stop_b = self.is("p9612");
+            let config =
+                communication::Config::from_millis(watchdog, esr, profisafe, stop_b, cycle);
+            fit("F_WD_Time and p9580", config)
+        };
+        let tolerance = basic("p9650");
+        let terminals = by_terminals && !tolerance.is_zero();
+        Ok(Values {
+            basic_cycles,
+            selection: basic_selection::Config::new(by_terminals, bits, delayed),
+            terminals: match terminals {
+                true => Some(fit("p9650", terminal_pair::Config::new(tolerance))?),
+                false => None,
+            },
+            ss1_basic: ss1_basic::Config {
+                time: basic("p9652"),
+                external: self.is("p9653"),
+            },
+            basic_stop: fit("p9658", basic_stop::Config::new(basic("p9658")))?,
+            sto: sto::Config { valve: false },
+            sbc: has(self.axis, SBC).then_some(sbc::Config { enabled: true }),
+            communication: match profisafe {
+                true => Some(communication()?),
+                false => None,
+            },
+            acknowledgement: acknowledgement::Config::new(false, bits, self.is("p9507_0")),
+            extended: match extended {
+                true => Some(self.extended()?),
+                false => None,
+            },
+        })
+    }
+
+    fn extended(&self) -> Fit<Extended> {
+        let has = |function| has(self.axis, function);
+        let kind = match self.cell("p9506") {
+            0 => Braking::EncoderSam,
+            2 => Braking::EncoderSbr,
+            _ => return Err("a drive without encoder (p9506) is not simulated".to_owned()),
+        };
+        let external = self.is("p9507_3");
+        let hysteresis = has("SSM hysteresis");
+        let [b, c, d, e, f] =
+            ["p9556", "p9552", "p9553", "p9554", "p9555"].map(|name| self.time(name));
+        let limits = [0, 1, 2, 3].map(|k| self.speed("p9531", k));
+        let unselected = enables(self.axis, ControlPath::without_selection);
+        let mut responses = [Stop::None; 4];
+        for (k, response) in responses.iter_mut().enumerate() {
+            *response = self.stop("p9563", k)?;
+        }
+        let sls = sls::Config::new(
+            limits,
+            responses,
+            self.time("p9551"),
+            true,
+            has(BY_TELEGRAM),
+            unselected && self.is("p9512_4"),
+            Default::default(),
+        );
+        let shutdown = self.speed("p9560", 0);
+        let percent = u8::try_from(self.cell("p9533")).unwrap_or(100);
+        let factor = fit("p9533", Percent::new(percent))?;
+        let setpoint = setpoint_limit::Config::new(factor, 1, 1, self.is("p9507_1"));
+        let slip = Distance(self.speed("p9549", 0).0);
+        let synchronised = has("actual value synchronisation");
+        let factor = u16::try_from(self.cell("p9543")).unwrap_or(u16::MAX);
+        let p9542 = self.distance("p9542");
+        let actual = actual_value::Config::new(p9542, slip, synchronised, factor);
+        let arbiter = stop_arbiter::Config::new(b, c, d, e, f, external, hysteresis);
+        let ssm = ssm::Config::new(
+            self.speed("p9546", 0),
+            hysteresis.then(|| self.speed("p9547", 0)),
+            true,
+            !self.is("p9509_0"),
+        );
+        let codes = |name, k| cell(&self.axis.values, name, k);
+        Ok(Extended {
+            arbiter: fit("p9552 to p9556", arbiter)?,
+            ss1: fit(
+                "p9556 and p9560",
+                ss1::Config::new(b, shutdown, kind, external, Default::default()),
+            )?,
+            ss2: fit(
+                "p9552 to p9554",
+                ss2::Config::new(c, d, e, kind, Default::default()),
+            )?,
+            sos: sos::Config {
+                delay: self.time("p9551"),
+                tolerance: self.distance("p9530"),
+            },
+            sls: fit("p9531 and p9563", sls)?,
+            sls_codes: [0, 1, 2, 3].map(|k| codes("p9563", k)),
+            sdi: match has(SDI) {
+                true => Some([
+                    self.sdi(Permitted::Positive, unselected && self.is("p9512_12"))?,
+                    self.sdi(Permitted::Negative, unselected && self.is("p9512_13"))?,
+                ]),
+                false => None,
+            },
+            sdi_code: codes("p9566", 0),
+            slp: match has(SLP) {
+                true => Some(self.slp()?),
+                false => None,
+            },
+            slp_codes: [0, 1].map(|k| codes("p9562", k)),
+            ssm: fit("p9546 and p9547", ssm)?,
+            braking: self.braking(kind)?,
+            actual: fit("p9543", actual)?,
+            setpoint: match percent {
+                0 => None,
+                _ => Some(fit("p9533", setpoint)?),
+            },
+            shutdown,
+            limits,
+        })
+    }
+
+    fn sdi(&self, permitted: Permitted, unselected: bool) -> Fit<sdi::Config> {
+        let config = sdi::Config::new(
+            permitted,
+            self.time("p9565"),
+            self.distance("p9564"),
+            self.stop("p9566", 0)?,
+            true,
+            unselected,
+            self.is("p9509_8"),
+            Default::default(),
+        );
+        fit("p9566", config)
+    }
+
+    fn slp(&self) -> Fit<slp::Config> {
+        let range = |k| -> Fit<slp::Range> {
+            Ok(slp::Range {
+                lower: self.position("p9535", k),
+                upper: self.position("p9534", k),
+                response: self.stop("p9562", k)?,
+            })
+        };
+        fit(
+            "p9534, p9535 and p9562",
+            slp::Config::new(range(0)?, range(1)?),
+        )
+    }
+
+    fn braking(&self, kind: Braking) -> Fit<BrakingMonitor> {
+        if kind.ramp() {
+            let config = sbr::Config::new(
+                self.speed("p9581", 0),
+                self.time("p9583"),
+                self.time("p9582"),
+                Speed(1),
+                Default::default(),
+                Default::default(),
+            );
+            return Ok(BrakingMonitor::Sbr(fit("p9583", config)?));
+        }
+        // p9511 = 0: 1 ms, there is no isochronous bus here.
+        let acquisition = u32::try_from(self.cell("p9511")).unwrap_or(0);
+        let acquisition = if acquisition == 0 { 1_000 } else { acquisition };
+        let ratio = u8::try_from(cycle_us(self.machine) / acquisition).unwrap_or(u8::MAX);
+        let config = sam::Config::new(
+            self.speed("p9548", 0),
+            ratio.max(1),
+            self.speed("p9568", 0),
+            self.speed("p9546", 0),
+            Stop::A,
+            Default::default(),
+            Default::default(),
+        );
+        Ok(BrakingMonitor::Sam(fit("p9548 and p9511", config)?))
+    }
+}
