@@ -84,9 +84,9 @@ variants! { iec::window:
 
     /// It is acknowledged while the value is outside.
     "window-acknowledged-outside" |state, config, inputs| {
-        let demand = state.demand && !(inputs.ack && !state.ack_held);
+        let acknowledged = state.demand && inputs.ack && !state.ack_held;
         let (mut after, mut outputs) = window::transition(state, config, inputs);
-        if state.demand && !demand && inputs.valid && !inputs.power_on {
+        if acknowledged && inputs.valid && !inputs.power_on {
             after.demand = false;
             outputs.stop = false;
         }
