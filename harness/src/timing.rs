@@ -7,7 +7,8 @@ use stillpoint_show::diagram::{Diagram, Lane};
 
 use stillpoint_engine::{Cycle, lazy};
 
-/// The diagram of a replayed run of a table: inputs that were read, state, outputs; constant ones left out.
+/// The diagram of a replayed run of a table: inputs that were read, state, outputs; constant ones left out, but for a state that may
+/// start anywhere: with which value it did is part of the run.
 pub fn of_run(bound: &Bound, cycles: &[Cycle]) -> Diagram {
     let system = &bound.system;
     let mut lanes = Vec::new();
@@ -48,7 +49,10 @@ pub fn of_run(bound: &Bound, cycles: &[Cycle]) -> Diagram {
             values: std::iter::once(None).chain(values).collect(),
         });
     }
-    lanes.retain(|l: &Lane| l.group == "inputs" || changes(l));
+    let starts = system.states.iter().filter(|state| state.init.is_none());
+    let starts: Vec<&str> = starts.map(|state| state.var.name.as_str()).collect();
+    let chosen = |l: &Lane| l.group == "state" && starts.contains(&l.name.as_str());
+    lanes.retain(|l: &Lane| l.group == "inputs" || changes(l) || chosen(l));
     Diagram {
         lanes,
         columns: cycles.len() + 1,
