@@ -129,7 +129,10 @@ fn cycles_are_complete() {
                 "its one state has one successor, whatever the inputs"
             );
         } else {
-            assert!(made > 3);
+            assert!(
+                made >= every(&bound.states).len(),
+                "a state without a cycle"
+            );
         }
     }
 }
