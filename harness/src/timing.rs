@@ -28,12 +28,15 @@ pub fn of_run(bound: &Bound, cycles: &[Cycle]) -> Diagram {
             .first()
             .and_then(|c| show(state.var.ty, c.frame.before[k]));
         let values = cycles.iter().map(|c| show(state.var.ty, c.frame.now[k]));
-        lanes.push(Lane {
+        let lane = Lane {
             group: "state".to_owned(),
             name: state.var.name.clone(),
             level: state.var.ty == Ty::Bool,
             values: std::iter::once(first).chain(values).collect(),
-        });
+        };
+        if changes(&lane) || state.init.is_none() {
+            lanes.push(lane);
+        }
     }
     for (k, output) in system.lazies.iter().enumerate() {
         if output.kind != LazyKind::Output {
@@ -42,17 +45,16 @@ pub fn of_run(bound: &Bound, cycles: &[Cycle]) -> Diagram {
         let values = cycles
             .iter()
             .map(|c| lazy(bound, c, k).map(|v| system.show(output.ty, v)));
-        lanes.push(Lane {
+        let lane = Lane {
             group: "outputs".to_owned(),
             name: output.name.clone(),
             level: output.ty == Ty::Bool,
             values: std::iter::once(None).chain(values).collect(),
-        });
+        };
+        if changes(&lane) {
+            lanes.push(lane);
+        }
     }
-    let starts = system.states.iter().filter(|state| state.init.is_none());
-    let starts: Vec<&str> = starts.map(|state| state.var.name.as_str()).collect();
-    let chosen = |l: &Lane| l.group == "state" && starts.contains(&l.name.as_str());
-    lanes.retain(|l: &Lane| l.group == "inputs" || changes(l) || chosen(l));
     Diagram {
         lanes,
         columns: cycles.len() + 1,

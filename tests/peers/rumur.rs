@@ -9,8 +9,8 @@ use stillpoint_engine::subject::{Subject, Task};
 use stillpoint_harness::export::murphi::{RANGE, murphi};
 use stillpoint_lang::ir::Form;
 use stillpoint_model::Verdict;
-use stillpoint_tests::peer::{Folder, each, explored, has_system, load, tools};
-use stillpoint_tests::{exceptions, files, specification_files};
+use stillpoint_tests::peer::{Folder, QUICK, each, explored, load, shipped, tools};
+use stillpoint_tests::{exceptions, files};
 
 const TOOLS: [&str; 2] = ["rumur", "gcc"];
 
@@ -18,8 +18,6 @@ const TOOLS: [&str; 2] = ["rumur", "gcc"];
 /// rumur enumerates every combination of the inputs that the model reads, which would take too long in a test.
 const COMBINATIONS: u128 = 10_000;
 const TRANSITIONS: u128 = 400_000;
-/// The limit of transitions of the test that is not deep: most systems are smaller, and most of the time goes into the others.
-const QUICK: u128 = 10_000;
 
 /// What rumur found.
 struct Found {
@@ -151,9 +149,7 @@ fn compare_all(path: &Path, transitions: u128) -> Vec<(String, Option<BTreeSet<S
 
 /// Compares the shipped systems with no more transitions than this; the answer is how many, and which are larger.
 fn compare_shipped(transitions: u128) -> (usize, BTreeSet<String>) {
-    // The yardstick is left to SPIN: its 193 million transitions take rumur minutes. Files that only others use have no system.
-    let mut files = specification_files();
-    files.retain(|path| has_system(path) && !path.ends_with("bench/two-axis.toml"));
+    let files = shipped();
     let mut compared = 0;
     let mut left_out = BTreeSet::new();
     let all = each(&files, |path| compare_all(path, transitions));

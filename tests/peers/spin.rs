@@ -3,21 +3,19 @@
 //! A user without SPIN or gcc sees that the tests were skipped; where the environment has `CI`, they fail then.
 
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::LazyLock;
 
 use stillpoint_harness::export::promela::{Promela, promela};
 use stillpoint_lang::ir::Form;
 use stillpoint_model::Verdict;
-use stillpoint_tests::peer::{Folder, each, explored, has_system, load, starts, tools};
-use stillpoint_tests::{exceptions, files, root, specification_files};
+use stillpoint_tests::peer::{Folder, QUICK, each, explored, load, shipped, starts, tools};
+use stillpoint_tests::{exceptions, files, root};
 
 const TOOLS: [&str; 2] = ["spin", "gcc"];
 
 /// The most transitions of a system whose verifier is quicker than an optimising compiler.
 const SMALL: u128 = 1_000_000;
-/// The limit of transitions of the test that is not deep: most systems are smaller, and most of the time goes into the others.
-const QUICK: u128 = 10_000;
 
 /// What came of a file.
 #[derive(Default)]
@@ -162,13 +160,6 @@ fn the_yardstick_has_its_states() {
     let folder = verifier("yardstick", &model, Compiler::Optimising);
     let found = Found::of(&folder.run("./pan", &["-m100000"]));
     assert_eq!((found.states, found.errors), (4_024_036, 0));
-}
-
-/// The files with a system but for the yardstick, which has a test of its own: files that only others use have none.
-fn shipped() -> Vec<PathBuf> {
-    let mut files = specification_files();
-    files.retain(|path| has_system(path) && !path.ends_with("bench/two-axis.toml"));
-    files
 }
 
 /// Compares the shipped systems of no more transitions: how many they are, and which are left out.

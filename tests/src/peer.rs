@@ -57,6 +57,17 @@ pub fn fetched(file: &str) -> Option<PathBuf> {
     None
 }
 
+/// The limit of transitions of what is compared daily: most systems are smaller, and most of the time goes into the others.
+pub const QUICK: u128 = 10_000;
+
+/// The files with a system, which those that only others use have not; but for the yardstick, whose 193 million transitions take some peers
+/// minutes.
+pub fn shipped() -> Vec<PathBuf> {
+    let mut files = crate::specification_files();
+    files.retain(|path| has_system(path) && !path.ends_with("bench/two-axis.toml"));
+    files
+}
+
 /// A folder that goes away with the value.
 pub struct Folder(PathBuf);
 

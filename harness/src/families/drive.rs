@@ -52,7 +52,9 @@ pub trait Drive: Sync {
     ) -> Result<Box<dyn Monitors + 'a>, String>;
 
     /// The owners by their places, those together whose monitors run together: each axis by itself, or the whole machine.
-    fn together(&self, machine: &Machine) -> Vec<Vec<usize>>;
+    fn together(&self, machine: &Machine) -> Vec<Vec<usize>> {
+        (0..machine.axes.len()).map(|axis| vec![axis]).collect()
+    }
 
     /// Drives the monitors of owners that run together, which are one entry of [`Drive::together`], with their tables beside them
     /// if asked for.
@@ -68,8 +70,10 @@ pub trait Drive: Sync {
     ) -> Result<(), String>;
 
     /// What the inputs of the tables are to the channels: what a walk through them gives to the monitors.
-    /// Empty: no walk can be recorded.
-    fn feeds(&self) -> &'static [Feed];
+    /// Empty where the tables have values of their own for positions and speeds: no walk can be recorded.
+    fn feeds(&self) -> &'static [Feed] {
+        &[]
+    }
 }
 
 /// What a family calls things, in scenarios, in reports and in diagrams.
@@ -129,6 +133,16 @@ pub struct Owner {
 }
 
 impl Owner {
+    /// An axis.
+    pub fn of_axis(axis: &MachineAxis, inputs: Vec<Port>, outputs: Vec<Port>) -> Self {
+        Self {
+            name: axis.name.clone(),
+            axis: Some(axis.kind),
+            inputs,
+            outputs,
+        }
+    }
+
     /// The full name of a signal in a channel.
     pub fn signal(&self, channel: &str, name: &str) -> String {
         format!("{}.{channel}.{name}", self.name)
@@ -294,11 +308,15 @@ pub trait Rig {
     /// What a channel says in this cycle.
     fn output(&self, owner: usize, side: usize, output: usize) -> Value;
 
-    /// What the table of the channel says to it; none where it says nothing.
-    fn specified(&self, owner: usize, side: usize, output: usize) -> Option<Value>;
+    /// What the table of the channel says to it; none where it says nothing, or no table steps beside the monitors.
+    fn specified(&self, _owner: usize, _side: usize, _output: usize) -> Option<Value> {
+        None
+    }
 
     /// Cycles of both channels in which a table has stepped.
-    fn table_cycles(&self) -> u64;
+    fn table_cycles(&self) -> u64 {
+        0
+    }
 }
 
 /// An input of the tables that is one or more signals of a channel, the lowest bit first.

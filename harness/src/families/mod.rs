@@ -9,6 +9,7 @@ pub mod iec;
 pub mod sinamics;
 pub mod sinumerik;
 pub mod srm;
+mod values;
 
 use stillpoint_machine::Machine;
 use stillpoint_monitors::mutant::Mutant;

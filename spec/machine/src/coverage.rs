@@ -29,7 +29,7 @@ pub(super) fn not_explored(
     for function in family.functions.iter().filter(|f| !f.explored) {
         let with: Vec<&str> = axes
             .iter()
-            .filter(|a| a.functions.contains(&function.name))
+            .filter(|a| a.has(&function.name))
             .map(|a| a.name.as_str())
             .collect();
         if !with.is_empty() {

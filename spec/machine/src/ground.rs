@@ -355,7 +355,7 @@ impl<'a> Ground<'a> {
 
     /// Whether a function is enabled, as a dependence of a test: on the axis, or on which axes.
     pub fn enabled(&self, function: &str) -> (String, String) {
-        let has = |axis: &&Axis| axis.functions.iter().any(|f| f == function);
+        let has = |axis: &&Axis| axis.has(function);
         let value = match self.axis {
             Some(axis) if has(&axis) => "enabled".to_owned(),
             Some(_) => "not enabled".to_owned(),

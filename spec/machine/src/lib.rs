@@ -310,6 +310,13 @@ fn shown(params: &indexmap::IndexMap<String, Param>, settings: &Settings) -> Vec
     params.iter().filter_map(entry).collect()
 }
 
+impl Axis {
+    /// Whether a safety function is enabled for it.
+    pub fn has(&self, function: &str) -> bool {
+        self.functions.iter().any(|name| name == function)
+    }
+}
+
 impl Group {
     /// Whether the axis belongs to it.
     pub fn has(&self, axis: &str) -> bool {

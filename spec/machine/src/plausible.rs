@@ -136,10 +136,7 @@ fn axis_values(family: &Family, axis: &Axis, control: &Values, cycle: i64) -> Re
         if cells.len() <= function.index {
             cells.resize(function.index + 1, 0);
         }
-        if let (true, Some(cell)) = (
-            axis.functions.contains(&function.name),
-            cells.get_mut(function.index),
-        ) {
+        if let (true, Some(cell)) = (axis.has(&function.name), cells.get_mut(function.index)) {
             *cell = 1;
         }
     }

@@ -23,14 +23,16 @@ fn json(arguments: &[&str]) -> Value {
     serde_json::from_str(&stdout(&output)).expect("JSON")
 }
 
-fn ids(json: &Value) -> BTreeSet<String> {
+/// The tests of a protocol.
+pub fn ids(json: &Value) -> BTreeSet<String> {
     let tests = json["tests"].as_array().expect("tests").iter();
     tests
         .map(|t| t["id"].as_str().expect("an id").to_owned())
         .collect()
 }
 
-fn test<'a>(json: &'a Value, id: &str) -> &'a Value {
+/// A test of a protocol.
+pub fn test<'a>(json: &'a Value, id: &str) -> &'a Value {
     let list = json["tests"].as_array().expect("tests");
     list.iter()
         .find(|t| t["id"] == id)

@@ -1,19 +1,10 @@
 //! The protocol of the acceptance test.
 
-use std::collections::BTreeSet;
 use std::path::Path;
 
-use serde_json::Value;
-
 use super::{MACHINE, changed, json};
+use crate::acceptance::{ids, test};
 use crate::common::{messages, stdout, stillpoint};
-
-fn ids(json: &Value) -> BTreeSet<String> {
-    let tests = json["tests"].as_array().expect("tests").iter();
-    tests
-        .map(|t| t["id"].as_str().expect("an id").to_owned())
-        .collect()
-}
 
 /// Tests of the functions and limits, of the doors, permissives, keys, brakes, and of the control's own tests.
 #[test]
@@ -112,13 +103,6 @@ fn the_configuration_decides_what_is_tested() {
             && !ids.contains("SLS-SOM_4-X")
             && !ids.contains("BRAKE-CONTROL")
     );
-}
-
-fn test<'a>(json: &'a Value, id: &str) -> &'a Value {
-    let list = json["tests"].as_array().expect("tests");
-    list.iter()
-        .find(|t| t["id"] == id)
-        .unwrap_or_else(|| panic!("no test {id}"))
 }
 
 #[test]

@@ -1,9 +1,8 @@
 //! The protocol of the acceptance test: chapter 7 and A.3 of the manual.
 
-use std::collections::BTreeSet;
-
 use serde_json::Value;
 
+use crate::acceptance::{ids, test};
 use crate::common::{copied, messages, status, stderr, stdout, stillpoint};
 
 const GANTRY: &str = "spec/machines/gantry-s120.toml";
@@ -21,20 +20,6 @@ fn json(machine: &str, more: &[&str]) -> Value {
 fn gantry(name: &str, replace: &[(&str, &str)]) -> String {
     let replace: Vec<_> = replace.iter().map(|(a, b)| (GANTRY, *a, *b)).collect();
     copied(name, GANTRY, FAMILY, &replace)
-}
-
-fn ids(json: &Value) -> BTreeSet<String> {
-    let tests = json["tests"].as_array().expect("tests").iter();
-    tests
-        .map(|t| t["id"].as_str().expect("an id").to_owned())
-        .collect()
-}
-
-fn test<'a>(json: &'a Value, id: &str) -> &'a Value {
-    let list = json["tests"].as_array().expect("tests");
-    list.iter()
-        .find(|t| t["id"] == id)
-        .unwrap_or_else(|| panic!("no test {id}"))
 }
 
 /// Signal, value and latest time in microseconds of what is expected, as far as it is a signal with a time.

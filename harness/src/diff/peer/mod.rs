@@ -57,8 +57,21 @@ pub struct Peers {
     pub(crate) slices: &'static [&'static [Slice]],
     /// The values of inputs that a slice holds, where they are not the least ones.
     pub(crate) calm: &'static [(&'static str, i32)],
-    /// Makes the peer of a machine or a system.
-    pub(crate) make: fn(&str, &Params, Option<Mutant>) -> Made,
+    /// What makes the peers.
+    pub(crate) make: &'static [Make],
+}
+
+/// Makes the peer of a machine or a system that it knows.
+pub(crate) type Make = fn(&str, &Params, Option<Mutant>) -> Made;
+
+/// The peer of a machine or a system, by the first that knows it.
+pub(crate) fn first(all: &[Make], machine: &str, params: &Params, mutant: Option<Mutant>) -> Made {
+    for make in all {
+        if let Some(adapter) = make(machine, params, mutant)? {
+            return Ok(Some(adapter));
+        }
+    }
+    Ok(None)
 }
 
 impl Peers {
@@ -195,15 +208,16 @@ pub fn peer(
     let Some(family) = families::of_table(&bound.system.name) else {
         return Ok(None);
     };
-    let made = (family.peers.make)(machine, &Params::new(bound), mutant).map_err(|e| match e {
-        Refusal::Monitor(e) => {
-            format!("the monitor of `{machine}` refuses these parameters: {e:?}")
-        }
-        Refusal::Values(config) => format!("the monitor of `{machine}` refuses {config}"),
-        Refusal::Name(name) => format!("the monitor of `{machine}` has no number `{name}`"),
-        Refusal::Unknown(what) => format!("machine `{machine}`: the table does not say {what}"),
-        Refusal::Table(text) => format!("machine `{machine}`: {text}"),
-    })?;
+    let made =
+        first(family.peers.make, machine, &Params::new(bound), mutant).map_err(|e| match e {
+            Refusal::Monitor(e) => {
+                format!("the monitor of `{machine}` refuses these parameters: {e:?}")
+            }
+            Refusal::Values(config) => format!("the monitor of `{machine}` refuses {config}"),
+            Refusal::Name(name) => format!("the monitor of `{machine}` has no number `{name}`"),
+            Refusal::Unknown(what) => format!("machine `{machine}`: the table does not say {what}"),
+            Refusal::Table(text) => format!("machine `{machine}`: {text}"),
+        })?;
     Ok(made.map(|adapter| Box::new(adapter) as Box<dyn Peer>))
 }
 
@@ -214,7 +228,10 @@ pub fn unread(machine: &str, bound: &Bound) -> Vec<String> {
     let Some(family) = families::of_table(&bound.system.name) else {
         return Vec::new();
     };
-    if !matches!((family.peers.make)(machine, &params, None), Ok(Some(_))) {
+    if !matches!(
+        first(family.peers.make, machine, &params, None),
+        Ok(Some(_))
+    ) {
         return Vec::new();
     }
     let read = params.read.borrow();

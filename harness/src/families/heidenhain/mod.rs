@@ -78,11 +78,9 @@ impl Drive for Heidenhain {
     }
 
     fn owners(&self, machine: &Machine) -> Vec<Owner> {
-        let axis = |axis: &MachineAxis| Owner {
-            name: axis.name.clone(),
-            axis: Some(axis.kind),
-            inputs: names::AXIS_INPUTS.to_vec(),
-            outputs: names::AXIS_OUTPUTS.to_vec(),
+        let axis = |axis: &MachineAxis| {
+            let (inputs, outputs) = (names::AXIS_INPUTS.to_vec(), names::AXIS_OUTPUTS.to_vec());
+            Owner::of_axis(axis, inputs, outputs)
         };
         let whole = Owner {
             name: MACHINE.to_owned(),

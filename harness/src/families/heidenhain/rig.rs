@@ -1,4 +1,5 @@
-//! The whole machine, driven by its signals: both channels, for a replay and for a walk.
+//! The whole machine, driven by its signals: both channels, for a replay and for a walk. No table steps beside them: the safe PLC program
+//! is that of the tables and runs in the channels themselves.
 
 use stillpoint_machine::Machine;
 
@@ -159,14 +160,5 @@ impl Rig for Bench<'_> {
             None => Bit::COUNT,
         };
         self.told(owner, side, inputs + output)
-    }
-
-    /// The safe PLC program is that of the tables and runs in the channels themselves; no table steps beside them.
-    fn specified(&self, _owner: usize, _side: usize, _output: usize) -> Option<Value> {
-        None
-    }
-
-    fn table_cycles(&self) -> u64 {
-        0
     }
 }

@@ -6,7 +6,9 @@ use stillpoint_monitors::heidenhain::{
     axis_release, channel, comparison, deceleration, operating_stop, output_enable, parameters,
     position_limit, reference, speed, stop, stop_path,
 };
-use stillpoint_monitors::kernel::{ConfigError, Cycles, Distance, Percent, Speed};
+use stillpoint_monitors::kernel::{Cycles, Distance, Percent, Speed};
+
+use crate::families::values::{Fit, fit};
 
 /// The two channels.
 pub(super) const CC: usize = 1;
@@ -29,21 +31,13 @@ pub(super) struct AxisConfig {
     pub mark: i32,
 }
 
-/// A value, or what is wrong with which parameter.
-type Fit<T> = Result<T, String>;
-
 fn cell(values: &Settings, name: &str) -> i64 {
-    let cells = values.get(name).map(|v| v.cells.as_slice());
-    cells.and_then(|c| c.first().copied()).unwrap_or(0)
+    crate::families::values::cell(values, name, 0)
 }
 
 /// A value divided by the size of a step of its parameter; the machine file has none that is finer.
 fn steps(values: &Settings, name: &str, step: i64) -> u32 {
     u32::try_from(cell(values, name) / step).unwrap_or(u32::MAX)
-}
-
-fn fit<T>(name: &str, result: Result<T, ConfigError>) -> Fit<T> {
-    result.map_err(|error| format!("the monitors refuse the value of {name}: {error}"))
 }
 
 /// What the monitors of an axis run with.

@@ -12,7 +12,7 @@ pub(super) const PEERS: Peers = Peers {
     fixed: &[],
     slices: &[],
     calm: &[],
-    make,
+    make: &[make],
 };
 
 peers! { iec |p|

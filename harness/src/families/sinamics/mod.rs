@@ -13,7 +13,8 @@ mod values;
 use stillpoint_machine::{Axis as MachineAxis, Machine};
 
 use self::channel::Said as Told;
-use super::{Drive, Family, Feed, Monitors, Owner, Rig, Said, Start, Windows, Words};
+use super::values::{cell, nearest};
+use super::{Drive, Family, Monitors, Owner, Rig, Said, Start, Windows, Words};
 use crate::plant::Axis;
 
 /// The family.
@@ -80,12 +81,8 @@ impl Drive for Sinamics {
         let owner = |axis: &MachineAxis| {
             let inputs = signals::inputs(axis).into_iter();
             let outputs = signals::outputs(axis, 0, &Told::default()).into_iter();
-            Owner {
-                name: axis.name.clone(),
-                axis: Some(axis.kind),
-                inputs: inputs.map(|input| input.port()).collect(),
-                outputs: outputs.map(|(port, _)| port).collect(),
-            }
+            let inputs = inputs.map(|input| input.port()).collect();
+            Owner::of_axis(axis, inputs, outputs.map(|(port, _)| port).collect())
         };
         machine.axes.iter().map(owner).collect()
     }
@@ -95,25 +92,22 @@ impl Drive for Sinamics {
     }
 
     fn windows(&self, axis: &MachineAxis) -> Windows {
-        let cell = |name, k| {
-            let value = values::cell(&axis.values, name, k);
-            i32::try_from(value).unwrap_or(if value < 0 { i32::MIN } else { i32::MAX })
-        };
+        let end = |name, k| nearest(cell(&axis.values, name, k));
         Windows {
-            standstill: values::cell(&axis.values, "p9530", 0),
-            plus: [0, 1].map(|k| cell("p9534", k)),
-            minus: [0, 1].map(|k| cell("p9535", k)),
-            limited: values::has(axis, values::SLP),
+            standstill: cell(&axis.values, "p9530", 0),
+            plus: [0, 1].map(|k| end("p9534", k)),
+            minus: [0, 1].map(|k| end("p9535", k)),
+            limited: axis.has(values::SLP),
         }
     }
 
     fn stage(&self, _machine: &Machine, axis: &MachineAxis, stage: usize) -> Option<i64> {
-        values::extended(axis).then(|| values::cell(&axis.values, "p9531", stage))
+        values::extended(axis).then(|| cell(&axis.values, "p9531", stage))
     }
 
     /// OFF3 brakes from the fastest limit in p1135, and the control accelerates as fast.
     fn ramps(&self, axis: &MachineAxis) -> Option<[String; 2]> {
-        let time = values::cell(&axis.values, "p1135", 0);
+        let time = cell(&axis.values, "p1135", 0);
         if time <= 0 || !values::extended(axis) {
             return None;
         }
@@ -140,11 +134,6 @@ impl Drive for Sinamics {
         Ok(Box::new(simulated::Simulated::new(machine, start)?))
     }
 
-    /// No drive reads of another one.
-    fn together(&self, machine: &Machine) -> Vec<Vec<usize>> {
-        (0..machine.axes.len()).map(|axis| vec![axis]).collect()
-    }
-
     fn play(
         &self,
         machine: &Machine,
@@ -153,10 +142,5 @@ impl Drive for Sinamics {
         play: &mut dyn FnMut(&mut dyn Rig),
     ) -> Result<(), String> {
         rig::play(machine, *owners.first().ok_or("no axis is named")?, play)
-    }
-
-    /// A walk through a table has values of its own for positions and speeds: it is no recording of a machine.
-    fn feeds(&self) -> &'static [Feed] {
-        &[]
     }
 }

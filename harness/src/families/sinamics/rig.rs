@@ -1,8 +1,9 @@
-//! One drive alone, driven by its signals: both channels, for a replay.
+//! One drive alone, driven by its signals: both channels, for a replay. The tables of the functions have values of their own for positions
+//! and speeds; none steps beside them.
 
 use stillpoint_machine::Machine;
 
-use super::channel::{Pair, Said};
+use super::channel::Pair;
 use super::signals::{self, Flag, Input, Read};
 use super::values::{self, Values};
 use crate::families::Rig;
@@ -27,7 +28,7 @@ pub(super) fn play(
         inputs: signals::inputs(&machine.axes[axis]),
         pair: Pair::new(values, false, &read),
         read,
-        said: [Said::default(); 2],
+        told: Default::default(),
     });
     Ok(())
 }
@@ -39,7 +40,8 @@ struct Bench<'a> {
     inputs: Vec<Input>,
     pair: Pair,
     read: [Read; 2],
-    said: [Said; 2],
+    /// The outputs of both channels.
+    told: [Vec<Value>; 2],
 }
 
 impl Rig for Bench<'_> {
@@ -68,25 +70,16 @@ impl Rig for Bench<'_> {
     }
 
     fn step(&mut self) {
-        self.said = self.pair.step(&self.read);
+        let known = &self.machine.axes[self.axis];
+        let said = self.pair.step(&self.read);
+        self.told = [0, 1].map(|side| {
+            let outputs = signals::outputs(known, side, &said[side]).into_iter();
+            outputs.map(|(_, value)| value).collect()
+        });
     }
 
     fn output(&self, _owner: usize, side: usize, output: usize) -> Value {
-        let known = &self.machine.axes[self.axis];
-        let all = self
-            .said
-            .get(side)
-            .map(|said| signals::outputs(known, side, said));
-        let found = all.and_then(|all| all.into_iter().nth(output));
-        found.map_or(Value::Bool(false), |(_, value)| value)
-    }
-
-    /// The tables of the functions have values of their own for positions and speeds; none steps beside them.
-    fn specified(&self, _owner: usize, _side: usize, _output: usize) -> Option<Value> {
-        None
-    }
-
-    fn table_cycles(&self) -> u64 {
-        0
+        let told = self.told.get(side).and_then(|told| told.get(output));
+        told.cloned().unwrap_or(Value::Bool(false))
     }
 }

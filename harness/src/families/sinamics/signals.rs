@@ -9,6 +9,7 @@ use super::channel::Said;
 use super::messages;
 use super::values::{self, BY_TELEGRAM, MOTION, SBC, SDI, SLP, SS2E};
 use crate::families::Port;
+use crate::families::values::cell;
 use crate::recording::vocabulary::{ALARMS, POSITION, STOP, Unit, VELOCITY};
 use crate::recording::{Allowed, Value};
 
@@ -49,8 +50,8 @@ pub(super) enum Flag {
     Acceptance,
 }
 
-/// What comes by the safety telegram, and is 0 where no telegram is valid.
-const BITS: [Flag; 12] = [
+/// What selects a function with 0. It comes by the safety telegram.
+const SELECTING: [Flag; 9] = [
     Flag::Sto,
     Flag::Ss1,
     Flag::Ss2,
@@ -60,10 +61,10 @@ const BITS: [Flag; 12] = [
     Flag::SdiPositive,
     Flag::SdiNegative,
     Flag::Slp,
-    Flag::SlpRange,
-    Flag::Retract,
-    Flag::Ack,
 ];
+
+/// What else comes by it. All of it is 0 where no telegram is valid.
+const BESIDE: [Flag; 3] = [Flag::SlpRange, Flag::Retract, Flag::Ack];
 
 /// An input that is a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -137,8 +138,7 @@ pub(super) fn inputs(axis: &Axis) -> Vec<Input> {
         PROFISAFE => values::enables(axis, ControlPath::profisafe),
         SELECTED => values::bits(axis),
         function => {
-            values::has(axis, function) && values::extended(axis)
-                || function == SBC && values::has(axis, SBC)
+            axis.has(function) && values::extended(axis) || function == SBC && axis.has(SBC)
         }
     };
     let known = INPUTS.iter().filter(|(.., needs)| has(needs));
@@ -175,24 +175,16 @@ pub(super) struct Read {
 impl Read {
     /// Nothing is selected, everything is there, the drive is switched on.
     pub(super) fn at_rest(position: i32) -> Self {
-        let rest = [
+        let there = [
             Flag::PoweredUp,
             Flag::Terminal,
             Flag::Telegram,
-            Flag::Sto,
-            Flag::Ss1,
-            Flag::Ss2,
-            Flag::Ss2e,
-            Flag::Sos,
-            Flag::Sls,
-            Flag::SdiPositive,
-            Flag::SdiNegative,
-            Flag::Slp,
             Flag::Referenced,
             Flag::On,
         ];
         Self::default()
-            .flags(&rest.map(|flag| (flag, true)))
+            .flags(&there.map(|flag| (flag, true)))
+            .flags(&SELECTING.map(|flag| (flag, true)))
             .number(Number::Position, position)
             .number(Number::Limit, i16::MAX.into())
     }
@@ -223,7 +215,7 @@ impl Read {
 
     /// The same with the bits of another telegram.
     pub(super) fn with_bits_of(mut self, telegram: &Self) -> Self {
-        for bit in BITS {
+        for bit in SELECTING.into_iter().chain(BESIDE) {
             self.flags[bit as usize] = telegram.is(bit);
         }
         for number in [Number::Level, Number::Limit] {
@@ -236,8 +228,10 @@ impl Read {
     pub(super) fn only(&self, inputs: &[Input]) -> Self {
         let mut only = Self::at_rest(0);
         for input in inputs {
-            // A value that it has is one of its values.
-            let _ = only.set(*input, &self.get(*input));
+            match *input {
+                Input::Flag(flag) => only.flags[flag as usize] = self.is(flag),
+                Input::Number(number) => only.numbers[number as usize] = self.of(number),
+            }
         }
         only
     }
@@ -358,7 +352,7 @@ pub(super) fn outputs(axis: &Axis, side: usize, said: &Said) -> Vec<(Port, Value
             ),
         ]);
     }
-    let own = |function| values::extended(axis) && values::has(axis, function);
+    let own = |function| values::extended(axis) && axis.has(function);
     if own(SDI) {
         all.extend([
             on("SDI_positive_active", said.sdi[0]),
@@ -392,7 +386,7 @@ pub(super) fn outputs(axis: &Axis, side: usize, said: &Said) -> Vec<(Port, Value
             limit(said.setpoint.0),
         ));
     }
-    if values::has(axis, SBC) {
+    if axis.has(SBC) {
         all.push(on("brake_open", said.brake_open));
     }
     if values::enables(axis, ControlPath::profisafe) {
@@ -404,5 +398,5 @@ pub(super) fn outputs(axis: &Axis, side: usize, said: &Said) -> Vec<(Port, Value
 
 /// r9733 is used.
 fn said_limits(axis: &Axis) -> bool {
-    values::extended(axis) && values::cell(&axis.values, "p9533", 0) != 0
+    values::extended(axis) && cell(&axis.values, "p9533", 0) != 0
 }

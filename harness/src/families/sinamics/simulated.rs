@@ -5,6 +5,7 @@ use stillpoint_machine::{Axis as MachineAxis, Door as Guard, Machine};
 use super::channel::{Pair, Said};
 use super::signals::{self, Flag, Input, Number, Read};
 use super::values::{self, Values};
+use crate::families::values::cell;
 use crate::families::{Monitors, Now, Start};
 use crate::plant::{Actuation, Axis, Door, increments};
 use crate::recording::Value;
@@ -84,6 +85,8 @@ impl Selection {
 /// A door as the F-CPU sees it.
 #[derive(Clone, Copy, Default)]
 struct Seen {
+    /// Cycles from its contact to the input of the drive.
+    delay: u32,
     open: bool,
     asked: bool,
     /// Cycles for which it has been otherwise.
@@ -103,6 +106,8 @@ pub(super) struct Simulated<'a> {
 struct OfAxis {
     values: Values,
     inputs: Vec<Input>,
+    /// In so many cycles its brake opens or closes; none: it has no brake.
+    brake: Option<u32>,
     /// None before the first cycle.
     pair: Option<Pair>,
     /// The drive has been switched on once.
@@ -123,6 +128,7 @@ impl<'a> Simulated<'a> {
         let of_axis = |(values, known): (Values, &MachineAxis)| OfAxis {
             values,
             inputs: signals::inputs(known),
+            brake: (known.has(values::SBC)).then(|| values::brake_cycles(machine, known)),
             pair: None,
             powered: start.running,
             enabling: false,
@@ -133,24 +139,26 @@ impl<'a> Simulated<'a> {
             said: [Said::default(); 2],
         };
         let values = values::axes(machine)?.into_iter();
+        let doors = machine.doors.iter().map(|guard| Seen {
+            delay: values::door_cycles(machine, &guard.values),
+            ..Seen::default()
+        });
         Ok(Self {
             machine,
             limited: !start.acceptance_mode,
             running: start.running,
             axes: values.zip(&machine.axes).map(of_axis).collect(),
-            doors: vec![Seen::default(); machine.doors.len()],
+            doors: doors.collect(),
         })
     }
 
     /// The contacts of the doors reach the drives after the time of the machine file.
     fn see_doors(&mut self, doors: &[Door]) {
-        let guards = self.machine.doors.iter().zip(doors);
-        for ((guard, door), seen) in guards.zip(&mut self.doors) {
-            let delay = values::door_cycles(self.machine, &guard.values);
+        for (door, seen) in doors.iter().zip(&mut self.doors) {
             let now = (door.open, door.asked);
             if now == (seen.open, seen.asked) {
                 seen.since = 0;
-            } else if seen.since >= delay {
+            } else if seen.since >= seen.delay {
                 (seen.open, seen.asked) = now;
                 seen.since = 0;
             } else {
@@ -161,7 +169,7 @@ impl<'a> Simulated<'a> {
 
     /// What a door selects for an axis behind it.
     fn behind(&self, guard: &Guard, enabling: bool) -> Selection {
-        let code = |name| values::cell(&guard.values, name, 0);
+        let code = |name| cell(&guard.values, name, 0);
         match (enabling, code("enabling")) {
             (true, held @ 1..) => Selection::of_door(held),
             _ => Selection::of_door(code("open")),
@@ -266,7 +274,7 @@ impl<'a> Simulated<'a> {
 
 impl OfAxis {
     /// The drive and the control obey both channels.
-    fn obeyed(&mut self, axis: &mut Axis, brake: Option<u32>) {
+    fn obeyed(&mut self, axis: &mut Axis) {
         let any = |test: fn(&Said) -> bool| self.said.iter().any(test);
         let asked = if any(|s| s.pulses_off || !s.torque) {
             Actuation::Coast
@@ -286,7 +294,7 @@ impl OfAxis {
         let limits = limits.map(|both| both[usize::from(towards < 0)].0);
         let limit = limits.min().filter(|limit| *limit < u32::MAX);
         axis.plant.limit = limit.map(|limit| i64::from(limit) * 1_000);
-        if let Some(time) = brake {
+        if let Some(time) = self.brake {
             let open = self.said.iter().all(|said| said.brake_open);
             let time = if self.first { 0 } else { time };
             let braking = axis.plant.braking();
@@ -302,9 +310,6 @@ impl Monitors for Simulated<'_> {
         self.see_doors(now.doors);
         for k in 0..self.axes.len() {
             self.read(k, &now);
-            let known = &self.machine.axes[k];
-            let brake =
-                values::has(known, values::SBC).then(|| values::brake_cycles(self.machine, known));
             let running = self.running;
             let own = &mut self.axes[k];
             let (values, read) = (&own.values, &own.read);
@@ -312,7 +317,7 @@ impl Monitors for Simulated<'_> {
                 .pair
                 .get_or_insert_with(|| Pair::new(values, running, read));
             own.said = pair.step(read);
-            own.obeyed(&mut now.axes[k], brake);
+            own.obeyed(&mut now.axes[k]);
         }
         self.release_doors();
     }

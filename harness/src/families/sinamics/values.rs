@@ -3,7 +3,7 @@
 use std::num::NonZeroU32;
 
 use stillpoint_machine::{Axis, Machine, Settings};
-use stillpoint_monitors::kernel::{ConfigError, Cycles, Distance, Percent, Position, Speed};
+use stillpoint_monitors::kernel::{Cycles, Distance, Percent, Position, Speed};
 use stillpoint_monitors::sinamics::control_path::ControlPath;
 use stillpoint_monitors::sinamics::sdi::Permitted;
 use stillpoint_monitors::sinamics::types::{Braking, Stop};
@@ -11,6 +11,8 @@ use stillpoint_monitors::sinamics::{
     acknowledgement, actual_value, basic_selection, basic_stop, communication, sam, sbc, sbr, sdi,
     setpoint_limit, slp, sls, sos, ss1, ss1_basic, ss2, ssm, sto, stop_arbiter, terminal_pair,
 };
+
+use crate::families::values::{Fit, cell, fit, nearest};
 
 /// Functions of an axis in a machine file.
 pub(super) const MOTION: &str = "motion monitoring";
@@ -71,17 +73,6 @@ pub(super) enum BrakingMonitor {
     Sbr(sbr::Config),
 }
 
-/// Whether an axis has a function.
-pub(super) fn has(axis: &Axis, function: &str) -> bool {
-    axis.functions.iter().any(|f| f == function)
-}
-
-/// A value of a parameter, in base units; 0 where the file has none.
-pub(super) fn cell(values: &Settings, name: &str, place: usize) -> i64 {
-    let cells = values.get(name).map(|v| v.cells.as_slice());
-    cells.and_then(|c| c.get(place).copied()).unwrap_or(0)
-}
-
 /// p9500 in us.
 pub(super) fn cycle_us(machine: &Machine) -> u32 {
     u32::try_from(machine.monitoring_cycle).unwrap_or(1).max(1)
@@ -95,19 +86,12 @@ pub(super) fn enables(axis: &Axis, path: fn(ControlPath) -> bool) -> bool {
 
 /// Its Extended Functions are enabled.
 pub(super) fn extended(axis: &Axis) -> bool {
-    enables(axis, ControlPath::extended) && has(axis, MOTION)
+    enables(axis, ControlPath::extended) && axis.has(MOTION)
 }
 
 /// Something selects its functions bit by bit: PROFIsafe or F-DIs.
 pub(super) fn bits(axis: &Axis) -> bool {
     enables(axis, ControlPath::profisafe) || enables(axis, ControlPath::inputs)
-}
-
-/// A value, or what is wrong with which parameter.
-type Fit<T> = Result<T, String>;
-
-fn fit<T>(name: &str, result: Result<T, ConfigError>) -> Fit<T> {
-    result.map_err(|error| format!("the monitors refuse the value of {name}: {error}"))
 }
 
 /// What the monitors of every axis run with.
@@ -177,9 +161,7 @@ impl Reader<'_> {
     }
 
     fn position(&self, name: &str, place: usize) -> Position {
-        let value = cell(&self.axis.values, name, place);
-        let most = if value < 0 { i32::MIN } else { i32::MAX };
-        Position(i32::try_from(value).unwrap_or(most))
+        Position(nearest(cell(&self.axis.values, name, place)))
     }
 
     fn stop(&self, name: &str, place: usize) -> Fit<Stop> {
@@ -200,7 +182,7 @@ impl Reader<'_> {
         let by_terminals = enables(self.axis, ControlPath::terminals);
         let millis = |us: i64| u32::try_from(us / 1_000).unwrap_or(u32::MAX);
         let communication = || {
-            let esr = match has(self.axis, "ESR") {
+            let esr = match self.axis.has("ESR") {
                 true => millis(self.cell("p9580")),
                 false => 0,
             };
@@ -226,7 +208,7 @@ impl Reader<'_> {
             },
             basic_stop: fit("p9658", basic_stop::Config::new(basic("p9658")))?,
             sto: sto::Config { valve: false },
-            sbc: has(self.axis, SBC).then_some(sbc::Config { enabled: true }),
+            sbc: self.axis.has(SBC).then_some(sbc::Config { enabled: true }),
             communication: match profisafe {
                 true => Some(communication()?),
                 false => None,
@@ -240,7 +222,7 @@ impl Reader<'_> {
     }
 
     fn extended(&self) -> Fit<Extended> {
-        let has = |function| has(self.axis, function);
+        let has = |function| self.axis.has(function);
         let kind = match self.cell("p9506") {
             0 => Braking::EncoderSam,
             2 => Braking::EncoderSbr,

@@ -74,11 +74,10 @@ impl Drive for Sinumerik {
     }
 
     fn owners(&self, machine: &Machine) -> Vec<Owner> {
-        let owner = |axis: &MachineAxis| Owner {
-            name: axis.name.clone(),
-            axis: Some(axis.kind),
-            inputs: vocabulary::inputs().iter().map(|i| i.port()).collect(),
-            outputs: vocabulary::outputs().iter().map(|o| o.port()).collect(),
+        let owner = |axis: &MachineAxis| {
+            let inputs = vocabulary::inputs().iter().map(|i| i.port()).collect();
+            let outputs = vocabulary::outputs().iter().map(|o| o.port()).collect();
+            Owner::of_axis(axis, inputs, outputs)
         };
         machine.axes.iter().map(owner).collect()
     }
@@ -103,7 +102,7 @@ impl Drive for Sinumerik {
             standstill: cells("STANDSTILL_TOL").first().copied().unwrap_or(0),
             plus: pair("POS_LIMIT_PLUS"),
             minus: pair("POS_LIMIT_MINUS"),
-            limited: axis.functions.iter().any(|f| f == "SE"),
+            limited: axis.has("SE"),
         }
     }
 
@@ -122,10 +121,6 @@ impl Drive for Sinumerik {
         start: &Start,
     ) -> Result<Box<dyn Monitors + 'a>, String> {
         Ok(Box::new(simulated::Simulated::new(machine, axes, start)?))
-    }
-
-    fn together(&self, machine: &Machine) -> Vec<Vec<usize>> {
-        (0..machine.axes.len()).map(|axis| vec![axis]).collect()
     }
 
     fn play(

@@ -141,7 +141,7 @@ impl Values<'_> {
     fn enable_word(&self) -> u32 {
         FUNCTIONS
             .iter()
-            .filter(|(name, _)| self.axis.functions.iter().any(|f| f == name))
+            .filter(|(name, _)| self.axis.has(name))
             .map(|(_, bit)| 1 << bit)
             .sum()
     }

@@ -47,7 +47,7 @@ impl Told {
     /// Before the first call: a block that the axis does not have enables everything and limits nothing.
     fn before(axis: &Axis) -> Self {
         let mut told = Self::default();
-        let has = |function| values::has(axis, function);
+        let has = |function| axis.has(function);
         if !has(SLP) && !has(END_ZONE) {
             told.range = retraction::Outputs {
                 sls_threshold: UNLIMITED,
@@ -193,7 +193,7 @@ impl<'a> Blocks<'a> {
     /// Before the first call after a start of the CPU.
     pub(super) fn new(machine: &'a Machine, axis: &'a Axis) -> Self {
         let t_sample = values::t_sample(machine);
-        let has = |function| values::has(axis, function);
+        let has = |function| axis.has(function);
         let places = values::call_order(machine);
         let mut order = IN_ORDER;
         order.sort_by_key(|call| places[*call as usize]);

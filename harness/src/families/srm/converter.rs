@@ -67,7 +67,9 @@ pub(super) struct Converter {
 impl Converter {
     pub(super) fn new(machine: &Machine, axis: &MachineAxis) -> Self {
         let t_sample = values::t_sample(machine);
-        let brakes = values::has(axis, BRAKE_TEST).then(|| values::brake_test(axis, t_sample));
+        let brakes = axis
+            .has(BRAKE_TEST)
+            .then(|| values::brake_test(axis, t_sample));
         Self {
             brakes,
             t_sample: t_sample.unsigned_abs(),

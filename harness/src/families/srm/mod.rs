@@ -14,7 +14,7 @@ mod wiring;
 use stillpoint_machine::{Axis as MachineAxis, Machine};
 
 use self::blocks::Said as Told;
-use super::{Drive, Family, Feed, Monitors, Owner, Rig, Said, Start, Windows, Words};
+use super::{Drive, Family, Monitors, Owner, Rig, Said, Start, Windows, Words};
 use crate::plant::Axis;
 
 /// The family.
@@ -80,16 +80,10 @@ impl Drive for Crane {
 
     fn owners(&self, machine: &Machine) -> Vec<Owner> {
         let owner = |axis: &MachineAxis| {
+            let inputs = signals::inputs(axis).into_iter();
             let outputs = signals::outputs(axis, &Told::default(), 1).into_iter();
-            Owner {
-                name: axis.name.clone(),
-                axis: Some(axis.kind),
-                inputs: signals::inputs(axis)
-                    .into_iter()
-                    .map(|i| i.port())
-                    .collect(),
-                outputs: outputs.map(|(port, _)| port).collect(),
-            }
+            let inputs = inputs.map(|input| input.port()).collect();
+            Owner::of_axis(axis, inputs, outputs.map(|(port, _)| port).collect())
         };
         machine.axes.iter().map(owner).collect()
     }
@@ -104,12 +98,12 @@ impl Drive for Crane {
             standstill: 0,
             plus,
             minus,
-            limited: values::has(axis, values::SLP) || values::has(axis, values::END_ZONE),
+            limited: axis.has(values::SLP) || axis.has(values::END_ZONE),
         }
     }
 
     fn stage(&self, _machine: &Machine, axis: &MachineAxis, _stage: usize) -> Option<i64> {
-        let name = match values::has(axis, values::END_ZONE) {
+        let name = match axis.has(values::END_ZONE) {
             true => "EZ_VMAX_RELEASE",
             false => "VMAX_RELEASE",
         };
@@ -118,7 +112,7 @@ impl Drive for Crane {
 
     /// The ramp of the drive, and four fifths of it for the control, which has to stay below the envelope before the ends.
     fn ramps(&self, axis: &MachineAxis) -> Option<[String; 2]> {
-        let known = values::has(axis, values::RAMP).then(|| values::ramp_rate(axis))?;
+        let known = axis.has(values::RAMP).then(|| values::ramp_rate(axis))?;
         let text = |rate: i64| format!("{}.{:03} mm/s2", rate / 1_000, rate % 1_000);
         known.map(|rate| [text(rate * 4 / 5), text(rate)])
     }
@@ -136,11 +130,6 @@ impl Drive for Crane {
         Ok(Box::new(simulated::Simulated::new(machine, axes, start)))
     }
 
-    /// No block reads of another axis.
-    fn together(&self, machine: &Machine) -> Vec<Vec<usize>> {
-        (0..machine.axes.len()).map(|axis| vec![axis]).collect()
-    }
-
     fn play(
         &self,
         machine: &Machine,
@@ -150,10 +139,5 @@ impl Drive for Crane {
     ) -> Result<(), String> {
         rig::play(machine, *owners.first().ok_or("no axis is named")?, play);
         Ok(())
-    }
-
-    /// A walk through a table has values of its own for positions and velocities: it is no recording of a machine.
-    fn feeds(&self) -> &'static [Feed] {
-        &[]
     }
 }

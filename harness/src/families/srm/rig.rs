@@ -1,8 +1,9 @@
-//! One axis alone, driven by its signals: its blocks, for a replay.
+//! One axis alone, driven by its signals: its blocks, for a replay. The tables of the blocks have values of their own for positions and
+//! velocities; none steps beside them.
 
 use stillpoint_machine::Machine;
 
-use super::blocks::{Blocks, Said, Start};
+use super::blocks::{Blocks, Start};
 use super::signals::{self, Flag, Input, Number, Read};
 use super::values;
 use crate::families::Rig;
@@ -18,7 +19,7 @@ pub(super) fn play(machine: &Machine, axis: usize, play: &mut dyn FnMut(&mut dyn
         blocks: Blocks::new(machine, known),
         read: Read::default(),
         calls: 0,
-        said: Said::default(),
+        told: Vec::new(),
     });
 }
 
@@ -29,7 +30,8 @@ struct Bench<'a> {
     blocks: Blocks<'a>,
     read: Read,
     calls: i64,
-    said: Said,
+    /// The outputs.
+    told: Vec<Value>,
 }
 
 impl Rig for Bench<'_> {
@@ -91,23 +93,14 @@ impl Rig for Bench<'_> {
     }
 
     fn step(&mut self) {
-        self.said = self.blocks.step(&self.read);
+        let known = &self.machine.axes[self.axis];
+        let said = self.blocks.step(&self.read);
+        let outputs = signals::outputs(known, &said, values::t_sample(self.machine));
+        self.told = outputs.into_iter().map(|(_, value)| value).collect();
     }
 
     fn output(&self, _owner: usize, _side: usize, output: usize) -> Value {
-        let known = &self.machine.axes[self.axis];
-        let all = signals::outputs(known, &self.said, values::t_sample(self.machine));
-        all.into_iter()
-            .nth(output)
-            .map_or(Value::Bool(false), |(_, value)| value)
-    }
-
-    /// The tables of the blocks have values of their own for positions and velocities; none steps beside them.
-    fn specified(&self, _owner: usize, _side: usize, _output: usize) -> Option<Value> {
-        None
-    }
-
-    fn table_cycles(&self) -> u64 {
-        0
+        let told = self.told.get(output);
+        told.cloned().unwrap_or(Value::Bool(false))
     }
 }

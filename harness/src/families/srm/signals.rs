@@ -7,6 +7,7 @@ use stillpoint_monitors::srm::common::{UNLIMITED, bit};
 use super::blocks::{Said, Stop, Told};
 use super::values::{self, BRAKE_TEST, END_ZONE, LOAD, RAMP, SLP};
 use crate::families::Port;
+use crate::families::values::nearest;
 use crate::recording::vocabulary::{ALARMS, POSITION, STOP, Unit, VELOCITY};
 use crate::recording::{Allowed, Value};
 
@@ -110,7 +111,7 @@ pub(super) fn inputs(axis: &Axis) -> Vec<Input> {
     let has = |needs: &str| match needs {
         "" => true,
         THREE => three,
-        function => values::has(axis, function),
+        function => axis.has(function),
     };
     let known = INPUTS.iter().filter(|(.., needs)| has(needs));
     known.map(|(input, ..)| *input).collect()
@@ -174,8 +175,7 @@ impl Read {
     /// The same with numbers; what is no DInt is the nearest one.
     pub(super) fn numbers(mut self, given: &[(Number, i64)]) -> Self {
         for (number, value) in given {
-            let most = if *value < 0 { i32::MIN } else { i32::MAX };
-            self.numbers[*number as usize] = i32::try_from(*value).unwrap_or(most);
+            self.numbers[*number as usize] = nearest(*value);
         }
         self
     }
@@ -224,7 +224,7 @@ pub(super) fn diags() -> Vec<String> {
 
 /// The bits that are set.
 fn set_bits(axis: &Axis, told: &Told) -> String {
-    let range = |function| match values::has(axis, function) {
+    let range = |function| match axis.has(function) {
         true => told.range.diag,
         false => 0,
     };
@@ -261,7 +261,7 @@ pub(super) fn outputs(axis: &Axis, said: &Said, t_sample: i32) -> Vec<(Port, Val
     let pos = &told.pos;
     let position = Value::Int(i64::from(pos.safe_pos) * 1_000);
     let limited = logic.sls_limit < UNLIMITED;
-    let has = |function| values::has(axis, function);
+    let has = |function| axis.has(function);
     let ranged = has(SLP) || has(END_ZONE);
     let mut all = vec![
         (Port::number(POSITION, Unit::Increment), position),

@@ -4,7 +4,7 @@ use stillpoint_machine::Machine;
 
 use super::blocks::{Blocks, Said, Start as Begin, Stop};
 use super::converter::Converter;
-use super::signals::{self, Flag, Number, Read};
+use super::signals::{self, Flag, Input, Number, Read};
 use super::values;
 use crate::families::{Monitors, Now, Start};
 use crate::plant;
@@ -24,6 +24,7 @@ pub(super) struct Simulated<'a> {
 }
 
 struct OfAxis<'a> {
+    inputs: Vec<Input>,
     /// None before the first cycle.
     blocks: Option<Blocks<'a>>,
     converter: Converter,
@@ -85,6 +86,7 @@ impl<'a> Simulated<'a> {
             let converter = Converter::new(machine, known);
             let cycle = i64::from(values::safe_pos(known, 1).possi_t_sample).max(1);
             OfAxis {
+                inputs: signals::inputs(known),
                 blocks: None,
                 converter: match start.running {
                     true => converter.running(),
@@ -158,10 +160,9 @@ impl<'a> Simulated<'a> {
             ]);
         read.asked = axis.asked[0].map_or(Stop::None, |place| Stop::of(place + 1));
         read = own.converter.told(axis, read);
-        let inputs = signals::inputs(known);
         for forced in now.forced.iter().filter(|f| f.owner == k && f.side == 0) {
             // The scenario has been checked.
-            let _ = read.set(inputs[forced.input], &forced.value);
+            let _ = read.set(own.inputs[forced.input], &forced.value);
         }
         read
     }
@@ -196,12 +197,9 @@ impl Monitors for Simulated<'_> {
 
     fn told(&self, owner: usize, _side: usize) -> Vec<Value> {
         let (known, own) = (&self.machine.axes[owner], &self.axes[owner]);
-        let inputs = signals::inputs(known).into_iter();
+        let inputs = own.inputs.iter().map(|input| own.read.get(*input));
         let outputs = signals::outputs(known, &own.said, values::t_sample(self.machine));
         let outputs = outputs.into_iter().map(|(_, value)| value);
-        inputs
-            .map(|input| own.read.get(input))
-            .chain(outputs)
-            .collect()
+        inputs.chain(outputs).collect()
     }
 }

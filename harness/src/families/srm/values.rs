@@ -7,6 +7,8 @@ use stillpoint_monitors::srm::{
     brake_test, endzone, load_calibration, load_monitor, safe_pos, sbr_monitor, slp_monitor,
 };
 
+use crate::families::values::cell;
+
 /// The functions of an axis in a machine file, each a block.
 pub(super) const SLP: &str = "SLP";
 pub(super) const END_ZONE: &str = "end zone";
@@ -14,19 +16,8 @@ pub(super) const RAMP: &str = "ramp";
 pub(super) const BRAKE_TEST: &str = "brake test";
 pub(super) const LOAD: &str = "load";
 
-/// Whether an axis has a function.
-pub(super) fn has(axis: &Axis, function: &str) -> bool {
-    axis.functions.iter().any(|f| f == function)
-}
-
 /// The drive may take so long to report its selection, and to ask for the brake: times that the manual does not give (AMB-46).
 const MONITORING_MS: i64 = 2_000;
-
-/// A value of a parameter, in base units; 0 where the file has none.
-fn cell(values: &Settings, name: &str, place: usize) -> i64 {
-    let cells = values.get(name).map(|v| v.cells.as_slice());
-    cells.and_then(|c| c.get(place).copied()).unwrap_or(0)
-}
 
 /// A number of the blocks; the ranges of the family hold no other.
 fn dint(value: i64) -> i32 {

@@ -277,8 +277,7 @@ impl Resolver<'_> {
         };
         let machine = self.machine;
         for axis in axes.iter().map(|k| &machine.axes[*k]) {
-            let enabled = axis.functions.iter().any(|f| f == function);
-            if let (Some(names), false) = (names, enabled) {
+            if let (Some(names), false) = (names, axis.has(function)) {
                 let message = format!("axis {} has no function \"{function}\"", axis.name);
                 let help = format!(
                     "add \"{function}\" to its functions in the machine file, or name another axis"

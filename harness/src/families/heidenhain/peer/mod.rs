@@ -5,9 +5,7 @@ mod safe_plc;
 mod same;
 mod slices;
 
-use stillpoint_monitors::mutant::Mutant;
-
-use crate::diff::peer::{Made, Params, Peers};
+use crate::diff::peer::Peers;
 
 pub(super) const PEERS: Peers = Peers {
     machines: &[same::MACHINES, safe_plc::MACHINES],
@@ -15,12 +13,5 @@ pub(super) const PEERS: Peers = Peers {
     fixed: &[],
     slices: &[slices::SLICES],
     calm: &[],
-    make,
+    make: &[same::make, safe_plc::make],
 };
-
-fn make(machine: &str, params: &Params, mutant: Option<Mutant>) -> Made {
-    match same::make(machine, params, mutant)? {
-        None => safe_plc::make(machine, params, mutant),
-        made => Ok(made),
-    }
-}

@@ -3,9 +3,7 @@
 mod control;
 mod functions;
 
-use stillpoint_monitors::mutant::Mutant;
-
-use crate::diff::peer::{Made, Params, Peers};
+use crate::diff::peer::Peers;
 
 pub(super) const PEERS: Peers = Peers {
     machines: &[
@@ -26,12 +24,5 @@ pub(super) const PEERS: Peers = Peers {
     slices: &[functions::SLICES, control::SLICES],
     // What a brake test waits for.
     calm: &[("allowed", 1), ("slow", 1), ("known", 1)],
-    make,
+    make: &[functions::make, control::make],
 };
-
-fn make(machine: &str, params: &Params, mutant: Option<Mutant>) -> Made {
-    match functions::make(machine, params, mutant)? {
-        None => control::make(machine, params, mutant),
-        adapter => Ok(adapter),
-    }
-}

@@ -8,9 +8,7 @@ mod register;
 mod same;
 mod slices;
 
-use stillpoint_monitors::mutant::Mutant;
-
-use crate::diff::peer::{Made, Params, Peers};
+use crate::diff::peer::Peers;
 
 pub(super) const PEERS: Peers = Peers {
     machines: &[same::MACHINES, apart::MACHINES],
@@ -23,14 +21,5 @@ pub(super) const PEERS: Peers = Peers {
     fixed: &[("compare", "factor", 10), ("axis_core", "one_encoder", 0)],
     slices: &[slices::SLICES],
     calm: slices::CALM,
-    make,
+    make: &[same::make, apart::make, channel::make, pair::make],
 };
-
-fn make(machine: &str, params: &Params, mutant: Option<Mutant>) -> Made {
-    for make in [same::make, apart::make, channel::make, pair::make] {
-        if let Some(adapter) = make(machine, params, mutant)? {
-            return Ok(Some(adapter));
-        }
-    }
-    Ok(None)
-}

@@ -7,9 +7,7 @@ mod position;
 mod same;
 mod slices;
 
-use stillpoint_monitors::mutant::Mutant;
-
-use crate::diff::peer::{Made, Params, Peers};
+use crate::diff::peer::Peers;
 
 pub(super) const PEERS: Peers = Peers {
     machines: &[
@@ -32,20 +30,11 @@ pub(super) const PEERS: Peers = Peers {
     ],
     slices: &[slices::SLICES],
     calm: slices::CALM,
-    make,
-};
-
-fn make(machine: &str, params: &Params, mutant: Option<Mutant>) -> Made {
-    for make in [
+    make: &[
         same::make,
         position::make,
         brake::make,
         arithmetic::make,
         first_call::make,
-    ] {
-        if let Some(adapter) = make(machine, params, mutant)? {
-            return Ok(Some(adapter));
-        }
-    }
-    Ok(None)
-}
+    ],
+};

@@ -7,7 +7,7 @@ mod telegrams;
 
 use stillpoint_monitors::mutant::Mutant;
 
-use crate::diff::peer::{Made, Params};
+use crate::diff::peer::{Made, Make, Params, first};
 use crate::diff::slices::Slice;
 
 /// The machines of these tables, list by list.
@@ -23,10 +23,6 @@ pub(super) const SLICES: &[Slice] = composed::SLICES;
 
 /// The monitor of a machine or system.
 pub(super) fn make(machine: &str, params: &Params, mutant: Option<Mutant>) -> Made {
-    for make in [same::make, apart::make, composed::make, telegrams::make] {
-        if let Some(adapter) = make(machine, params, mutant)? {
-            return Ok(Some(adapter));
-        }
-    }
-    Ok(None)
+    let all: [Make; 4] = [same::make, apart::make, composed::make, telegrams::make];
+    first(&all, machine, params, mutant)
 }

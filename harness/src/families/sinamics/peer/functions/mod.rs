@@ -6,7 +6,7 @@ mod slices;
 
 use stillpoint_monitors::mutant::Mutant;
 
-use crate::diff::peer::{Made, Params};
+use crate::diff::peer::{Made, Make, Params, first};
 use crate::diff::slices::Slice;
 
 /// The machines of these tables, list by list.
@@ -21,8 +21,6 @@ pub(super) const SLICES: &[Slice] = slices::SLICES;
 
 /// The monitor of a machine or system.
 pub(super) fn make(machine: &str, params: &Params, mutant: Option<Mutant>) -> Made {
-    match same::make(machine, params, mutant)? {
-        None => apart::make(machine, params, mutant),
-        adapter => Ok(adapter),
-    }
+    let all: [Make; 2] = [same::make, apart::make];
+    first(&all, machine, params, mutant)
 }
