@@ -49,6 +49,12 @@ pub(super) const SLICES: &[Slice] = &[
         params: &[("ss1e", 1), ("t_b", 3), ("t_f", 2), ("hysteresis", 1)],
         free: ARBITER,
     },
+    // Each stop has a time; by itself STOP E of the system has none.
+    Slice {
+        system: "arbiter",
+        params: &[("t_e", 2)],
+        free: ARBITER,
+    },
     // Everything at once.
     Slice {
         system: "arbiter",
