@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use stillpoint_lang::bind::Bound;
+use stillpoint_lang::fold::Folder;
 use stillpoint_lang::ir::{Node, Space, Stmt, System};
 use stillpoint_model::Condition;
 
@@ -54,7 +55,7 @@ impl Plan {
         if number < 2 {
             return None;
         }
-        let mut bound = bound.clone();
+        let mut bound = settled(bound);
         let mut order = Order::new(&bound.system);
         let results = conditions::add(&mut bound.system, &mut order, conditions);
         let system = &bound.system;
@@ -120,6 +121,30 @@ impl Plan {
             marks,
         })
     }
+}
+
+/// The system with its parameter values in every expression: what they settle reads nothing any more, so stages look at less. Rules keep their
+/// numbers; one that cannot fire has no effect.
+fn settled(bound: &Bound) -> Bound {
+    // Names stay: inlined, one of a variable that is stepped meanwhile could have two values in one cycle.
+    let mut folder = Folder::new(bound, 0);
+    let mut out = bound.clone();
+    for (k, lazy) in out.system.lazies.iter_mut().enumerate() {
+        lazy.value = folder.lazy(k);
+    }
+    for instance in &mut out.system.instances {
+        let mut kept = folder.rules(&instance.rules).into_iter().peekable();
+        for (number, rule) in instance.rules.iter_mut().enumerate() {
+            let left = kept.next_if(|(place, ..)| *place == number);
+            let (when, then) =
+                left.map_or((Node::Const(0), Vec::new()), |(_, when, then)| (when, then));
+            (rule.when, rule.then) = (when, then);
+        }
+    }
+    for atom in &mut out.system.atoms {
+        *atom = folder.node(atom);
+    }
+    out
 }
 
 /// After which stage what is known.
