@@ -1,4 +1,5 @@
-//! Monitors with an error in them: Kani must find each. `cargo kani --features mutants --harness broken` succeeds if and only if
+//! Monitors with an error in them: Kani must find each. `cargo kani --features mutants --harness broken` (with
+//! `STILLPOINT_KANI=broken`, so that no other one is compiled) succeeds if and only if
 //! every one of these harnesses fails by a clause of the contract. The first number is the place among the wrong variants of the
 //! monitor. A contract that is divided is asserted as its harness does it: by the part that holds the broken clause, so that
 //! a part is seen to find what is wrong in its clauses.
@@ -13,7 +14,7 @@ macro_rules! broken {
         fn $id() {
             use stillpoint_monitors::$family::$monitor::{Monitor, Step, assert_clauses};
             let mut source = Symbolic::default();
-            if let Some((before, config, inputs)) = crate::draw::step::<Monitor, _>(&mut source) {
+            if let Some((before, config, inputs)) = crate::draw::step::<Monitor, _>(&mut source, &[]) {
                 let wrong = stillpoint_monitors::$family::mutant::$monitor()[$place];
                 let (after, outputs) = (wrong.next)(before, &config, &inputs);
                 assert_clauses(Step { before, config, inputs, after, outputs }, $part, $parts);
@@ -44,4 +45,8 @@ broken! {
     revolutions_add_up: heidenhain::revolutions 0, part 1 of 1
     /// A stop that the other channel tells is not taken over.
     told_stop_is_missed: heidenhain::channel 1, part 1 of 6
+    /// The shutdown speed itself ends SS1.
+    shutdown_speed_ends_the_stop: sinamics::ss1 0, part 1 of 1
+    /// A limit is violated 1 mm later.
+    limit_is_violated_late: srm::slp_monitor 0, part 1 of 1
 }

@@ -39,4 +39,5 @@ pub mod properties;
 pub mod results;
 pub mod sampling;
 pub mod source;
+pub mod total;
 pub mod tries;

@@ -159,11 +159,25 @@ fn caveat(entry: &Entry) -> String {
         .iter()
         .map(|(name, least, greatest)| format!("`{name}` {least} to {greatest}"));
     let few: Vec<String> = few.collect();
-    let few = format!("under Kani {}", few.join(", "));
+    let few = format!("under Kani {}{}", few.join(", "), few_in(entry));
     match entry.caveat {
         "none" => few,
         caveat => format!("{caveat}; {few}"),
     }
+}
+
+/// The clauses for which Kani takes only some numbers, where it takes all of them for the others.
+fn few_in(entry: &Entry) -> String {
+    if entry.few_in.is_empty() {
+        return String::new();
+    }
+    let parts = crate::results::parts(entry) as usize;
+    let clauses = (entry.clauses)().into_iter().enumerate();
+    let names = clauses
+        .filter(|(place, _)| entry.few_in.contains(&((place % parts + 1) as u32)))
+        .map(|(_, clause)| format!("`{}`", clause.name));
+    let names: Vec<String> = names.collect();
+    format!(" for {}, all for the others", names.join(" and "))
 }
 
 fn stands_for(entry: &Entry) -> String {

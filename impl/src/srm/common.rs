@@ -47,10 +47,19 @@ pub const fn bit(word: u16, place: u32) -> bool {
 }
 
 /// The word with some of its bits: numbers and whether they are set.
-pub(crate) fn diag(bits: &[(u32, bool)]) -> u16 {
-    bits.iter().fold(0, |word, (place, set)| {
-        word | u16::from(*set).checked_shl(*place).unwrap_or(0)
-    })
+pub(crate) const fn diag<const N: usize>(bits: &[(u32, bool); N]) -> u16 {
+    let mut word = 0;
+    let mut entry = 0;
+    while entry < N {
+        // `entry` is below the length.
+        #[allow(clippy::indexing_slicing)]
+        let (place, set) = bits[entry];
+        if set && place < 16 {
+            word |= 1 << place;
+        }
+        entry += 1;
+    }
+    word
 }
 
 /// The magnitude of a velocity or difference: blocks that read a velocity take it without its sign (SRM-POSV-002).
@@ -63,9 +72,28 @@ pub(crate) const fn apart(a: i32, b: i32) -> i64 {
     (a as i64 - b as i64).abs()
 }
 
+/// Whether a number is in a range, both ends included.
+#[allow(
+    clippy::manual_range_contains,
+    reason = "what it stands for is many times as much for a model checker to execute"
+)]
+pub(crate) const fn within(low: i32, number: i32, high: i32) -> bool {
+    low <= number && number <= high
+}
+
 /// Whether the quotient of two numbers is whole. There is none by 0 (SRM-TIMING-005).
 pub(crate) const fn multiple(number: i32, of: i32) -> bool {
     of != 0 && number.wrapping_rem(of) == 0
+}
+
+/// What a quotient toward zero leaves; `of` is not 0.
+pub(crate) const fn remainder(number: i32, of: i32) -> i32 {
+    number % of
+}
+
+/// A quotient toward zero; `of` is not 0.
+pub(crate) const fn quotient(number: i32, of: i32) -> i32 {
+    number / of
 }
 
 /// How many calls a time lasts: the quotient, where it is whole and positive in both (SRM-TIMING-005).

@@ -40,32 +40,40 @@ impl Curve {
         curve
     }
 
+    /// The point with this number, from 0: X and V; the last one for a greater number.
+    pub const fn point(&self, number: usize) -> (i32, i32) {
+        if number < self.x.len() {
+            // `number` is below both lengths.
+            #[allow(clippy::indexing_slicing)]
+            (self.x[number], self.v[number])
+        } else {
+            (self.x_16, self.v_16)
+        }
+    }
+
     /// Its points in their order: X and V.
     pub const fn points(&self) -> [(i32, i32); POINTS] {
         let mut points = [(self.x_16, self.v_16); POINTS];
-        let mut place = 0;
-        while place < self.x.len() {
-            // `place` is below both lengths.
+        let mut number = 0;
+        while number < POINTS {
+            // `number` is below the length.
             #[allow(clippy::indexing_slicing)]
             {
-                points[place] = (self.x[place], self.v[place]);
+                points[number] = self.point(number);
             }
-            place += 1;
+            number += 1;
         }
         points
     }
 
     /// No X is less than the one before (SRM-INTERP-002).
     pub const fn ascends(&self) -> bool {
-        let points = self.points();
-        let mut place = 1;
-        while place < POINTS {
-            // `place` is below the length.
-            #[allow(clippy::indexing_slicing)]
-            if points[place].0 < points[place - 1].0 {
+        let mut number = 1;
+        while number < POINTS {
+            if self.point(number).0 < self.point(number - 1).0 {
                 return false;
             }
-            place += 1;
+            number += 1;
         }
         true
     }
@@ -76,7 +84,9 @@ impl Curve {
             return None;
         }
         let (mut below, mut lowest, mut above) = (None, None, None);
-        for point in self.points() {
+        let mut number = 0;
+        while number < POINTS {
+            let point = self.point(number);
             if point.0 < place {
                 below = Some(point);
             } else if point.0 > place {
@@ -84,18 +94,22 @@ impl Curve {
             } else {
                 lowest = Some(lowest.map_or(point.1, |lowest: i32| lowest.min(point.1)));
             }
+            number += 1;
         }
         match (below, lowest, above) {
             (_, Some(lowest), _) => Some(lowest),
             (None, None, outer) | (outer, None, None) => Some(outer?.1),
-            (Some(below), None, Some(above)) => {
-                let rise = above.1.checked_sub(below.1)?;
-                let part = rise.checked_mul(place.checked_sub(below.0)?)?;
-                let width = above.0.checked_sub(below.0)?;
-                below.1.checked_add(part.checked_div(width)?)
-            }
+            (Some(below), None, Some(above)) => between(below, above, place),
         }
     }
+}
+
+/// The velocity at a place between two points; none where the arithmetic overflows.
+fn between(below: (i32, i32), above: (i32, i32), place: i32) -> Option<i32> {
+    let rise = above.1.checked_sub(below.1)?;
+    let part = rise.checked_mul(place.checked_sub(below.0)?)?;
+    let width = above.0.checked_sub(below.0)?;
+    below.1.checked_add(part.checked_div(width)?)
 }
 
 config! {
@@ -130,28 +144,40 @@ fields! {
 
 /// Whether the limit is the velocity of a point at this place, and of none of those a higher one.
 fn lowest_at(curve: &Curve, place: i32, limit: i32) -> bool {
-    let (mut all, mut any) = (true, false);
-    for point in curve.points() {
-        all &= point.0 != place || limit <= point.1;
-        any |= point.0 == place && limit == point.1;
+    let at = |point: (i32, i32)| point.0 == place;
+    some_point(curve, |point| at(point) && limit == point.1)
+        && !some_point(curve, |point| at(point) && limit > point.1)
+}
+
+/// Whether some point is as wanted.
+fn some_point(curve: &Curve, wanted: impl Fn((i32, i32)) -> bool) -> bool {
+    let mut some = false;
+    let mut number = 0;
+    while number < POINTS {
+        some |= wanted(curve.point(number));
+        number += 1;
     }
-    all && any
+    some
 }
 
 /// The limit is less than 1 from the exact value on the line between two neighbours, on the side of the first of them; true of
 /// places that are not strictly between two.
 fn on_the_line(curve: &Curve, place: i32, limit: i32) -> bool {
-    let points = curve.points();
     let mut segment = None;
-    for (below, above) in points.into_iter().zip(points.into_iter().skip(1)) {
+    let mut number = 1;
+    while number < POINTS {
+        let (below, above) = (curve.point(number - 1), curve.point(number));
         if below.0 < place && place < above.0 {
             segment = Some((below, above));
         }
+        number += 1;
     }
     // Points that ascend have a place between no other two.
-    let Some((below, above)) = segment else {
-        return true;
-    };
+    segment.is_none_or(|(below, above)| near_the_line(below, above, place, limit))
+}
+
+/// The same of a place that is between these two points.
+fn near_the_line(below: (i32, i32), above: (i32, i32), place: i32, limit: i32) -> bool {
     // Without an error every difference and the product are DInt, so that nothing here leaves 64 bits.
     let (width, rise) = (
         above.0 as i64 - below.0 as i64,
@@ -175,21 +201,21 @@ monitor! { srm::interpolation;
 
     /// At a point its velocity is the limit, the lowest of those that have this place.
     point_has_its_velocity ["SRM-INTERP-003", "SRM-P-27"]:
-        when |s| !s.outputs.error && s.config.curve.points().iter().any(|point| point.0 == s.inputs.x_actual)
+        when |s| !s.outputs.error && some_point(&s.config.curve, |point| point.0 == s.inputs.x_actual)
             => lowest_at(&s.config.curve, s.inputs.x_actual, s.outputs.v_limit);
 
     /// Between two points the limit is less than 1 mm/min from the line, toward the velocity of the point before.
     line_between_points ["SRM-INTERP-004", "SRM-ENDZONE-027", "SRM-P-27"]:
         when |s| !s.outputs.error
-            && s.config.curve.points()[0].0 < s.inputs.x_actual && s.inputs.x_actual < s.config.curve.x_16
+            && s.config.curve.point(0).0 < s.inputs.x_actual && s.inputs.x_actual < s.config.curve.x_16
             => on_the_line(&s.config.curve, s.inputs.x_actual, s.outputs.v_limit);
 
     /// Before the first point and behind the last one their velocities hold.
     ends_go_on ["SRM-INTERP-005", "SRM-ENDZONE-005"]:
         when |s| !s.outputs.error
-            && (s.inputs.x_actual < s.config.curve.points()[0].0 || s.config.curve.x_16 < s.inputs.x_actual)
-            => s.outputs.v_limit == if s.inputs.x_actual < s.config.curve.points()[0].0 {
-                s.config.curve.points()[0].1
+            && (s.inputs.x_actual < s.config.curve.point(0).0 || s.config.curve.x_16 < s.inputs.x_actual)
+            => s.outputs.v_limit == if s.inputs.x_actual < s.config.curve.point(0).0 {
+                s.config.curve.point(0).1
             } else {
                 s.config.curve.v_16
             };
@@ -197,7 +223,7 @@ monitor! { srm::interpolation;
     /// No limit is above the highest velocity of the points.
     never_above_the_points ["SRM-ENDZONE-005", "SRM-P-27"]:
         when |s| !s.outputs.error
-            => s.config.curve.points().iter().any(|point| s.outputs.v_limit <= point.1);
+            => some_point(&s.config.curve, |point| s.outputs.v_limit <= point.1);
 
     /// Nothing is an error where points ascend and each product of a segment is a DInt.
     no_error_without_a_cause ["SRM-INTERP-007", "SRM-INTERP-008"]:
@@ -207,15 +233,17 @@ monitor! { srm::interpolation;
 
 /// Whether no segment can overflow: its width, its rise and their product are DInt.
 pub fn segments_fit(curve: &Curve) -> bool {
-    let points = curve.points();
     let mut fit = true;
-    for (below, above) in points.into_iter().zip(points.into_iter().skip(1)) {
+    let mut number = 1;
+    while number < POINTS {
+        let (below, above) = (curve.point(number - 1), curve.point(number));
         let width = above.0.checked_sub(below.0);
         let product = match (width, above.1.checked_sub(below.1)) {
             (Some(width), Some(rise)) => width.checked_mul(rise),
             _ => None,
         };
         fit &= product.is_some();
+        number += 1;
     }
     fit
 }

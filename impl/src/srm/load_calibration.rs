@@ -8,8 +8,7 @@
 //! a test is due.
 
 use crate::kernel::Cycles;
-use crate::srm::common::{calls, diag, latch, rises};
-use crate::srm::load_monitor::times_fit;
+use crate::srm::common::{calls, diag, latch, rises, within};
 
 config! {
     /// The parameters: any DInt, as the block takes them; wrong ones are reported by `DIAG`.
@@ -38,14 +37,11 @@ config! {
 impl Config {
     /// Both times are right, in calls: test and settling.
     pub const fn times(&self) -> Option<(i32, i32)> {
-        if !times_fit(self.t_test, self.t_settle, self.t_sample) {
-            return None;
-        }
         match (
             calls(self.t_test, self.t_sample),
             calls(self.t_settle, self.t_sample),
         ) {
-            (Some(test), Some(settle)) => Some((test, settle)),
+            (Some(test), Some(settle)) if test > settle => Some((test, settle)),
             _ => None,
         }
     }
@@ -116,8 +112,10 @@ impl State {
         let fits = match (self.phase, config.times()) {
             (Phase::Idle, _) => true,
             (_, None) => false,
-            (Phase::Settle, Some((_, settle))) => (0..settle).contains(&self.calls),
-            (Phase::Hold, Some((test, settle))) => (settle..test).contains(&self.calls),
+            (Phase::Settle, Some((_, settle))) => within(0, self.calls, settle.saturating_sub(1)),
+            (Phase::Hold, Some((test, settle))) => {
+                within(settle, self.calls, test.saturating_sub(1))
+            }
         };
         let runs = self.phase != Phase::Idle;
         let silent = !self.unsettled && !self.unsteady && !self.passed && !config.wrong_elsewhere;

@@ -5,6 +5,12 @@
 //! enumeration leaves an impossible state at once.
 
 pub mod heidenhain;
+#[cfg(kani)]
+pub mod sinamics {
+    //! What stands in the place of functions of SINAMICS S120, each file for the monitor of its name.
+
+    pub mod sls;
+}
 pub mod sinumerik;
 #[cfg(kani)]
 pub mod srm;

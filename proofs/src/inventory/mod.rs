@@ -38,6 +38,8 @@ pub struct Entry {
     pub kani: &'static str,
     /// The numbers of which Kani takes only some: name, the least and the greatest.
     pub few: crate::draw::Few,
+    /// The parts for which that is so; empty for all of them.
+    pub few_in: &'static [u32],
     /// The clauses of a contract: name, text, requirements. Empty for runs.
     pub clauses: fn() -> Vec<ClauseText>,
     /// Tries every choice.
@@ -68,7 +70,31 @@ impl Entry {
             file: None,
             kani: "",
             few: &[],
+            few_in: &[],
             clauses: properties::clauses::<M>,
+            enumerate: |_| Count::default(),
+            by_hand: None,
+            sample: |_, _| Verdict::Discarded,
+        }
+    }
+
+    /// What the entries of all harnesses that call a monitor with anything have in common.
+    const fn total<M: Contract>(id: &'static str, caveat: &'static str) -> Self {
+        Self {
+            id,
+            monitor: M::NAME,
+            family: M::FAMILY,
+            property: "no call overflows or panics, whatever its numbers are",
+            requirements: || vec!["SRM-LFMATH-003"],
+            covers: || crate::total::COVERS.to_vec(),
+            domain: || crate::total::DOMAIN.to_owned(),
+            bound: "one call from any state; under Kani also from an inconsistent one",
+            caveat,
+            file: None,
+            kani: "",
+            few: &[],
+            few_in: &[],
+            clauses: Vec::new,
             enumerate: |_| Count::default(),
             by_hand: None,
             sample: |_, _| Verdict::Discarded,
@@ -112,7 +138,7 @@ fn requirements_of(clauses: Vec<ClauseText>) -> Vec<&'static str> {
 
 macro_rules! entry {
     (contract $([$($how:tt)*])? $id:ident on $family:ident::$monitor:ident {
-        property: $property:literal, tries: $tries:literal, $(few: $few:tt,)? caveat: $caveat:literal $(,)?
+        property: $property:literal, tries: $tries:literal, $(few: $few:tt $(in parts $few_in:tt)?,)? caveat: $caveat:literal $(,)?
     }) => {{
         use stillpoint_monitors::$family::$monitor::Monitor;
         static TRIES: std::sync::OnceLock<$crate::tries::Tries> = std::sync::OnceLock::new();
@@ -124,7 +150,7 @@ macro_rules! entry {
         }
         $crate::inventory::Entry {
             kani: concat!($(stringify!($($how)*))?),
-            $(few: &$few,)?
+            $(few: &$few, $(few_in: &$few_in,)?)?
             domain: || $crate::tries::in_words($tries),
             enumerate: |subject| {
                 let case = |source: &mut $crate::enumeration::Odometer| tries().step::<Monitor, _>(source);
@@ -160,6 +186,17 @@ macro_rules! entry {
             ..$crate::inventory::Entry::contract::<Monitor>(stringify!($id), $property, $caveat)
         }
     }};
+    (total $([$($how:tt)*])? $id:ident on $family:ident::$monitor:ident { caveat: $caveat:literal }) => {{
+        use stillpoint_monitors::$family::$monitor::Monitor;
+        $crate::inventory::Entry {
+            kani: concat!($(stringify!($($how)*))?),
+            enumerate: |subject| {
+                $crate::total::enumerated::<Monitor>($crate::inventory::NARROW, subject.$family.$monitor)
+            },
+            sample: |tape, subject| $crate::total::sampled::<Monitor>(tape, subject.$family.$monitor),
+            ..$crate::inventory::Entry::total::<Monitor>(stringify!($id), $caveat)
+        }
+    }};
     (run($unwind:literal) $([$($how:tt)*])? $id:ident on $family:ident::$monitor:literal by $module:ident::$function:ident {
         property: $property:literal, requirements: [$($requirement:literal),+], covers: [$($cover:literal),+],
         domain: $domain:expr, domain_text: $domain_text:literal, bound: $bound:literal, caveat: $caveat:literal $(,)?
@@ -177,6 +214,7 @@ macro_rules! entry {
             file: Some(concat!("properties/", stringify!($family), "/", stringify!($module), ".rs")),
             kani: concat!($(stringify!($($how)*))?),
             few: &[],
+            few_in: &[],
             clauses: Vec::new,
             by_hand: None,
             enumerate: |subject| {
@@ -187,6 +225,19 @@ macro_rules! entry {
             sample: |tape, subject| $crate::properties::$family::$module::$function(tape, &subject.$family),
         }
     };
+}
+
+/// Whether a part is one of these; known to the compiler, so that no part has a draw that it does not make.
+#[cfg(kani)]
+const fn is_in(parts: &[u32], part: u32) -> bool {
+    let mut place = 0;
+    while place < parts.len() {
+        if parts[place] == part {
+            return true;
+        }
+        place += 1;
+    }
+    false
 }
 
 /// One Kani harness, with its attributes.
@@ -203,13 +254,21 @@ macro_rules! kani_proof {
 /// The step that Kani starts from: any that the types of the monitor allow, or one drawn by hand.
 #[cfg(kani)]
 macro_rules! kani_case {
-    ($family:ident $monitor:ident $source:ident { property: $property:literal, tries: $tries:literal, few: $few:tt, $($rest:tt)* }) => {
+    ($family:ident $monitor:ident $source:ident $number:literal { property: $property:literal, tries: $tries:literal, few: $few:tt in parts $parts:tt, $($rest:tt)* }) => {{
+        let few: crate::draw::Few = if const { crate::inventory::is_in(&$parts, $number) } {
+            &$few
+        } else {
+            &[]
+        };
+        crate::draw::step::<stillpoint_monitors::$family::$monitor::Monitor, _>(&mut $source, few)
+    }};
+    ($family:ident $monitor:ident $source:ident $number:literal { property: $property:literal, tries: $tries:literal, few: $few:tt, $($rest:tt)* }) => {
         crate::draw::step::<stillpoint_monitors::$family::$monitor::Monitor, _>(&mut $source, &$few)
     };
-    ($family:ident $monitor:ident $source:ident { property: $property:literal, tries: $($rest:tt)* }) => {
+    ($family:ident $monitor:ident $source:ident $number:literal { property: $property:literal, tries: $($rest:tt)* }) => {
         crate::draw::step::<stillpoint_monitors::$family::$monitor::Monitor, _>(&mut $source, &[])
     };
-    ($family:ident $monitor:ident $source:ident $rest:tt) => {
+    ($family:ident $monitor:ident $source:ident $number:literal $rest:tt) => {
         crate::arbitrary::$family::$monitor(&mut $source)
     };
 }
@@ -227,7 +286,7 @@ macro_rules! kani_harness {
             $(kani_proof! { $kani [] $part {
                 use stillpoint_monitors::$family::$monitor::{State, Step, assert_clauses, next};
                 let mut source = Symbolic::default();
-                if let Some((before, config, inputs)) = kani_case!($family $monitor source $rest) {
+                if let Some((before, config, inputs)) = kani_case!($family $monitor source $number $rest) {
                     kani::assume(before.invariant(&config));
                     assert!(State::INITIAL.invariant(&config), "initial_state_satisfies_the_invariant");
                     let (after, outputs) = next(before, &config, &inputs);
@@ -244,6 +303,18 @@ macro_rules! kani_harness {
     };
     (contract $id:ident on $family:ident::$monitor:ident $rest:tt) => {
         kani_harness! { contract [kani() parts(1: whole = 1)] $id on $family::$monitor $rest }
+    };
+    (total [kani $kani:tt] $id:ident on $family:ident::$monitor:ident $rest:tt) => {
+        #[cfg(any(not(kani_chosen), $id))]
+        mod $id {
+            use super::*;
+            kani_proof! { $kani [] whole {
+                crate::total::called::<stillpoint_monitors::$family::$monitor::Monitor>(&mut Symbolic::default());
+            }}
+        }
+    };
+    (total $id:ident on $family:ident::$monitor:ident $rest:tt) => {
+        kani_harness! { total [kani()] $id on $family::$monitor $rest }
     };
     (run($unwind:literal) [kani $kani:tt parts($count:literal: $($part:ident = $number:literal),+)]
         $id:ident on $family:ident::$monitor:literal by $module:ident::$function:ident $rest:tt) => {
@@ -322,7 +393,7 @@ pub fn all() -> impl Iterator<Item = &'static Entry> {
 }
 
 /// A domain for properties that read no wide value.
-const NARROW: Domain = Domain {
+pub(crate) const NARROW: Domain = Domain {
     delays: &[0],
     highest_speed: 0,
 };

@@ -33,7 +33,9 @@ pub fn fingerprint(entry: &Entry) -> String {
     } else {
         open.push(entry.monitor.to_owned());
         let draw = format!("pub fn {}<", entry.monitor);
-        texts.extend(draws.values().filter(|text| text.contains(&draw)).cloned());
+        let of_it =
+            |(name, text): &(&String, &String)| *name == entry.monitor || text.contains(&draw);
+        texts.extend(draws.iter().filter(of_it).map(|(_, text)| text.clone()));
         texts.extend(draws.get("mod").cloned());
     }
     let mut seen = BTreeSet::new();
@@ -51,6 +53,9 @@ pub fn fingerprint(entry: &Entry) -> String {
             .cloned(),
     );
     texts.push(format!("{} {} {:?}", entry.id, entry.kani, entry.few));
+    if !entry.few_in.is_empty() {
+        texts.push(format!("{:?}", entry.few_in));
+    }
     hash(&texts)
 }
 

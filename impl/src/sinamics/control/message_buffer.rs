@@ -71,7 +71,11 @@ mod case {
         /// Those at the places of the mask, and the others.
         pub(super) fn divided(&self, mask: u8) -> (Self, Self) {
             let mut parts = (Self::EMPTY, Self::EMPTY);
-            for (place, code) in self.codes.into_iter().enumerate().take(self.len()) {
+            // Every place, for the same reason: the end of the messages is a symbolic one.
+            for (place, code) in self.codes.into_iter().enumerate() {
+                if place >= self.len() {
+                    continue;
+                }
                 if (mask >> place) & 1 == 1 {
                     parts.0.push(code);
                 } else {
@@ -209,8 +213,8 @@ pub(crate) fn transition(state: State, _config: &Config, inputs: &Inputs) -> (St
         let (rectified, rest) = state.current.divided(inputs.rectified);
         if !rectified.is_empty() {
             after.current = rest;
-            after.acknowledged.rotate_right(1);
-            after.acknowledged[0] = rectified;
+            let [first, second, third, fourth, fifth, sixth, _] = state.acknowledged;
+            after.acknowledged = [rectified, first, second, third, fourth, fifth, sixth];
         }
     }
     if inputs.message != 0 {

@@ -3,7 +3,7 @@
 use super::{
     Config, Control, Inputs, Outputs, Phase, SbtFresh, State, TEST_BITS, Unproven, transition,
 };
-use crate::srm::common::ErrReact;
+use crate::srm::common::{ErrReact, remainder};
 
 /// ACK has become 1.
 fn acknowledges(s: &Step) -> bool {
@@ -66,9 +66,14 @@ fn place(second: bool, sequence: u8) -> u8 {
 
 /// No configured sequence lies from one place up to another, the second one not included.
 fn none_between(config: &Config, from: u8, to: u8) -> bool {
-    (0..8)
-        .filter(|k| from <= *k && *k < to)
-        .all(|k| !config.has(k >= 4, k % 4))
+    let mut none = true;
+    let mut place = 0;
+    while place < 8 {
+        let between = from <= place && place < to;
+        none &= !between || !config.has(place >= 4, place % 4);
+        place += 1;
+    }
+    none
 }
 
 /// The state before is that of a sequence which ends now.
@@ -321,9 +326,10 @@ monitor! { srm::brake_test;
             => (s.outputs.diag & 0x10 == 0) == (s.config.t_sample >= 1 && s.config.t_open_br_1 >= 1
                     && s.config.t_close_br_1 >= 1 && s.config.t_open_br_2 >= 1 && s.config.t_close_br_2 >= 1
                     && s.config.pos_tolerance >= 0 && s.config.vmax_release >= 1)
-                && (s.config.t_sample < 1 || (s.outputs.diag & 0x20 == 0) == (s.config.t_open_br_1 % s.config.t_sample == 0
-                    && s.config.t_close_br_1 % s.config.t_sample == 0 && s.config.t_open_br_2 % s.config.t_sample == 0
-                    && s.config.t_close_br_2 % s.config.t_sample == 0))
+                && (s.config.t_sample < 1 || (s.outputs.diag & 0x20 == 0) == (remainder(s.config.t_open_br_1, s.config.t_sample) == 0
+                    && remainder(s.config.t_close_br_1, s.config.t_sample) == 0
+                    && remainder(s.config.t_open_br_2, s.config.t_sample) == 0
+                    && remainder(s.config.t_close_br_2, s.config.t_sample) == 0))
                 && (s.outputs.diag & 0x30 == 0 || s.outputs.error && !s.outputs.busy
                     && (s.config.err_react == ErrReact::Report || !s.outputs.sls_ok && !s.outputs.release_dir
                         && !s.outputs.open_br_1 && !s.outputs.open_br_2));

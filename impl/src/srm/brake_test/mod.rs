@@ -90,18 +90,18 @@ config! {
 impl Config {
     /// The bits that the first call reports: 4 and 5 (SRM-BRAKETEST-005, SRM-BRAKETEST-006).
     pub fn parameter_bits(&self) -> u16 {
-        let times = [
-            self.t_open_br_1,
-            self.t_close_br_1,
-            self.t_open_br_2,
-            self.t_close_br_2,
-        ];
         let range = self.t_sample < 1
-            || times.iter().any(|time| *time < 1)
+            || self.t_open_br_1 < 1
+            || self.t_close_br_1 < 1
+            || self.t_open_br_2 < 1
+            || self.t_close_br_2 < 1
             || self.pos_tolerance < 0
             || self.vmax_release < 1;
-        let uneven = times.iter().any(|time| !multiple(*time, self.t_sample));
-        diag(&[(4, range), (5, uneven)])
+        let whole = multiple(self.t_open_br_1, self.t_sample)
+            && multiple(self.t_close_br_1, self.t_sample)
+            && multiple(self.t_open_br_2, self.t_sample)
+            && multiple(self.t_close_br_2, self.t_sample);
+        diag(&[(4, range), (5, !whole)])
     }
 
     const fn word(&self, second: bool) -> u16 {

@@ -109,21 +109,17 @@ fn row(state: &State, config: &Config, inputs: &Inputs) -> Row {
 }
 
 /// The first sequence of a brake, or of the next one, from this one on.
-fn from(config: &Config, second: bool, sequence: u8) -> Option<(bool, u8)> {
-    let places = [
-        (false, 0),
-        (false, 1),
-        (false, 2),
-        (false, 3),
-        (true, 0),
-        (true, 1),
-        (true, 2),
-        (true, 3),
-    ];
-    places
-        .into_iter()
-        .skip_while(|place| *place != (second, sequence))
-        .find(|(second, sequence)| config.has(*second, *sequence))
+const fn from(config: &Config, second: bool, sequence: u8) -> Option<(bool, u8)> {
+    let first = sequence.saturating_add(if second { 4 } else { 0 });
+    let mut place = 0;
+    while place < 8 {
+        let (of_second, here) = (place >= 4, place % 4);
+        if place >= first && config.has(of_second, here) {
+            return Some((of_second, here));
+        }
+        place += 1;
+    }
+    None
 }
 
 /// The state with no test in it.

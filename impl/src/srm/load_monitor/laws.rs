@@ -1,7 +1,7 @@
 //! The contract of the load supervision of F_LOAD_MONITOR.
 
 use super::{Config, Inputs, Outputs, State, transition};
-use crate::srm::common::ErrReact;
+use crate::srm::common::{ErrReact, remainder};
 
 /// ACK has become 1.
 fn acknowledges(s: &Step) -> bool {
@@ -165,7 +165,8 @@ monitor! { srm::load_monitor;
                 && (s.outputs.diag & 0x148 == 0) == (s.config.minload < s.config.maxload_stat
                     && s.config.maxload_stat <= s.config.maxload_dyn
                     && s.config.t_sample > 0 && s.config.t_settle > 0 && s.config.t_test > s.config.t_settle
-                    && s.config.t_test % s.config.t_sample.max(1) == 0 && s.config.t_settle % s.config.t_sample.max(1) == 0
+                    && remainder(s.config.t_test, s.config.t_sample.max(1)) == 0
+                    && remainder(s.config.t_settle, s.config.t_sample.max(1)) == 0
                     && s.config.vmax_release > 0 && s.config.minload >= 0 && s.config.maxload_dyn <= 10_000
                     && (0..=10_000).contains(&s.config.cal_value)
                     && (0..=10_000).contains(&s.config.maxtol_load)

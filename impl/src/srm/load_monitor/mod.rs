@@ -12,7 +12,7 @@ mod laws;
 pub use laws::*;
 
 use crate::srm::common::{
-    ErrReact, UNLIMITED, apart, calls, diag, latch, magnitude, release_velocity, rises,
+    ErrReact, UNLIMITED, apart, calls, diag, latch, magnitude, release_velocity, rises, within,
 };
 
 /// 100.00 %.
@@ -52,15 +52,13 @@ impl Config {
     /// The bits that the first call reports: 3, 6, 8 (SRM-LOAD-004 to SRM-LOAD-006).
     pub fn parameter_bits(&self) -> u16 {
         let ordered = self.minload < self.maxload_stat && self.maxload_stat <= self.maxload_dyn;
-        let shares = [
-            self.maxload_dyn,
-            self.maxload_stat,
-            self.minload,
-            self.cal_value,
-            self.maxtol_load,
-            self.maxtol_cal,
-        ];
-        let within = shares.iter().all(|share| (0..=FULL).contains(share));
+        let share = |number: i32| within(0, number, FULL);
+        let within = share(self.maxload_dyn)
+            && share(self.maxload_stat)
+            && share(self.minload)
+            && share(self.cal_value)
+            && share(self.maxtol_load)
+            && share(self.maxtol_cal);
         diag(&[
             (3, !ordered),
             (6, !times_fit(self.t_test, self.t_settle, self.t_sample)),

@@ -1,7 +1,7 @@
 //! The contract of F_SAFE_POS.
 
 use super::{Config, CountWatch, Direction, Inputs, Outputs, Phase, State, SyncPos2, transition};
-use crate::srm::common::ErrReact;
+use crate::srm::common::{ErrReact, remainder};
 
 /// ACK has become 1.
 fn acknowledges(s: &Step) -> bool {
@@ -28,7 +28,7 @@ fn jump(s: &Step) -> bool {
     let way = (i64::from(s.inputs.pos1) - i64::from(s.before.last1)).abs();
     s.before.seen1
         && s.inputs.pos1_valid
-        && way * 60_000 / 2 > i64::from(s.config.v_max) * i64::from(s.config.t_sample)
+        && way * 30_000 > i64::from(s.config.v_max) * i64::from(s.config.t_sample)
 }
 
 /// An encoder that is needed is invalid, or POS1 has jumped.
@@ -97,6 +97,13 @@ fn drift(s: &Step) -> i64 {
 /// How far the counter has gone since the last sample, modulo 2^16.
 fn ticks(s: &Step) -> i64 {
     i64::from((s.inputs.possi_count as u16).wrapping_sub(s.before.count as u16))
+}
+
+/// A velocity is that of a way in so many cycles, um and ms to mm/min, rounded up.
+fn rounded_up(velocity: i32, way: i64, count: i64, cycle: i32) -> bool {
+    let time = count * i64::from(cycle);
+    let product = i64::from(velocity) * time;
+    way * 60 <= product && product - way * 60 < time
 }
 
 monitor! { srm::safe_pos;
@@ -289,12 +296,12 @@ monitor! { srm::safe_pos;
     velocity_of_the_counter ["SRM-POSV-001", "SRM-POSV-002"]:
         when |s| s.before.seen_si && s.inputs.possi_valid && ticks(&s) > 0 && (1..=1_023).contains(&s.config.possi_t_sample)
             && !s.after.overflowed
-            => {
-                let time = ticks(&s) * i64::from(s.config.possi_t_sample);
-                let way = (i64::from(s.inputs.possi) - i64::from(s.before.sample)).abs() * 60;
-                let product = i64::from(s.outputs.safe_v) * time;
-                way <= product && product - way < time
-            };
+            => rounded_up(
+                s.outputs.safe_v,
+                (i64::from(s.inputs.possi) - i64::from(s.before.sample)).abs(),
+                ticks(&s),
+                s.config.possi_t_sample,
+            );
 
     /// Without a new sample it is held.
     velocity_is_held ["SRM-POSV-003", "SRM-POSV-015"]:
@@ -340,7 +347,7 @@ monitor! { srm::safe_pos;
             => (s.outputs.diag & 1 == 0) == ((1..=1_023).contains(&s.config.possi_t_sample)
                     && s.config.v_sync_intervall > 0 && s.config.t_sample > 0 && s.config.t_sample <= 2 * s.config.possi_t_sample
                     && s.config.v_disc_window >= 0 && s.config.pos_disc_window >= 0 && s.config.pos_startup_tol >= 0)
-                && (s.config.t_sample <= 0 || (s.outputs.diag & 2 == 0) == (s.config.v_sync_intervall % s.config.t_sample == 0))
+                && (s.config.t_sample <= 0 || (s.outputs.diag & 2 == 0) == (remainder(s.config.v_sync_intervall, s.config.t_sample) == 0))
                 && (s.outputs.diag & 4 == 0) == (s.config.v_max >= s.config.v_standstill && s.config.pos_max >= s.config.pos_min)
                 && (s.outputs.diag & 7 == 0 || s.outputs.error && (s.config.err_react == ErrReact::Report
                     || !s.outputs.pos_valid && !s.outputs.referenced && !s.outputs.v_valid));

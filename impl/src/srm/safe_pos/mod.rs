@@ -23,7 +23,7 @@ mod velocity;
 pub use laws::*;
 
 use crate::kernel::Cycles;
-use crate::srm::common::{ErrReact, calls, diag, latch, multiple, rises};
+use crate::srm::common::{ErrReact, calls, diag, latch, multiple, rises, within};
 use channel::Positions;
 
 fields! {
@@ -98,7 +98,7 @@ impl Config {
     /// The bits that the first call reports: 0, 1, 2 (SRM-POSPARAM-013 to SRM-POSPARAM-015).
     pub fn parameter_bits(&self) -> u16 {
         let twice = 2 * i64::from(self.possi_t_sample);
-        let range = (1..=1_023).contains(&self.possi_t_sample)
+        let range = within(1, self.possi_t_sample, 1_023)
             && self.v_sync_intervall > 0
             && self.t_sample > 0
             && i64::from(self.t_sample) <= twice
@@ -296,10 +296,10 @@ impl State {
             && (!validation || self.was_ref);
         let two = !config.pos_config || !self.strayed && !self.unconfirmed && !self.apart;
         let three = config.pos_config || !self.unconfirmed2 && self.off2 == 0;
-        let discrepancy = (phase == Phase::Discrepant) <= self.apart
+        let discrepancy = (phase != Phase::Discrepant || self.apart)
             && (!self.apart || phase == Phase::Discrepant || phase.faulty() && !self.was_ref);
         let window = if phase.formed() {
-            (0..config.window()).contains(&self.window_calls)
+            within(0, self.window_calls, config.window().saturating_sub(1))
         } else {
             self.window1 == 0 && self.window_si == 0 && self.window_calls == 0
         };
@@ -313,7 +313,7 @@ impl State {
             && window
             && samples
             && self.safe_v >= 0
-            && (i64::from(i16::MIN)..=i64::from(i16::MAX)).contains(&i64::from(self.count))
+            && within(i16::MIN as i32, self.count, i16::MAX as i32)
             && u64::from(self.still) <= u64::from(config.standing()) + 1
             && (phase.formed() || phase.faulty() || self.saved == 0)
     }

@@ -9,7 +9,8 @@ pub(super) const fn counter(inputs: &Inputs) -> i32 {
 
 /// How far the counter has gone since another one, modulo 2^16.
 const fn gone(from: i32, to: i32) -> i64 {
-    (to as i64 - from as i64).rem_euclid(1 << 16)
+    // Of a negative number too the lower bits are what is left of it, counted up from a multiple.
+    (to as i64 - from as i64) & 0xFFFF
 }
 
 /// The velocity, um and ms to mm/min, rounded up; none where it is no DInt or there is no time base.

@@ -1,7 +1,7 @@
 //! The contract of F_SBR_MONITOR.
 
 use super::{Config, Inputs, Outputs, PARTS, Phase, SbrPos, SbrRetrig, State, transition};
-use crate::srm::common::{ErrReact, calls};
+use crate::srm::common::{ErrReact, calls, quotient, remainder};
 
 /// The parameters let the block give its enable.
 fn free(config: &Config) -> bool {
@@ -52,7 +52,7 @@ monitor! { srm::sbr_monitor;
             => match calls(s.config.t_ramp, s.config.t_sample) {
                 // V_MAX = step * N: what is missing of the ramp is a whole number of steps.
                 Some(count) => s.after.ramp
-                    == (i64::from(s.before.ramp) - i64::from(s.config.v_max) / i64::from(count)).max(0) as i32
+                    == (i64::from(s.before.ramp) - i64::from(quotient(s.config.v_max, count))).max(0) as i32
                     && s.outputs.ramping == (s.after.ramp > 0),
                 None => false,
             };
@@ -61,9 +61,8 @@ monitor! { srm::sbr_monitor;
     way_grows_with_the_ramp ["SRM-SBR-009", "SRM-SBR-019"]:
         when |s| s.before.phase == Phase::Ramp && s.after.phase != Phase::Idle && s.config.sbr_pos == SbrPos::Cum
             && !(starts(&s) && s.config.sbr_retrig == SbrRetrig::Reload) && !s.after.overflowed
-            => i64::from(s.after.way) * i64::from(PARTS) + i64::from(s.after.rest)
-                == i64::from(s.before.way) * i64::from(PARTS) + i64::from(s.before.rest)
-                    + i64::from(s.before.ramp) * i64::from(s.config.t_sample);
+            => (i64::from(s.after.way) - i64::from(s.before.way)) * i64::from(PARTS) + i64::from(s.after.rest)
+                == i64::from(s.before.rest) + i64::from(s.before.ramp) * i64::from(s.config.t_sample);
 
     /// A second edge has no effect on a ramp that falls.
     second_edge_is_ignored ["SRM-SBR-014", "SRM-P-41"]:
@@ -118,8 +117,8 @@ monitor! { srm::sbr_monitor;
     /// Which parameters are right: whole quotients, tolerances within the ramp.
     parameters_are_right ["SRM-SBR-003", "SRM-SBR-004", "SRM-SBR-005", "SRM-SBR-006"]:
         when |s| s.config.parameter_bits() == 0
-            => s.config.t_sample > 0 && s.config.t_ramp > 0 && s.config.t_ramp % s.config.t_sample == 0
-                && s.config.v_max % (s.config.t_ramp / s.config.t_sample).max(1) == 0
+            => s.config.t_sample > 0 && s.config.t_ramp > 0 && remainder(s.config.t_ramp, s.config.t_sample) == 0
+                && remainder(s.config.v_max, quotient(s.config.t_ramp, s.config.t_sample).max(1)) == 0
                 && s.config.maxtol_v <= s.config.v_max && s.outputs.diag & 0x7A == 0;
 
     /// Reports are what is latched; the other bits are 0.

@@ -12,7 +12,9 @@ mod laws;
 
 pub use laws::*;
 
-use crate::srm::common::{ErrReact, apart, calls, diag, latch, magnitude, multiple, rises};
+use crate::srm::common::{
+    ErrReact, apart, calls, diag, latch, magnitude, multiple, quotient, remainder, rises,
+};
 
 fields! {
     /// Reading AMB-38: what is compared with the permitted way.
@@ -68,7 +70,8 @@ impl Config {
     /// The bits that the first call reports (SRM-SBR-004 to SRM-SBR-006): 1, 3, 4, 5, 6. Where there is no quotient it is not whole, and
     /// a ramp has at least one call.
     pub fn parameter_bits(&self) -> u16 {
-        let count = self.t_ramp.checked_div(self.t_sample.saturating_abs());
+        let call = self.t_sample.saturating_abs();
+        let count = (call > 0).then(|| quotient(self.t_ramp, call));
         let whole = count.is_some_and(|count| count > 0 && multiple(self.v_max, count));
         diag(&[
             (1, !multiple(self.t_ramp, self.t_sample)),
@@ -82,7 +85,7 @@ impl Config {
     /// What the ramp falls by in a call; none where it is no whole number.
     pub const fn step(&self) -> Option<i32> {
         match calls(self.t_ramp, self.t_sample) {
-            Some(count) if self.v_max % count == 0 => Some(self.v_max / count),
+            Some(count) if remainder(self.v_max, count) == 0 => Some(quotient(self.v_max, count)),
             _ => None,
         }
     }
@@ -204,6 +207,11 @@ fn noted(result: Option<i32>, overflow: &mut bool) -> i32 {
     result.unwrap_or(0)
 }
 
+/// The whole mm in a number of parts, which is less than 2^33, and what is left of them.
+const fn whole_mm(parts: i64) -> (i32, i32) {
+    ((parts / PARTS as i64) as i32, (parts % PARTS as i64) as i32)
+}
+
 /// Ramp, way and phase after a call.
 fn ramp(state: &State, config: &Config, inputs: &Inputs, overflow: &mut bool) -> State {
     let edge = rises(inputs.execute, state.execute_held);
@@ -233,8 +241,8 @@ fn ramp(state: &State, config: &Config, inputs: &Inputs, overflow: &mut bool) ->
             let parts = noted(state.ramp.checked_mul(config.t_sample), overflow);
             // A rest is less than a mm.
             let parts = i64::from(parts) + i64::from(state.rest);
-            let whole = (parts / i64::from(PARTS)) as i32;
-            after.rest = (parts % i64::from(PARTS)) as i32;
+            let (whole, rest) = whole_mm(parts);
+            after.rest = rest;
             after.way = match state.way.checked_add(whole) {
                 Some(way) => way,
                 None => {

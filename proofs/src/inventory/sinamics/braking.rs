@@ -8,10 +8,10 @@ inventory! {
         tries: "tolerance: 0 3 max; ratio: 1 3 255; shutdown: 0 5; ssm_limit: 0 4; limit: 0 3 6 8 max; speed: 0 3 4 5 6 8 9 max",
         caveat: "none",
     }]
-    [contract [kani(solver(kissat))] s120_sbr_contract on sinamics::sbr {
+    [contract [kani(solver(minisat)) parts(7: first = 1, second = 2, third = 3, fourth = 4, fifth = 5, sixth = 6, seventh = 7)] s120_sbr_contract on sinamics::sbr {
         property: "every clause of SBR: delay, exact ramp, its begin and end, violation",
         tries: "config.reference: 0 1 7 max; time: 1 3 max; delay: 2 4; resolution: 0 1; left: 0..4; ramp: 0 1 2 7 8 max; rest: 0 1 2 4294967294; speed: 0 1 2 3 7 8 max",
-        few: [("time", 0, 15), ("reference", 0, 255)],
+        few: [("time", 0, 7), ("reference", 0, 63), ("ramp", 0, 63)] in parts [3, 4],
         caveat: "none",
     }]
     [run(12) s120_ss1_by_ramp_ends on sinamics::"ss1, sbr" by braking::ss1_by_ramp_ends {
@@ -28,7 +28,7 @@ inventory! {
         tries: "",
         caveat: "none",
     }]
-    [contract [kani(solver(kissat))] s120_brake_test_contract on sinamics::brake_test {
+    [contract [kani(solver(minisat))] s120_brake_test_contract on sinamics::brake_test {
         property: "every clause of SBT: selection, load, choice, brakes and their times, torque, result, interruption, stops",
         tries: "ramp: 2; duration: 2; tolerance: 1; external: 3; opening closing: 2; left: 0..3; begin: 0; position: 0 2",
         caveat: "one set of times and tolerances; others only under Kani and in samples",

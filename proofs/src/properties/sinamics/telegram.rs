@@ -140,28 +140,104 @@ fn any_bytes<S: Source>(source: &mut S) -> ([u8; LONGEST + 1], usize) {
     (bytes, length)
 }
 
+/// One direction of the telegrams: whether bytes are encoded the same once they were decoded, but for reserved bits. The number of
+/// bytes is one that the compiler knows, as is the telegram: a symbolic checker then follows no slice of unknown length.
+macro_rules! again {
+    ($again:ident $direction:ident) => {
+        fn $again<const LENGTH: usize>(
+            telegram: Telegram,
+            bytes: &[u8; LONGEST + 1],
+            length: usize,
+        ) -> Result<bool, FrameError> {
+            match bytes.first_chunk::<LENGTH>() {
+                Some(bytes) if length == LENGTH => {
+                    let decoded = $direction::decode(telegram, bytes)?;
+                    let frame = decoded.encode();
+                    let Some(again) = frame.bytes().first_chunk::<LENGTH>() else {
+                        return Ok(false);
+                    };
+                    Ok(frame.bytes().len() == LENGTH
+                        && $direction::decode(telegram, again) == Ok(decoded)
+                        && only_less(again, bytes))
+                }
+                _ => $direction::decode(telegram, bytes.get(..length).unwrap_or_default())
+                    .map(|_| false),
+            }
+        }
+    };
+}
+
+again! { received_again Received }
+again! { sent_again Sent }
+
+/// Every telegram with its own length.
+macro_rules! of_each {
+    ($direction:ident $again:ident $telegram:ident $bytes:expr, $length:ident: $($number:ident)+) => {
+        match $telegram {
+            $(Telegram::$number => {
+                $again::<{ $direction::length(Telegram::$number) }>(Telegram::$number, $bytes, $length)
+            })+
+        }
+    };
+    ($direction:ident $again:ident $telegram:ident $bytes:expr, $length:ident) => {
+        of_each!($direction $again $telegram $bytes, $length: T30 T31 T700 T701 T901 T902)
+    };
+}
+
+/// A telegram in one of the directions.
+const PARTS: u32 = 2 * Telegram::ALL.len() as u32;
+
+/// Bytes that were read as a telegram.
+struct Case {
+    telegram: Telegram,
+    sent: bool,
+    /// Whether they are encoded the same, or why they are none.
+    outcome: Result<bool, FrameError>,
+}
+
+fn case(telegram: Telegram, sent: bool, bytes: &[u8; LONGEST + 1], length: usize) -> Case {
+    let outcome = if sent {
+        of_each!(Sent sent_again telegram bytes, length)
+    } else {
+        of_each!(Received received_again telegram bytes, length)
+    };
+    Case {
+        telegram,
+        sent,
+        outcome,
+    }
+}
+
 /// What is encoded is decoded, and bytes that are decoded are encoded the same, but for reserved bits.
 ///
 /// Cover 0: a received telegram, cover 1: a sent one, cover 2: another length, cover 3: a position outside its range.
 pub fn frames_are_their_bytes<S: Source>(source: &mut S, _subject: &Subject) -> Verdict {
     let (bytes, length) = any_bytes(source);
-    let bytes = &bytes[..length];
-    let telegram = source.any_of_all();
-    let sent = source.any_bool();
-    let (outcome, expected) = if sent {
-        let outcome = Sent::decode(telegram, bytes).map(|decoded| {
-            let frame = decoded.encode();
-            let again = Sent::decode(telegram, frame.bytes()) == Ok(decoded);
-            again && only_less(frame.bytes(), bytes)
-        });
-        (outcome, Sent::length(telegram))
+    let Case {
+        telegram,
+        sent,
+        outcome,
+    } = match source.any_part(PARTS) {
+        // Kani shows here only that each cover is met; the parts are the whole.
+        0 if source.leaves_out() => {
+            if source.any_bool() {
+                case(Telegram::T30, false, &bytes, length)
+            } else {
+                case(Telegram::T901, true, &bytes, length)
+            }
+        }
+        0 => case(source.any_of_all(), source.any_bool(), &bytes, length),
+        part => case(
+            Telegram::ALL[(part as usize - 1) / 2],
+            part % 2 == 0,
+            &bytes,
+            length,
+        ),
+    };
+    let expected = if sent {
+        Sent::length(telegram)
     } else {
-        let outcome = Received::decode(telegram, bytes).map(|decoded| {
-            let frame = decoded.encode();
-            let again = Received::decode(telegram, frame.bytes()) == Ok(decoded);
-            again && only_less(frame.bytes(), bytes)
-        });
-        (outcome, Received::length(telegram))
+        Received::length(telegram)
     };
     source.cover(0, !sent && outcome.is_ok());
     source.cover(1, sent && outcome.is_ok());
@@ -201,9 +277,9 @@ pub fn frames_are_their_bytes<S: Source>(source: &mut S, _subject: &Subject) -> 
     }
 }
 
-/// Whether each byte has no bit that the other has not.
-fn only_less(fewer: &[u8], bytes: &[u8]) -> bool {
-    fewer.len() == bytes.len() && fewer.iter().zip(bytes).all(|(a, b)| a & b == *a)
+/// Whether each byte has no bit that the other has not. By places: a symbolic checker does not see where two zipped lists end.
+fn only_less<const LENGTH: usize>(fewer: &[u8; LENGTH], bytes: &[u8; LENGTH]) -> bool {
+    (0..LENGTH).all(|place| fewer[place] & bytes[place] == fewer[place])
 }
 
 trait AnyTelegram: Source {
