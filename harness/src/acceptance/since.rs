@@ -121,6 +121,12 @@ fn changes(old: &Machine, new: &Machine) -> Vec<Change> {
                     &joined(before),
                     &joined(after),
                 );
+                let pair = |a: &Axis| {
+                    a.pair
+                        .as_ref()
+                        .map_or(String::new(), |p| p.get_ref().clone())
+                };
+                one(&mut list, &of, "pair", &pair(was), &pair(axis));
                 values(&mut list, &of, &old.axis_shown(was), &new.axis_shown(axis));
             }
             None => one(&mut list, &of, "axis", "", "new"),

@@ -53,6 +53,17 @@ enum Each {
     Door,
 }
 
+impl Each {
+    /// Whether the part is one of the axes that are called so.
+    fn are(&self, word: &str) -> bool {
+        match self {
+            Self::Rotary => word == "rotary axes",
+            Self::Spindle => word == "spindles",
+            Self::Machine | Self::Linear | Self::Door => false,
+        }
+    }
+}
+
 #[derive(Deserialize)]
 #[serde(rename_all = "lowercase")]
 enum Kind {
@@ -76,6 +87,17 @@ pub fn written(folder: &Path, wanted: &Wanted) -> Result<String> {
     let parts: File = file.parse()?;
     let mut check = file.check();
     let mut out = String::new();
+    for (word, names, option) in [
+        ("rotary axes", &wanted.rotary, "--rotary"),
+        ("spindles", &wanted.spindles, "--spindles"),
+    ] {
+        let written = parts.part.iter().any(|part| part.each.are(word));
+        if !written && !names.is_empty() {
+            let message = format!("a machine of this family has no {word}");
+            let help = format!("leave {option} out");
+            check.findings.add(None, message, "", help);
+        }
+    }
     for part in parts.part {
         if !part.needs.iter().all(|kind| wanted.has(kind)) {
             continue;
@@ -157,6 +179,11 @@ impl Wanted {
         Some(match place {
             "name" => self.name.clone(),
             "axis" | "door" => subject.to_owned(),
+            // From 1: what each axis has of its own.
+            "number" => {
+                let before = all().take_while(|name| *name != subject);
+                (before.count() + 1).to_string()
+            }
             "plain" => all().cloned().collect::<Vec<_>>().join(", "),
             "others" => {
                 let axes = self.linear.iter().chain(&self.rotary);

@@ -34,6 +34,8 @@ pub(super) struct Family {
     pub functions: Vec<Function>,
     pub control: IndexMap<String, Param>,
     pub axis: IndexMap<String, Param>,
+    /// The parameters in which two axes that move one thing may differ; empty: no axis can be said to.
+    pub own: Vec<String>,
     /// Parameters of an axis group. With them a machine file declares its groups, and a door names groups in place of axes.
     pub group: Option<IndexMap<String, Param>>,
     pub door: IndexMap<String, Param>,
@@ -348,6 +350,8 @@ pub(super) struct Rule {
     pub alarm: Option<u32>,
     /// The values of `k`; one pass with k = 0 where there are none.
     pub each: Vec<i64>,
+    /// A parameter of which no two axes that `when` holds for may have the same value.
+    pub unique: Option<String>,
     pub when: Formula,
     /// The key whose place is shown: `POS_LIMIT_PLUS[k]` or `functions`.
     pub at: String,

@@ -40,6 +40,9 @@ struct FamilyFile {
     group: Option<IndexMap<String, ParamData>>,
     #[serde(default)]
     door: IndexMap<String, ParamData>,
+    /// The parameters in which two axes that move one thing may differ; none: no axis can be said to.
+    #[serde(default)]
+    own: Vec<Spanned<String>>,
     #[serde(default, rename = "let")]
     lets: IndexMap<String, Spanned<String>>,
     #[serde(default)]
@@ -106,6 +109,7 @@ pub(super) struct RuleData {
     alarm: Option<u32>,
     #[serde(default)]
     each: Vec<i64>,
+    unique: Option<Spanned<String>>,
     when: Spanned<String>,
     at: String,
     text: String,
@@ -251,6 +255,7 @@ impl Check {
                 known.roundings.insert(name.clone(), vec![param.cycles]);
             }
         }
+        let own = self.own(data.own, &axis);
         let monitoring_cycle = self.formula(data.monitoring_cycle, &known.control);
         known.axis.extend(owned(&control));
         known.axis.extend(owned(&axis));
@@ -292,6 +297,7 @@ impl Check {
             functions: data.function,
             control,
             axis,
+            own,
             group,
             door,
             lets,
@@ -303,6 +309,18 @@ impl Check {
             patterns: IndexMap::new(),
             faults: IndexMap::new(),
         })
+    }
+
+    /// Parameters of an axis.
+    fn own(&mut self, names: Vec<Spanned<String>>, axis: &IndexMap<String, Param>) -> Vec<String> {
+        for name in &names {
+            if !axis.contains_key(name.get_ref()) {
+                let message = format!("there is no parameter '{}'", name.get_ref());
+                let help = "name parameters of [axis.NAME]";
+                self.findings.add(name.span(), message, "", help);
+            }
+        }
+        names.into_iter().map(Spanned::into_inner).collect()
     }
 
     /// Named expressions, each of which may read those before it.
@@ -455,8 +473,18 @@ impl Check {
             Scope::Door => &known.door,
             Scope::Group | Scope::Machine => &known.whole,
         };
+        let unique = data.unique.map(|name| {
+            let (at, name) = (name.span(), name.into_inner());
+            if data.of != Scope::Axis || !known.contains(&name) {
+                let message = format!("'{name}' cannot be unique here");
+                let help = "name a parameter of an axis, with of = \"axis\"";
+                self.findings.add(at, message, "", help);
+            }
+            name
+        });
         Some(Rule {
             of: data.of,
+            unique,
             id: data.id,
             alarm: data.alarm,
             each: if data.each.is_empty() {

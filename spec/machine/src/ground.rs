@@ -11,6 +11,7 @@ use super::document::Findings;
 use super::eval::{Values, eval, given, names};
 use super::family::{Family, Formula, Quantity};
 use super::family_file::Check;
+use super::guarantee::Guarantee;
 use super::plausible::insert;
 use super::signal::Signals;
 use super::{Axis, AxisKind, Door, Group, Machine, Settings};
@@ -69,6 +70,13 @@ const DOORS: &str = "doors";
 /// How many declared groups the axis is in: 1 or none.
 const GROUPS: &str = "groups";
 
+/// How many guarantees the file has.
+const GUARANTEES: &str = "guarantees";
+/// How many of them ask about the axis, or about it behind the door.
+const ASKED: &str = "asked";
+/// As a number in how many values an axis differs from the one that moves the same thing, as a text in which ones.
+const DIFFERS: &str = "differs";
+
 /// What an entry of the data is about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -90,7 +98,7 @@ impl About {
     pub fn known(self, family: &Family) -> Vec<String> {
         let mut known: Vec<String> = ["monitoring_cycle", "k", "n"].map(str::to_owned).to_vec();
         if self != Self::Door {
-            known.extend([DOORS, GROUPS].map(str::to_owned));
+            known.extend([DOORS, GROUPS, GUARANTEES, ASKED].map(str::to_owned));
         }
         known.extend(family.control.keys().cloned());
         known.extend(family.functions.iter().map(|f| f.variable.clone()));
@@ -98,6 +106,7 @@ impl About {
         known.push("enabled_any".to_owned());
         if matches!(self, Self::Axis | Self::DoorAxis) {
             known.extend(["kind", "spindle", "LINEAR", "ROTARY", PATH, OTHERS].map(str::to_owned));
+            known.push(DIFFERS.to_owned());
             known.extend(family.axis.keys().cloned());
         }
         if matches!(self, Self::Group | Self::Machine) {
@@ -113,7 +122,9 @@ impl About {
     pub fn titles(self) -> &'static [&'static str] {
         match self {
             Self::Machine => &["machine", "axes"],
-            Self::Axis => &["machine", "axis", "group", "partners", OTHERS],
+            Self::Axis => &[
+                "machine", "axis", "group", "partners", OTHERS, "pair", DIFFERS,
+            ],
             Self::Group => &["machine", "group", "axes"],
             Self::Door => &["machine", "door", "axes"],
             Self::DoorAxis => &["machine", "door", "axis", "group", "axes"],
@@ -154,6 +165,8 @@ pub(super) fn grounds<'a>(machine: &'a Machine, about: About) -> Vec<Ground<'a>>
         ground.set(PATH, partners);
         let others = others(machine, axis).count();
         ground.set(OTHERS, i64::try_from(others).unwrap_or(i64::MAX));
+        let differs = machine.differences(axis).len();
+        ground.set(DIFFERS, i64::try_from(differs).unwrap_or(i64::MAX));
         ground
     };
     let mut list = Vec::new();
@@ -224,12 +237,29 @@ impl<'a> Ground<'a> {
             .flatten()
             .map(|(name, setting)| (given(name), setting.is_given()))
             .collect();
-        for (name, n) in [(DOORS, doors), (GROUPS, groups)] {
+        let asked = self.machine.guarantees.iter().filter(|g| self.is_asked(g));
+        let asked = asked.count();
+        let guarantees = self.machine.guarantees.len();
+        for (name, n) in [
+            (DOORS, doors),
+            (GROUPS, groups),
+            (GUARANTEES, guarantees),
+            (ASKED, asked),
+        ] {
             self.set(name, i64::try_from(n).unwrap_or(i64::MAX));
         }
         for (name, given) in given {
             self.set(&name, i64::from(given));
         }
+    }
+
+    /// Whether a guarantee is about it: it has the axis, and is about the door or about none.
+    fn is_asked(&self, guarantee: &Guarantee) -> bool {
+        let door = self
+            .door
+            .is_none_or(|d| guarantee.door.as_ref() == Some(&d.name));
+        let axis = |a: &Axis| guarantee.axes.iter().any(|n| *n.get_ref() == a.name);
+        door && self.axis.is_none_or(axis)
     }
 
     fn behind(mut self, door: &'a Door) -> Self {
@@ -294,6 +324,8 @@ impl<'a> Ground<'a> {
             "group" => self.group.map(|g| g.name.clone()),
             "door" => self.door.map(|d| d.name.clone()),
             "partners" => self.axis.map(partners),
+            "pair" => Some(self.axis?.pair.as_ref()?.get_ref().clone()),
+            DIFFERS => Some(self.machine.differences(self.axis?).join(", ")),
             OTHERS => {
                 let names: Vec<&str> = others(self.machine, self.axis?).collect();
                 Some(names.join(", "))

@@ -29,6 +29,7 @@ pub mod guarantee;
 pub mod knob;
 mod logic;
 pub mod own;
+mod pair;
 mod place;
 mod plausible;
 pub mod reaction;
@@ -130,6 +131,8 @@ pub struct Axis {
     pub values: Settings,
     /// The axes it moves with on one path.
     pub interpolates_with: Vec<Spanned<String>>,
+    /// The axis whose drive moves the same thing: both have to have the same values.
+    pub pair: Option<Spanned<String>>,
     place: Place,
     functions_place: Option<Place>,
 }
@@ -437,7 +440,8 @@ fn read_source(path: &Path, source: &Arc<str>, families: &Path) -> Result<Machin
         doors: &draft.doors,
     };
     let mut plan = runs::plan(&family, &family.explore, parts, &judged, &logic)?;
-    let guaranteed = runs::guaranteed(&family, &draft.guarantees, parts, &judged, &logic)?;
+    let own = (&*path.display().to_string(), source);
+    let guaranteed = runs::guaranteed(&family, own, &draft.guarantees, parts, &judged, &logic)?;
     plan.runs.splice(0..0, guaranteed);
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     let mut keys = ["control", "family"].into_iter();

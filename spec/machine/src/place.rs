@@ -6,7 +6,7 @@ use super::{Place, Setting, Shown};
 use stillpoint_lang::syntax::ast::{Expr, Kind};
 
 /// Words that an entry may point at beside parameters.
-pub(super) const WORDS: [&str; 2] = ["functions", "axes"];
+pub(super) const WORDS: [&str; 3] = ["functions", "axes", "pair"];
 
 /// A value that is pointed at.
 #[derive(Debug)]
@@ -31,6 +31,7 @@ impl Ground<'_> {
         let word = match name {
             "functions" => self.axis.and_then(|a| a.functions_place.clone()),
             "axes" => self.listed(),
+            "pair" => self.axis.and_then(|a| Some(a.pair.as_ref()?.span())),
             _ => None,
         };
         let (shown, place) = self.parameter(name, index).unzip();

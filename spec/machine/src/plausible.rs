@@ -76,6 +76,7 @@ pub(super) fn judge(
         judge.rules(Scope::Axis, &mut values, &subject)?;
         axes.push(values);
     }
+    judge.unique(draft, &axes, settings)?;
     let whole = Whole::new(family, draft, &axes, &control, cycle);
     let mut groups = Vec::new();
     // Without all of its axes, values of a group would mislead; what is wrong with the axis is told.
@@ -283,7 +284,33 @@ impl Judge<'_> {
     fn rules(&mut self, scope: Scope, values: &mut Values, subject: &Subject<'_>) -> Result<()> {
         let family = self.family;
         let rules = family.rules.iter().filter(|r| r.of == scope);
-        self.each(rules, values, subject)
+        self.each(rules.filter(|r| r.unique.is_none()), values, subject)
+    }
+
+    /// What no two axes may have alike. The later one is told, with the name of the earlier one as `{other}`.
+    fn unique(&mut self, draft: &Draft, axes: &[Values], control: &Settings) -> Result<()> {
+        let family = self.family;
+        for rule in &family.rules {
+            let Some(name) = &rule.unique else { continue };
+            let mut seen: Vec<(&Axis, &Vec<i64>)> = Vec::new();
+            for (axis, values) in draft.axes.iter().zip(axes) {
+                if evaluate(family, &rule.when, values, self.cycle)? == 0 {
+                    continue;
+                }
+                let Some(cells) = values.get(name) else {
+                    continue;
+                };
+                match seen.iter().find(|(_, known)| *known == cells) {
+                    Some((other, _)) => {
+                        let text = rule.text.replace("{other}", &other.name);
+                        let subject = Subject::of_axis(axis, control);
+                        self.told(rule, 0, &text, values, &subject);
+                    }
+                    None => seen.push((axis, cells)),
+                }
+            }
+        }
+        Ok(())
     }
 
     /// The rules of the pattern; what they read is the same for each axis of one guarantee.
@@ -322,7 +349,7 @@ impl Judge<'_> {
             for k in &rule.each {
                 values.insert("k".to_owned(), vec![*k]);
                 if evaluate(self.family, &rule.when, values, self.cycle)? != 0 {
-                    self.violated(rule, *k, values, subject);
+                    self.told(rule, *k, &rule.text, values, subject);
                 }
             }
         }
@@ -330,7 +357,7 @@ impl Judge<'_> {
         Ok(())
     }
 
-    fn violated(&mut self, rule: &Rule, k: i64, values: &Values, subject: &Subject<'_>) {
+    fn told(&mut self, rule: &Rule, k: i64, text: &str, values: &Values, subject: &Subject<'_>) {
         let mut shown = Vec::new();
         subject.shown(&rule.when.expr, values, &mut shown);
         let mut names = rule.id.join(", ");
@@ -338,7 +365,7 @@ impl Judge<'_> {
             names = format!("{names}, alarm {alarm}");
         }
         let insert_k = |text: &str| text.replace("{k}", &k.to_string());
-        let text = insert_k(&rule.text);
+        let text = insert_k(text);
         let message = match shown.as_slice() {
             [] => format!("{}: {text} [{names}]", subject.name),
             list => format!("{}: {text}: {} [{names}]", subject.name, list.join(", ")),

@@ -1,6 +1,9 @@
 //! From the values of the axes, groups and doors to the explorations that cover the machine.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use toml::Spanned;
 
 use super::eval::Values;
 use super::family::{Binding, Explore, Family, Rounding, Scope};
@@ -66,12 +69,13 @@ pub(super) fn plan(
     })
 }
 
-/// The runs that decide the guarantees of a machine.
+/// The runs that decide the guarantees of a machine, whose file and text are `own`.
 ///
 /// # Errors
-/// Faults of the family's data.
+/// Faults of the family's data, and a guarantee that cannot be asked of an axis.
 pub(super) fn guaranteed(
     family: &Family,
+    own: (&str, &Arc<str>),
     guarantees: &[Guarantee],
     parts: Parts<'_>,
     judged: &Judged,
@@ -151,10 +155,26 @@ pub(super) fn guaranteed(
         let open = family.faults.keys();
         let mut open = open.filter(|fault| !answered.contains(&fault.as_str()));
         let open = open.next().filter(|_| asked.guarantee.after_fault());
-        if !decided || open.is_some() {
-            let after = open.map_or(String::new(), |fault| format!(" after the fault '{fault}'"));
-            let message =
-                format!("nothing decides the guarantee {name} for the axis {axis}{after}");
+        if !decided {
+            let (file, source) = own;
+            let message = format!(
+                "guarantee {name}: axis {axis} has not the functions that the pattern {} asks about",
+                asked.guarantee.pattern
+            );
+            let named = asked.guarantee.axes.iter().find(|n| *n.get_ref() == axis);
+            let place = named.map_or(asked.guarantee.place.clone(), Spanned::span);
+            let fault = Diagnostic::new(file, source, Some(place), message);
+            let help =
+                "enable them at the axis (`functions`), or take the axis out of the guarantee";
+            return Err(fault
+                .label("cannot be asked of this axis")
+                .help(help)
+                .into());
+        }
+        if let Some(open) = open {
+            let message = format!(
+                "nothing decides the guarantee {name} for the axis {axis} after the fault '{open}'"
+            );
             let fault = Diagnostic::new(&family.file, &family.source, None, message);
             let help = "this is an error of the family's data, not of the machine file: an entry of its pattern must apply";
             return Err(fault.help(help).into());

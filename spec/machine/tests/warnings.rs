@@ -87,7 +87,8 @@ fn ids(machine: &Machine) -> BTreeSet<String> {
 /// The file without its guarantees: some of them name what a change takes away, and are refused then.
 fn unasked(text: &str) -> String {
     let parts = text.split("\n\n");
-    let others = parts.filter(|part| !part.starts_with("[guarantee."));
+    let asks = |part: &&str| part.lines().any(|line| line.starts_with("[guarantee."));
+    let others = parts.filter(|part| !asks(part));
     others.collect::<Vec<_>>().join("\n\n")
 }
 

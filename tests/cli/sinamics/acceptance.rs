@@ -174,6 +174,7 @@ fn the_configuration_decides_what_is_seen() {
                 "axes     = [\"X1\", \"X2\", \"Y\", \"Z\"]",
             ),
             ("axes    = [\"B\"]", "axes    = [\"Y\"]"),
+            ("axes    = [\"B\"]\nwithin", "axes    = [\"Y\"]\nwithin"),
             ("speed   = \"5 rev/min\"", "speed   = \"5000 mm/min\""),
         ],
     );

@@ -220,6 +220,7 @@ impl Reader<'_> {
             functions: Vec::new(),
             values: BTreeMap::new(),
             interpolates_with: Vec::new(),
+            pair: None,
             place: place.clone(),
             functions_place: None,
         };
@@ -229,6 +230,9 @@ impl Reader<'_> {
         }
         if family.group.is_none() {
             structural.push("interpolates_with");
+        }
+        if !family.own.is_empty() {
+            structural.push("pair");
         }
         let mut kind = None;
         for (key, value) in table.iter() {
@@ -245,6 +249,10 @@ impl Reader<'_> {
                 }
                 "interpolates_with" => {
                     axis.interpolates_with = self.findings.texts("interpolates_with", value);
+                }
+                "pair" => {
+                    let named = self.findings.text("pair", value);
+                    axis.pair = named.map(|name| Spanned::new(value.span(), name));
                 }
                 _ => {}
             }
@@ -445,8 +453,20 @@ impl Reader<'_> {
         }
     }
 
-    /// Axes that other entries name must exist; an axis does not interpolate with itself.
+    /// Axes that other entries name must exist; an axis does not interpolate with itself, nor is it a pair with itself.
     fn references(&mut self, draft: &Draft) {
+        for axis in &draft.axes {
+            match &axis.pair {
+                Some(pair) if *pair.get_ref() == axis.name => self.findings.add(
+                    pair.span(),
+                    format!("axis {} is a pair with itself", axis.name),
+                    "this axis itself",
+                    "name the axis whose drive moves the same thing",
+                ),
+                Some(pair) => self.known_axis(pair),
+                None => {}
+            }
+        }
         let of_axes = draft.axes.iter();
         let of_axes = of_axes.map(|a| (Some(&a.name), &a.interpolates_with));
         let of_groups = draft.groups.iter().map(|g| (None, &g.axes));

@@ -1,0 +1,36 @@
+//! Two axes whose drives move one thing, such as the motors on both sides of a bridge.
+
+use super::{Axis, Machine};
+
+impl Machine {
+    /// In what an axis differs from the one that moves the same thing: parameters, `functions`, `doors`, `kind`. Parameters that each drive
+    /// has of its own, such as an address, do not count. Empty for an axis that is no pair.
+    pub(super) fn differences<'a>(&self, axis: &'a Axis) -> Vec<&'a str> {
+        let Some(pair) = &axis.pair else {
+            return Vec::new();
+        };
+        let mut others = self.axes.iter();
+        let Some(other) = others.find(|a| a.name == *pair.get_ref()) else {
+            return Vec::new();
+        };
+        if axis.kind != other.kind {
+            return vec!["kind"];
+        }
+        let own = &self.basis.family.own;
+        let values = axis.values.iter().filter(|(name, _)| !own.contains(name));
+        let differing = values.filter(|(name, setting)| {
+            let theirs = other.values.get(*name).map(|s| &s.cells);
+            theirs != Some(&setting.cells)
+        });
+        let mut list: Vec<&str> = differing.map(|(name, _)| name.as_str()).collect();
+        let has = |a: &Axis, b: &Axis| a.functions.iter().all(|f| b.has(f));
+        if !has(axis, other) || !has(other, axis) {
+            list.push("functions");
+        }
+        let mut doors = self.doors.iter();
+        if doors.any(|door| door.has(&axis.name) != door.has(&other.name)) {
+            list.push("doors");
+        }
+        list
+    }
+}
