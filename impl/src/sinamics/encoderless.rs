@@ -5,11 +5,11 @@
 //! within 5 s. A function without selection lets the ON command itself start the drive, which must draw its current in time.
 //! With nothing to be monitored ON starts an unmonitored drive.
 //!
-//! At POWER ON the pulses are suppressed: the drive begins as after their suppression. Reading AF-4: both values of p9509.0 are
-//! parameters here.
+//! At POWER ON the pulses are suppressed: the drive begins as after their suppression. ON enables them later: until they have come,
+//! or ON is withdrawn, they are not suppressed. Reading AF-4: both values of p9509.0 are parameters here.
 
 use crate::kernel::{ConfigError, Cycles};
-use crate::sinamics::types::{falls, rises};
+use crate::sinamics::types::rises;
 
 config! {
     /// The parameters.
@@ -19,14 +19,13 @@ config! {
         current: Cycles,
         ssm_keeps: bool,
         sdi_keeps: bool,
-        sls_unselected: bool,
-        sdi_unselected: bool,
+        unselected: bool,
     }
 }
 
 impl Config {
-    /// `window`: 5 s for switching on. `current`: 5 s for the minimum current p9588. `ssm_keeps`: p9509.0 is 0. `sdi_keeps`: p9509.8
-    /// is 0. `sls_unselected`, `sdi_unselected`: functions without selection (p9512).
+    /// `window`: 5 s for switching on. `current`: 5 s for the minimum current p9588. `ssm_keeps`: SSM is on and p9509.0 is 0.
+    /// `sdi_keeps`: p9509.8 is 0. `unselected`: SLS or SDI without selection (p9512); then there is no function with one (5.7).
     ///
     /// # Errors
     /// [`ConfigError::NoDelay`] when a time is 0.
@@ -35,8 +34,7 @@ impl Config {
         current: Cycles,
         ssm_keeps: bool,
         sdi_keeps: bool,
-        sls_unselected: bool,
-        sdi_unselected: bool,
+        unselected: bool,
     ) -> Result<Self, ConfigError> {
         if window.is_zero() || current.is_zero() {
             return Err(ConfigError::NoDelay);
@@ -46,8 +44,7 @@ impl Config {
             current,
             ssm_keeps,
             sdi_keeps,
-            sls_unselected,
-            sdi_unselected,
+            unselected,
         })
     }
 
@@ -55,27 +52,24 @@ impl Config {
     pub const fn sdi_keeps(&self) -> bool {
         self.sdi_keeps
     }
-
-    /// A function without selection goes on monitoring.
-    pub const fn unselected(&self) -> bool {
-        self.sls_unselected || self.sdi_unselected && self.sdi_keeps
-    }
 }
 
 fields! {
     /// Where the drive is.
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
     pub enum Phase {
+        /// STO is selected from outside.
+        Selected,
         /// Internal STO.
         #[default]
         Off,
-        /// The pulses are suppressed and nothing keeps them so.
-        Free,
         /// The drive may be switched on.
         Window,
+        /// The pulses are suppressed and nothing keeps them so.
+        Free,
         /// ON has cancelled the suppression; the current is waited for.
         Start,
-        /// The drive runs, or has been switched on.
+        /// The drive runs, or has been switched on, or coasts.
         Run,
     }
 }
@@ -88,14 +82,10 @@ fields! {
         pub phase: Phase,
         /// What is left of the time to switch on, or for the current.
         pub left: Cycles,
-        /// STO was selected in the cycle before.
-        pub sto_held: bool,
-        /// A function was selected that keeps the drive off.
-        pub function_held: bool,
         /// The drive was switched on in the cycle before.
         pub on_held: bool,
-        /// The pulses were enabled.
-        pub pulses_held: bool,
+        /// The pulses have come since it was switched on.
+        pub came: bool,
     }
 }
 
@@ -104,19 +94,22 @@ impl State {
     pub const INITIAL: Self = Self {
         phase: Phase::Off,
         left: Cycles::ZERO,
-        sto_held: false,
-        function_held: false,
         on_held: true,
-        pulses_held: false,
+        came: false,
     };
 
-    /// A time runs in its phase only; ON starts by itself only a drive with functions without selection.
+    /// A time runs in its phase only; ON starts by itself only a drive with functions without selection, which is never free nor
+    /// waits for a selection; pulses have come only where they are permitted.
     pub fn invariant(&self, config: &Config) -> bool {
         let runs = |time: Cycles| !self.left.is_zero() && self.left <= time;
         match self.phase {
-            Phase::Window => runs(config.window),
-            Phase::Start => runs(config.current) && config.unselected(),
-            Phase::Off | Phase::Free | Phase::Run => self.left.is_zero(),
+            Phase::Window => runs(config.window) && !config.unselected && !self.came,
+            Phase::Start => runs(config.current) && config.unselected,
+            Phase::Free => {
+                self.left.is_zero() && !config.unselected && !config.ssm_keeps && !self.came
+            }
+            Phase::Selected | Phase::Off => self.left.is_zero() && !self.came,
+            Phase::Run => self.left.is_zero(),
         }
     }
 }
@@ -131,8 +124,6 @@ fields! {
         pub sls: bool,
         /// SDI is selected, in whichever direction.
         pub sdi: bool,
-        /// SSM is switched on.
-        pub ssm: bool,
         /// The speed is below the detection of zero speed.
         pub still: bool,
         /// The ON/OFF1 command.
@@ -159,17 +150,12 @@ fields! {
 
 /// A selected function goes on monitoring: SLS whatever p9509 says, SDI as its bit does.
 fn selected(config: &Config, inputs: &Inputs) -> bool {
-    !config.sls_unselected && inputs.sls || !config.sdi_unselected && inputs.sdi && config.sdi_keeps
-}
-
-/// SSM goes on monitoring.
-fn by_ssm(config: &Config, inputs: &Inputs) -> bool {
-    config.ssm_keeps && inputs.ssm && inputs.still
+    inputs.sls || inputs.sdi && config.sdi_keeps
 }
 
 /// Anything keeps a drive without pulses off.
 fn keeps(config: &Config, inputs: &Inputs) -> bool {
-    selected(config, inputs) || by_ssm(config, inputs) || config.unselected()
+    config.unselected || config.ssm_keeps || selected(config, inputs)
 }
 
 /// ON was given in this cycle.
@@ -177,74 +163,72 @@ fn switched_on(s: &Step) -> bool {
     s.inputs.on && !s.before.on_held
 }
 
-/// The pulses were suppressed in this cycle.
-fn suppressed(s: &Step) -> bool {
-    s.before.pulses_held && !s.inputs.pulses
+/// SLS or SDI goes on monitoring by its selection.
+fn by_selection(s: &Step) -> bool {
+    !s.config.unselected && (s.inputs.sls || s.inputs.sdi && s.config.sdi_keeps)
 }
 
-/// A function goes on monitoring, or would at standstill.
-fn monitored(s: &Step) -> bool {
-    s.config.sls_unselected
-        || s.config.sdi_unselected
+/// Nothing goes on monitoring.
+fn unmonitored(s: &Step) -> bool {
+    !(s.config.unselected
+        || s.config.ssm_keeps
         || s.inputs.sls
-        || s.inputs.sdi && s.config.sdi_keeps
-        || s.inputs.ssm && s.config.ssm_keeps
+        || s.inputs.sdi && s.config.sdi_keeps)
+}
+
+/// The drive ran, and its pulses were suppressed.
+fn suppressed(s: &Step) -> bool {
+    s.before.phase == Phase::Run && !s.inputs.pulses && s.before.came && !s.inputs.sto
+}
+
+/// ON was withdrawn before the pulses came.
+fn withdrawn(s: &Step) -> bool {
+    s.before.phase == Phase::Run && !s.inputs.pulses && !s.inputs.on && !s.inputs.sto
 }
 
 monitor! { sinamics::encoderless;
-    /// When the pulses are suppressed a monitored drive keeps itself off: by SLS always, by SDI and SSM as p9509 says.
-    suppression_keeps_off ["S120-ENC-016", "S120-SSM-008", "S120-SDI-007", "S120-SLS-016"]:
-        when |s| s.before.phase == Phase::Run && suppressed(&s) && !s.inputs.sto && (
-            s.inputs.sls && !s.config.sls_unselected
-            || s.inputs.sdi && !s.config.sdi_unselected && s.config.sdi_keeps
-            || s.inputs.ssm && s.config.ssm_keeps && s.inputs.still)
-            => s.outputs.sto;
+    /// When the pulses are suppressed SLS keeps the drive off always, SDI as p9509 says.
+    suppression_keeps_off ["S120-ENC-016", "S120-SDI-007", "S120-SLS-016"]:
+        when |s| (suppressed(&s) || withdrawn(&s)) && by_selection(&s)
+            => s.outputs.sto && s.after.phase == Phase::Off;
 
-    /// SSM does so once the speed is below the detection of zero speed, if it was above it at the suppression.
-    ssm_keeps_off_at_standstill ["S120-SSM-009", "S120-ENC-016"]:
-        when |s| s.before.phase == Phase::Free && s.inputs.ssm && s.config.ssm_keeps && s.inputs.still
-            && !s.inputs.sto
-            => s.outputs.sto;
+    /// SSM does so below the detection of zero speed, and so does a function without selection; until then the drive coasts.
+    standstill_keeps_off ["S120-SSM-008", "S120-SSM-009", "S120-ENC-016", "S120-SLS-020", "S120-SDI-011"]:
+        when |s| (suppressed(&s) || withdrawn(&s)) && !by_selection(&s) && (s.config.ssm_keeps || s.config.unselected)
+            => s.outputs.sto == s.inputs.still && (s.inputs.still || s.after.phase == Phase::Run);
 
     /// Nothing monitored keeps nothing off: p9509 at 1, no selection.
     nothing_monitored_is_free ["S120-SSM-010", "S120-SLS-018", "S120-SDI-007", "S120-SDI-008"]:
-        when |s| !monitored(&s)
+        when |s| unmonitored(&s)
             => !s.outputs.sto && !s.outputs.window;
 
     /// ON alone never leaves it while a selected function or SSM keeps it.
-    on_is_not_enough ["S120-ENC-016", "S120-SLS-016", "S120-PF-26"]:
-        when |s| s.before.phase == Phase::Off && !s.before.sto_held && (
-            s.inputs.sls && !s.config.sls_unselected
-            || s.inputs.sdi && !s.config.sdi_unselected && s.config.sdi_keeps
-            || s.inputs.ssm && s.config.ssm_keeps && s.inputs.still)
+    on_is_not_enough ["S120-ENC-016", "S120-SLS-016", "S120-SSM-009", "S120-PF-26"]:
+        when |s| s.before.phase == Phase::Off && !s.inputs.sto && !s.config.unselected && !unmonitored(&s)
             => s.outputs.sto && s.after.phase == Phase::Off;
 
     /// A deselection of STO opens the window, for its whole time.
     deselected_sto_opens_the_window ["S120-SLS-015", "S120-SLS-016", "S120-SSM-011", "S120-SDI-008", "S120-ENC-016"]:
-        when |s| s.before.phase == Phase::Off && s.before.sto_held && !s.inputs.sto && (
-            s.inputs.sls && !s.config.sls_unselected
-            || s.inputs.ssm && s.config.ssm_keeps && s.inputs.still)
+        when |s| s.before.phase == Phase::Selected && !s.inputs.sto && !s.config.unselected && !unmonitored(&s)
             => s.outputs.window && !s.outputs.sto && s.after.left == s.config.window;
 
     /// So does a function that is selected again after it was deselected.
     selected_function_opens_the_window ["S120-SLS-017", "S120-SDI-008"]:
-        when |s| s.before.phase == Phase::Free && !s.before.function_held && !s.inputs.sto && !s.config.ssm_keeps
-            && !s.config.sls_unselected && s.inputs.sls && !s.inputs.pulses
+        when |s| s.before.phase == Phase::Free && !s.inputs.sto && by_selection(&s)
             => s.outputs.window && s.after.left == s.config.window;
 
     /// Deselecting every function undoes the internal STO.
     deselection_undoes_it ["S120-SLS-017", "S120-SDI-008"]:
-        when |s| s.before.phase == Phase::Off && !s.inputs.sls && !s.inputs.sdi && !s.inputs.ssm
-            && !s.config.sls_unselected && !s.config.sdi_unselected
+        when |s| s.before.phase == Phase::Off && unmonitored(&s) && !s.inputs.sto
             => !s.outputs.sto && s.after.phase == Phase::Free;
 
     /// In the window ON starts the drive; without it the internal STO comes back when the window ends.
     window_has_an_end ["S120-SLS-015", "S120-SLS-016", "S120-SLS-017", "S120-SSM-009", "S120-SSM-011", "S120-SDI-008", "S120-PF-26"]:
-        when |s| s.before.phase == Phase::Window && !s.inputs.sto && s.inputs.sls && !s.config.sls_unselected
-            => if s.before.left == Cycles::new(1) {
-                s.outputs.sto
-            } else if switched_on(&s) {
+        when |s| s.before.phase == Phase::Window && !s.inputs.sto && !unmonitored(&s)
+            => if switched_on(&s) {
                 s.after.phase == Phase::Run && !s.outputs.sto
+            } else if s.before.left == Cycles::new(1) {
+                s.outputs.sto
             } else {
                 s.outputs.window && s.after.left.count() + 1 == s.before.left.count()
             };
@@ -252,23 +236,25 @@ monitor! { sinamics::encoderless;
     /// STO that is selected meanwhile closes the window.
     sto_closes_the_window ["S120-SLS-015", "S120-SSM-011"]:
         when |s| s.inputs.sto
-            => !s.outputs.window && s.after.phase != Phase::Run && s.after.phase != Phase::Start;
+            => s.after.phase == Phase::Selected && s.outputs == Outputs::default();
 
     /// Unmonitored, ON starts the drive.
     unmonitored_start ["S120-SLS-018", "S120-SDI-008", "S120-ENC-016"]:
-        when |s| s.before.phase == Phase::Free && switched_on(&s) && !s.inputs.sto && !s.inputs.sls && !s.inputs.sdi
-            && !s.inputs.ssm && !s.config.sls_unselected && !s.config.sdi_unselected
+        when |s| s.before.phase == Phase::Free && switched_on(&s) && !s.inputs.sto && unmonitored(&s)
             => s.after.phase == Phase::Run && !s.outputs.sto;
 
-    /// A function without selection lets ON cancel the suppression.
+    /// A function without selection lets ON cancel the suppression, and SSM does not hinder it.
     on_starts_without_selection ["S120-ENC-017", "S120-SLS-020", "S120-SDI-011"]:
-        when |s| s.before.phase == Phase::Off && !s.before.sto_held && !s.inputs.sto && switched_on(&s)
-            && s.config.sls_unselected && !s.inputs.sdi && !s.inputs.ssm
-            => !s.outputs.sto && s.after.phase == Phase::Start && s.after.left == s.config.current;
+        when |s| s.before.phase == Phase::Off && !s.inputs.sto && s.config.unselected
+            => if switched_on(&s) {
+                !s.outputs.sto && s.after.phase == Phase::Start && s.after.left == s.config.current
+            } else {
+                s.outputs.sto
+            };
 
     /// The current ends the start; without it the suppression returns, with its message.
     current_is_waited_for ["S120-ENC-015", "S120-ENC-017", "S120-SLS-020", "S120-SDI-011"]:
-        when |s| s.before.phase == Phase::Start && !s.inputs.sto && s.inputs.on
+        when |s| s.before.phase == Phase::Start && !s.inputs.sto && s.inputs.on && (s.inputs.pulses || !s.before.came)
             => if s.inputs.current {
                 s.after.phase == Phase::Run && !s.outputs.no_current
             } else {
@@ -277,18 +263,21 @@ monitor! { sinamics::encoderless;
 
     /// Nothing else is told.
     nothing_else_is_told ["S120-ENC-015"]:
-        when |s| s.before.phase != Phase::Start
+        when |s| s.before.phase != Phase::Start || s.before.left != Cycles::new(1) || s.inputs.current
             => !s.outputs.no_current;
 
     /// Switched off, a function without selection suppresses the pulses below the standstill limit.
     standstill_suppresses ["S120-SLS-020", "S120-SDI-011"]:
-        when |s| s.before.phase == Phase::Run && s.config.unselected() && !s.inputs.on && s.inputs.still
-            => s.outputs.sto;
+        when |s| (s.before.phase == Phase::Run || s.before.phase == Phase::Start) && s.config.unselected
+            && !s.inputs.on && s.inputs.still && !s.inputs.sto
+            => s.outputs.sto && !s.outputs.no_current;
 
-    /// A drive that runs and keeps its pulses is left alone.
+    /// A drive that runs and keeps its pulses, or waits for them, is left alone.
     running_drive_is_left_alone ["S120-ENC-016", "S120-SLS-020"]:
-        when |s| s.before.phase == Phase::Run && s.inputs.pulses && !s.inputs.sto && (s.inputs.on || !s.inputs.still)
-            => s.after.phase == Phase::Run && s.outputs == Outputs::default();
+        when |s| s.before.phase == Phase::Run && !s.inputs.sto && (s.inputs.on || !s.inputs.still || !s.config.unselected)
+            && (s.inputs.pulses || s.inputs.on && !s.before.came)
+            => s.after.phase == Phase::Run && s.outputs == Outputs::default()
+                && s.after.came == (s.before.came || s.inputs.pulses);
 
     /// The state stays consistent.
     state_stays_consistent ["S120-ENC-016"]:
@@ -296,65 +285,65 @@ monitor! { sinamics::encoderless;
             => s.after.invariant(&s.config) && s.outputs.sto == (s.after.phase == Phase::Off);
 }
 
-/// Where a drive without pulses is that nothing has let go.
-fn without_pulses(config: &Config, inputs: &Inputs) -> Phase {
-    if keeps(config, inputs) {
-        Phase::Off
+/// The drive has its pulses no longer: they were suppressed, or it was switched off before they came.
+fn without_pulses(state: &State, inputs: &Inputs) -> bool {
+    !inputs.pulses && (state.came || !inputs.on)
+}
+
+/// Where a drive that runs or starts goes in this cycle, if it goes.
+fn stopped(state: &State, config: &Config, inputs: &Inputs) -> Option<Phase> {
+    let gone = without_pulses(state, inputs);
+    if config.unselected {
+        (inputs.still && (gone || !inputs.on)).then_some(Phase::Off)
+    } else if !gone {
+        None
+    } else if !keeps(config, inputs) {
+        Some(Phase::Free)
     } else {
-        Phase::Free
+        (inputs.still || selected(config, inputs)).then_some(Phase::Off)
     }
 }
 
 /// The next phase while STO is not selected, with what is left of its time; and whether the current was missed.
 fn proceed(state: &State, config: &Config, inputs: &Inputs) -> (Phase, Cycles, bool) {
     let on = rises(inputs.on, state.on_held);
-    let only_unselected = !selected(config, inputs) && !by_ssm(config, inputs);
-    let resting = without_pulses(config, inputs);
-    let window = (Phase::Window, config.window, false);
     let timeless = |phase| (phase, Cycles::ZERO, false);
+    let window = (Phase::Window, config.window, false);
     match state.phase {
-        Phase::Off if resting == Phase::Free => timeless(Phase::Free),
-        Phase::Off if only_unselected && on => (Phase::Start, config.current, false),
-        Phase::Off if !only_unselected && falls(inputs.sto, state.sto_held) => window,
-        Phase::Off => timeless(Phase::Off),
-        Phase::Free if by_ssm(config, inputs) => timeless(Phase::Off),
-        Phase::Free if selected(config, inputs) && !state.function_held => window,
-        Phase::Free if resting == Phase::Off => timeless(Phase::Off),
-        Phase::Free if on => timeless(Phase::Run),
-        Phase::Free => timeless(Phase::Free),
-        Phase::Window if resting == Phase::Free => timeless(Phase::Free),
-        Phase::Window if state.left.tick().is_zero() => timeless(Phase::Off),
-        Phase::Window if on => timeless(Phase::Run),
-        Phase::Window => (Phase::Window, state.left.tick(), false),
-        Phase::Start if inputs.current => timeless(Phase::Run),
-        Phase::Start if !inputs.on => timeless(resting),
-        Phase::Start if state.left.tick().is_zero() => (Phase::Off, Cycles::ZERO, true),
-        Phase::Start => (Phase::Start, state.left.tick(), false),
-        Phase::Run => {
-            let suppressed = !inputs.pulses && (state.pulses_held || !inputs.on);
-            let stands = config.unselected() && !inputs.on && inputs.still;
-            if suppressed || stands {
-                timeless(resting)
-            } else {
+        Phase::Start | Phase::Run => {
+            if let Some(phase) = stopped(state, config, inputs) {
+                timeless(phase)
+            } else if state.phase == Phase::Run || inputs.current {
                 timeless(Phase::Run)
+            } else if state.left.tick().is_zero() {
+                (Phase::Off, Cycles::ZERO, true)
+            } else {
+                (Phase::Start, state.left.tick(), false)
             }
         }
+        Phase::Off if config.unselected && on => (Phase::Start, config.current, false),
+        _ if config.unselected => timeless(Phase::Off),
+        Phase::Free if on && !keeps(config, inputs) => timeless(Phase::Run),
+        _ if !keeps(config, inputs) => timeless(Phase::Free),
+        Phase::Selected | Phase::Free => window,
+        Phase::Window if on => timeless(Phase::Run),
+        Phase::Window if !state.left.tick().is_zero() => (Phase::Window, state.left.tick(), false),
+        Phase::Window | Phase::Off => timeless(Phase::Off),
     }
 }
 
 pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (State, Outputs) {
     let (phase, left, no_current) = if inputs.sto {
-        (without_pulses(config, inputs), Cycles::ZERO, false)
+        (Phase::Selected, Cycles::ZERO, false)
     } else {
         proceed(&state, config, inputs)
     };
+    let powered = |phase| phase == Phase::Start || phase == Phase::Run;
     let after = State {
         phase,
         left,
-        sto_held: inputs.sto,
-        function_held: selected(config, inputs),
         on_held: inputs.on,
-        pulses_held: inputs.pulses,
+        came: powered(state.phase) && powered(phase) && (state.came || inputs.pulses),
     };
     let outputs = Outputs {
         sto: phase == Phase::Off,
@@ -368,9 +357,9 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
 mod tests {
     use super::*;
 
-    fn monitor(sls_unselected: bool) -> Monitor {
+    fn monitor(unselected: bool) -> Monitor {
         let time = Cycles::new(3);
-        let config = Config::new(time, time, true, true, sls_unselected, false);
+        let config = Config::new(time, time, false, true, unselected);
         Monitor::new(config.expect("accepted"))
     }
 
@@ -393,7 +382,7 @@ mod tests {
                 inputs.sls = true;
             } else {
                 inputs.sto = true;
-                assert!(monitor.step(&inputs).sto);
+                assert!(!monitor.step(&inputs).sto);
                 inputs.sto = false;
             }
             assert!(monitor.step(&inputs).window);

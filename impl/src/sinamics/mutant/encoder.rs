@@ -130,11 +130,11 @@ variants! { sinamics::gear:
 }
 
 variants! { sinamics::encoderless:
-    /// ON alone starts.
+    /// ON alone opens the window.
     "encoderless-on-starts" |state, config, inputs| {
-        let sto_held = state.sto_held || inputs.on && !state.on_held;
-        let state = encoderless::State { sto_held, ..state };
-        encoderless::transition(state, config, inputs)
+        let on = state.phase == encoderless::Phase::Off && inputs.on && !state.on_held;
+        let phase = if on { encoderless::Phase::Selected } else { state.phase };
+        encoderless::transition(encoderless::State { phase, ..state }, config, inputs)
     }
 
     /// The window never ends.
@@ -150,10 +150,16 @@ variants! { sinamics::encoderless:
         encoderless::transition(state, config, &inputs)
     }
 
-    /// SSM keeps nothing off.
-    "encoderless-ssm-keeps-nothing" |state, config, inputs| {
-        let inputs = encoderless::Inputs { ssm: false, ..*inputs };
+    /// What waits for standstill does not wait.
+    "encoderless-no-coasting" |state, config, inputs| {
+        let inputs = encoderless::Inputs { still: true, ..*inputs };
         encoderless::transition(state, config, &inputs)
+    }
+
+    /// Pulses that have not come yet after ON are taken as suppressed.
+    "encoderless-impatient" |state, config, inputs| {
+        let came = state.came || state.phase == encoderless::Phase::Run;
+        encoderless::transition(encoderless::State { came, ..state }, config, inputs)
     }
 
     /// A missing current is not told.

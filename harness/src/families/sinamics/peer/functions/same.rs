@@ -4,7 +4,7 @@ use stillpoint_model::Domain;
 use stillpoint_monitors::kernel::{ConfigError, Position, Speed};
 use stillpoint_monitors::mutant::Mutant;
 use stillpoint_monitors::sinamics::types::Stop;
-use stillpoint_monitors::sinamics::{sbr, sdi, slp, sls, ss2, ssm};
+use stillpoint_monitors::sinamics::{encoderless, sbr, sdi, slp, sls, ss2, ssm};
 
 use crate::diff::peer::numbers::{bit, distance, small, upto};
 use crate::diff::peer::same::{Same, peers};
@@ -112,6 +112,18 @@ fn slp_config(p: &Params) -> Result<slp::Config, ConfigError> {
     slp::Config::new(
         range("lower_1", "upper_1", "code_1")?,
         range("lower_2", "upper_2", "code_2")?,
+    )
+}
+
+/// In the table p9509 says where monitoring ends, in the monitor where it goes on; SSM is a parameter of both.
+fn encoderless_config(p: &Params) -> Result<encoderless::Config, ConfigError> {
+    let wait = p.time("t_wait");
+    encoderless::Config::new(
+        wait,
+        wait,
+        p.is("ssm") && !p.is("ssm_ends"),
+        !p.is("sdi_ends"),
+        p.is("static"),
     )
 }
 
@@ -251,6 +263,15 @@ peers! { sinamics |p|
             ("syncs", "synchronise"), ("new", "changed"),
         ])
         .cell("left", upto(p.value("t_tol")));
+    // What SSM and SDI tell without pulses is told by their monitors.
+    "blind" => encoderless
+        .config(encoderless_config(p)?)
+        .named(&[
+            ("slow", "still"), ("internal", "outputs.sto"), ("no_start", "no_current"), ("timer", "left"), ("was_on", "on_held"),
+            ("ran", "came"),
+        ])
+        .without(&["below"])
+        .cell("left", upto(p.value("t_wait")));
     // The brake test of a test stop.
     "with_test_stop" => brake_test_request
         .constants(&[("by_test_stop", 1), ("negative", 0), ("config.automatic", 0), ("complete", 0)])

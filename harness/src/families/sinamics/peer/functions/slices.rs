@@ -18,6 +18,9 @@ const fn whole(
 /// The inputs of SS1.
 const SS1: &[&str] = &["selected", "stop_b", "sto", "off", "n"];
 
+/// The inputs of a drive without encoder.
+const BLIND: &[&str] = &["sto", "sls", "sdi", "pulses", "slow", "on", "current"];
+
 /// The slices.
 pub(super) const SLICES: &[Slice] = &[
     whole("ss1_basic", &[("external", 0)], &["selected", "sto"]),
@@ -39,6 +42,11 @@ pub(super) const SLICES: &[Slice] = &[
         &[("cyclic", 1)],
         &["pos_1", "pos_2", "wide", "sync_once"],
     ),
+    // SSM beside SDI that ends with the pulses, and without either.
+    whole("blind", &[("ssm", 1), ("sdi_ends", 1)], BLIND),
+    whole("blind", &[("ssm_ends", 1), ("sdi_ends", 0)], BLIND),
+    // Without selection, SSM beside it.
+    whole("blind", &[("static", 1), ("ssm", 1)], BLIND),
     // A ramp that is no whole number in a cycle, down to 0.
     whole("sbr", &[("t_ref", 6), ("n_res", 0)], &["brakes", "n"]),
     // Positions within and beyond the 16 bits.
