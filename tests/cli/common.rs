@@ -66,6 +66,11 @@ pub fn copied(name: &str, machine: &str, family: &str, replace: &[(&str, &str, &
         std::fs::copy(root().join(path), to).expect("copied");
     };
     copy(Path::new(machine));
+    // The program beside it.
+    let program = Path::new(machine).with_extension("st");
+    if root().join(&program).is_file() {
+        copy(&program);
+    }
     for entry in std::fs::read_dir(root().join(family)).expect("the family") {
         copy(&Path::new(family).join(entry.expect("an entry").file_name()));
     }

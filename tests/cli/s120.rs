@@ -5,6 +5,13 @@ use crate::scenarios::{Scenarios, simulate};
 
 const GANTRY: &str = "spec/machines/gantry-s120.toml";
 
+/// The text of the gantry's file, its program in the folder.
+fn gantry(folder: &Folder) -> String {
+    let read = |path: &str| std::fs::read_to_string(root().join(path)).expect("readable");
+    folder.write("gantry-s120.st", &read("spec/machines/gantry-s120.st"));
+    read(GANTRY)
+}
+
 const SCENARIOS: Scenarios = Scenarios {
     machine: GANTRY,
     family: "sinamics-s120",
@@ -135,7 +142,7 @@ fn a_scenario_of_the_gantry_can_fail() {
 #[test]
 fn an_axis_that_does_not_brake_is_seen_by_the_ramp() {
     let folder = Folder::new("s120-sbr");
-    let machine = std::fs::read_to_string(root().join(GANTRY)).expect("readable");
+    let machine = gantry(&folder);
     let ramp = "p9506 = \"encoder, SBR\"\np9581 = \"40000 mm/min\"\np9582 = \"36 ms\"\np9583 = \"1 s\"\np9610  = 102";
     let machine = folder.write("sbr.toml", &machine.replacen("p9610  = 102", ramp, 1));
     let scenario = folder.write(
@@ -203,8 +210,9 @@ fn what_is_no_signal_or_function_of_the_gantry_is_refused() {
     ]);
     let folder = Folder::new("s120-others");
     // A drive without encoder is not simulated.
-    let machine = std::fs::read_to_string(root().join(GANTRY)).expect("readable");
+    let machine = gantry(&folder);
     let (machine, _) = machine.split_once("[door.front]").expect("it has doors");
+    let machine = format!("{machine}\n[logic.f_cpu]\nsource = \"gantry-s120.st\"\n");
     let bare = "p9610  = 104\np9506 = \"no encoder, SAM\"\np9563 = [\"STOP A\", \"STOP A\", \"STOP A\", \"STOP A\"]";
     let machine = folder.write("bare.toml", &machine.replacen("p9610  = 104", bare, 1));
     let file = folder.write("short.toml", "duration = \"1 s\"\n");

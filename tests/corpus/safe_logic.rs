@@ -1,4 +1,4 @@
-//! The guarantees of a machine with SAFE.SPF depend on the program and on how the machine data connect it: each mistake, alone, breaks
+//! The guarantees of a machine with SAFE.SPF, or with the program of an F-CPU, depend on the program and on how the machine data connect it: each mistake, alone, breaks
 //! one, and the report names the line.
 
 use std::path::PathBuf;
@@ -44,7 +44,7 @@ struct Case {
 }
 
 fn cases() -> Cases {
-    let path = root().join("tests/machines/spf-mistakes.toml");
+    let path = root().join("tests/machines/safe-logic-mistakes.toml");
     let text = std::fs::read_to_string(path).expect("readable");
     toml::from_str(&text).unwrap_or_else(|e| panic!("{e}"))
 }
@@ -66,12 +66,15 @@ fn written(k: usize, case: &Case) -> PathBuf {
     } else {
         "right"
     };
-    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("spf-{kind}-{k}"));
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("logic-{kind}-{k}"));
     std::fs::create_dir_all(&folder).expect("a folder");
     let base = case.base.as_deref().unwrap_or(LATHE);
     let stem = base.rsplit('/').next().unwrap_or(base);
-    let program = changed(text(&format!("{base}.spf")), &case.replace);
-    std::fs::write(folder.join(format!("{stem}.spf")), program).expect("written");
+    let kinds = ["spf", "st"].into_iter();
+    let mut kinds = kinds.filter(|kind| root().join(format!("{base}.{kind}")).is_file());
+    let kind = kinds.next().expect("a program");
+    let program = changed(text(&format!("{base}.{kind}")), &case.replace);
+    std::fs::write(folder.join(format!("{stem}.{kind}")), program).expect("written");
     let path = folder.join(format!("{stem}.toml"));
     let machine = changed(text(&format!("{base}.toml")), &case.machine);
     std::fs::write(&path, machine).expect("written");

@@ -63,6 +63,30 @@ impl Family {
             .map(|(_, formula)| formula)
     }
 
+    /// Learns the names that the program of a machine file declares: what a signal can be.
+    pub fn declare(&mut self, program: &[(String, bool)]) {
+        let signals = &mut self.known.signals;
+        signals.declare(program);
+        let all = [&mut self.control, &mut self.axis, &mut self.door].into_iter();
+        let all = all.chain(&mut self.group).flat_map(IndexMap::values_mut);
+        let patterns = self.patterns.values_mut();
+        for param in all.chain(patterns.flat_map(|pattern| pattern.arguments.values_mut())) {
+            for name in &param.signals {
+                for one in signals.named(name, param.inverted).into_iter().flatten() {
+                    if !param.choices.contains(&one) {
+                        param.choices.push(one);
+                    }
+                }
+            }
+            let greatest = param.choices.iter().map(|(_, code)| *code).max();
+            if !param.signals.is_empty() {
+                for limits in [&mut param.linear, &mut param.rotary] {
+                    limits.max = greatest.unwrap_or(0);
+                }
+            }
+        }
+    }
+
     /// The parameter of this name, of whatever has it.
     pub fn parameter(&self, name: &str) -> Option<&Param> {
         let all = [&self.control, &self.axis, &self.door].into_iter();
@@ -148,6 +172,9 @@ pub(super) enum Language {
     /// Statement lists of STEP 7, with the same signals as SAFE.SPF.
     #[serde(rename = "STL")]
     StatementList,
+    /// Structured Text with names of its own, which the values of the machine file connect.
+    #[serde(rename = "Structured Text with own names")]
+    Named,
 }
 
 /// A machine of the tables that a machine file may replace.
@@ -245,6 +272,10 @@ pub(super) struct Param {
     pub elements: String,
     /// The values of a choice; all signals that a signal can be.
     pub choices: Vec<(String, i64)>,
+    /// The lists of signals that it can be one of.
+    pub signals: Vec<String>,
+    /// Whether also inverted.
+    pub inverted: bool,
     /// The kinds of axes that have it, as a machine file names them; empty: all.
     pub kinds: Vec<String>,
     /// The finest step that the control takes, in base units; 1 where it is a base unit.

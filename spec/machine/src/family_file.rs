@@ -372,6 +372,10 @@ impl Check {
             count: data.count,
             elements: data.elements,
             choices,
+            signals: (data.signals.into_iter())
+                .map(Spanned::into_inner)
+                .collect(),
+            inverted: data.inverted,
             kinds: data.kinds,
             step: data.step.max(1),
             cycles: data

@@ -421,11 +421,20 @@ fn read_source(path: &Path, source: &Arc<str>, families: &Path) -> Result<Machin
     let Some(name) = family_name(&table, families, &mut findings) else {
         return Err(findings.into_diagnostics());
     };
-    let family = family_file::load(&families.join(&name))?;
+    let mut family = family_file::load(&families.join(&name))?;
     let logic = match findings.none() && !family.logic.is_empty() {
         true => Logic::read(&path.display().to_string(), source, &family),
         false => Ok(Logic::default()),
     };
+    match &logic {
+        Ok(logic) => family.declare(&logic.declared()),
+        // Every name of a program that cannot be read would be unknown.
+        Err(_) if family.known.signals.are_declared() => {
+            findings.take(logic);
+            return Err(findings.into_diagnostics());
+        }
+        Err(_) => {}
+    }
     let draft = read::read(&family, &table, &mut findings);
     let judged = plausible::judge(&family, &draft, &mut findings)?;
     let logic = findings.take(logic);

@@ -177,6 +177,10 @@ impl Logic {
                 self.wired.push(Wired::stl(name, file, source)?);
                 return Ok(());
             }
+            Language::Named => {
+                self.wired.push(Wired::st(name, file, source)?);
+                return Ok(());
+            }
             Language::StructuredText => {}
         }
         let spec = Spec::load(tables)?;
@@ -203,7 +207,7 @@ impl Logic {
         let beside = Path::new(&self.file).parent().unwrap_or(Path::new(""));
         let path: PathBuf = beside.join(named.get_ref());
         let what = match language {
-            Language::StructuredText => "program in Structured Text",
+            Language::StructuredText | Language::Named => "program in Structured Text",
             Language::SafeSpf => "program SAFE.SPF",
             Language::StatementList => "statement list",
         };
@@ -273,6 +277,24 @@ impl Logic {
         !self.wired.is_empty()
     }
 
+    /// What programs declare by names of their own: each name, and whether it is an output.
+    pub fn declared(&self) -> Vec<(String, bool)> {
+        let programs = self.wired.iter().map(|wired| &wired.program);
+        let declared = programs.filter_map(|program| match program {
+            Program::St(program) => Some(program.signals()),
+            Program::Spf(_) | Program::Stl(_) => None,
+        });
+        let declared = declared.flatten();
+        declared.map(|signal| (signal.name, signal.given)).collect()
+    }
+
+    /// An input of a program, for messages.
+    pub fn example(&self) -> String {
+        let declared = self.declared().into_iter();
+        let mut inputs = declared.filter(|(_, given)| !given);
+        inputs.next().map_or("INSE[1]".to_owned(), |(name, _)| name)
+    }
+
     /// Whether such a program is told something through this port.
     pub fn is_told(&self, spec: &Spec, port: &str) -> bool {
         self.wired.iter().any(|w| w.is_told(spec, port))
@@ -288,7 +310,7 @@ impl Logic {
             let durations = wired.compiled(spec, wiring)?.durations;
             match wired.program {
                 Program::Spf(_) => times.scanned.extend(durations),
-                Program::Stl(_) => times.running.extend(durations),
+                Program::Stl(_) | Program::St(_) => times.running.extend(durations),
             }
         }
         Ok(times)
@@ -446,7 +468,7 @@ impl Machine {
         self.basis.logic.wired.iter().flat_map(|wired| {
             let notes = match &wired.program {
                 Program::Spf(program) => program.notes(),
-                Program::Stl(_) => &[],
+                Program::Stl(_) | Program::St(_) => &[],
             };
             notes.iter().map(|note| format!("{}, {note}.", wired.file))
         })

@@ -126,11 +126,13 @@ pub(super) fn guaranteed(
                 if let Some(own) = &asked.guarantee.own {
                     connected = logic.shown(&spec, own, &asked.guarantee.place)?;
                 }
-                if let Some(scan) = explore.scan.as_ref().filter(|_| !connected.is_empty()) {
-                    let scan = evaluate(family, scan, &asked.values, judged.cycle)?.max(1);
+                if !connected.is_empty() {
                     let times = logic.times(&spec, &connected)?;
-                    system.scanned = times.scanned.into_iter().map(|d| (d, scan)).collect();
                     system.durations.extend(times.running);
+                    if let Some(scan) = &explore.scan {
+                        let scan = evaluate(family, scan, &asked.values, judged.cycle)?.max(1);
+                        system.scanned = times.scanned.into_iter().map(|d| (d, scan)).collect();
+                    }
                 }
             }
             let mut run = bind(family, explore, &system, judged.cycle, &subject, 0)?;

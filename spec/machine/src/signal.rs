@@ -1,4 +1,5 @@
-//! Numbered safe signals, by the names that programs have for them and by the coding of the machine data.
+//! Safe signals: numbered ones, by the names that programs have for them and by the coding of the machine data, and those that a program
+//! declares.
 
 use indexmap::IndexMap;
 use serde::Deserialize;
@@ -19,6 +20,10 @@ pub(super) struct Bits {
     /// They are bits of so many bytes, `M0.0` to `M255.7`; they have no machine datum, and their coding is a number of the project.
     #[serde(default)]
     bytes: i64,
+    /// They are what the program of the machine file declares: whether its outputs, else its inputs.
+    program: Option<bool>,
+    #[serde(skip)]
+    declared: Vec<String>,
     /// Their machine datum without word and bit (`i s mm xx nn`: of `xx` and `nn`).
     code: i64,
 }
@@ -40,10 +45,27 @@ impl Signals {
             let (byte, bit) = (k / 8, k % 8);
             (format!("{name}{byte}.{bit}"), bits.code + k + 1)
         });
-        let plain: Vec<_> = plain.chain(of_bytes).collect();
+        let declared = (1..).zip(&bits.declared);
+        let declared = declared.map(|(k, name)| (name.clone(), bits.code + k));
+        let plain: Vec<_> = plain.chain(of_bytes).chain(declared).collect();
         let turned = plain.iter().filter(|_| inverted);
         let turned = turned.map(|(name, code)| (format!("NOT {name}"), code + INVERTED));
         Some(plain.iter().cloned().chain(turned).collect())
+    }
+
+    /// Whether some of them are what a program declares.
+    pub fn are_declared(&self) -> bool {
+        self.0.values().any(|bits| bits.program.is_some())
+    }
+
+    /// Learns what the program of the machine file declares: each name, and whether it is an output.
+    pub fn declare(&mut self, program: &[(String, bool)]) {
+        for bits in self.0.values_mut() {
+            let of = program
+                .iter()
+                .filter(|(_, given)| bits.program == Some(*given));
+            bits.declared.extend(of.map(|(name, _)| name.clone()));
+        }
     }
 
     /// The names, for messages.
@@ -97,6 +119,8 @@ mod tests {
         let bits = |code| Bits {
             count: 64,
             bytes: 0,
+            program: None,
+            declared: Vec::new(),
             code,
         };
         let list = [("OUTSI", 0x0401_0000), ("INSE", 0x0402_0000)];

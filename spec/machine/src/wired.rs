@@ -1,5 +1,5 @@
-//! Programs with numbered signals, SAFE.SPF and statement lists: what they are connected to follows from the values of the machine file,
-//! axis by axis.
+//! Programs whose signals the values of the machine file connect, axis by axis: SAFE.SPF and statement lists with numbered ones, Structured Text
+//! with names of its own.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -7,7 +7,7 @@ use std::sync::Arc;
 use stillpoint_lang::Spec;
 use stillpoint_lang::diag::{Diagnostic, Result};
 use stillpoint_logic::Compiled;
-use stillpoint_logic::st::Signature;
+use stillpoint_logic::st::{self, Signature};
 use stillpoint_logic::{spf, stl};
 use toml::Spanned;
 
@@ -29,13 +29,15 @@ pub(super) struct Wired {
     pub source: Arc<str>,
 }
 
-/// A program in one of the languages that name signals by numbers.
+/// A program in one of these languages.
 #[derive(Clone)]
 pub(super) enum Program {
     /// The half of the NCK.
     Spf(spf::Program),
     /// The half of the PLC.
     Stl(stl::Program),
+    /// The program of an F-CPU.
+    St(st::Program),
 }
 
 /// The times of programs: name, and length in microseconds.
@@ -98,6 +100,19 @@ impl Wired {
         })
     }
 
+    /// Reads a program in Structured Text with names of its own.
+    ///
+    /// # Errors
+    /// What is wrong in its form, with its place.
+    pub fn st(name: Spanned<String>, file: String, source: Arc<str>) -> Result<Self> {
+        Ok(Self {
+            program: Program::St(st::Program::read(&file, &source)?),
+            name,
+            file,
+            source,
+        })
+    }
+
     /// Whether the specification has the machine whose place it takes.
     pub fn takes_part(&self, spec: &Spec) -> bool {
         Ports::of(spec, self.name.get_ref()).is_some()
@@ -118,6 +133,7 @@ impl Wired {
         match &self.program {
             Program::Spf(program) => program.compile(&of_nck(&ports, signature, wiring)),
             Program::Stl(program) => program.compile(&self.of_plc(&ports, signature, wiring)?),
+            Program::St(program) => program.compile(&of_named(&ports, signature, wiring)),
         }
     }
 
@@ -140,6 +156,11 @@ impl Wired {
                     // `"SPL".NOT_HALT` is `SPL.NOT_HALT` in an expression.
                     let name = used.name.map(|name| name.replace('"', ""));
                     add(Vec::from_iter(name), used.bit.to_string(), used.writes);
+                }
+            }
+            Program::St(program) => {
+                for signal in program.signals() {
+                    add(Vec::new(), signal.name, signal.given);
                 }
             }
         }
@@ -201,6 +222,30 @@ impl Wired {
     }
 }
 
+/// How a program with names of its own is connected to the ports of the machine that it stands for.
+fn of_named(ports: &Ports, signature: Signature, wiring: &Wiring) -> st::Interface {
+    let (told, given): (Vec<_>, Vec<_>) = wiring.iter().partition(|(port, _)| ports.is_told(port));
+    let told = told.into_iter();
+    let given = given.into_iter().map(|(port, signal)| {
+        let plain = signal.strip_prefix("NOT ").unwrap_or(signal);
+        let output = match plain {
+            "TRUE" | "FALSE" => st::Output::Constant(plain == "TRUE"),
+            _ => st::Output::Variable {
+                variable: plain.to_owned(),
+                inverted: plain != signal,
+            },
+        };
+        (port.clone(), output)
+    });
+    st::Interface {
+        signature,
+        inputs: told
+            .map(|(port, signal)| (signal.clone(), port.clone()))
+            .collect(),
+        outputs: given.collect(),
+    }
+}
+
 /// How SAFE.SPF is connected to the ports of the machine that it stands for.
 fn of_nck(ports: &Ports, signature: Signature, wiring: &Wiring) -> spf::Interface {
     let mut interface = spf::Interface {
@@ -256,10 +301,13 @@ pub(super) fn wiring(
                 guarantee.name
             );
             let place = Some(guarantee.place.clone());
+            let example = logic.example();
             let help = match &guarantee.door {
-                Some(door) => format!("write {name} = \"INSE[1]\" or the like under [door.{door}]"),
-                None => format!(
-                    "write {name} = \"INSE[1]\" or the like under [guarantee.{}]",
+                Some(door) if family.door.contains_key(name) => {
+                    format!("write {name} = \"{example}\" or the like under [door.{door}]")
+                }
+                _ => format!(
+                    "write {name} = \"{example}\" or the like under [guarantee.{}]",
                     guarantee.name
                 ),
             };

@@ -73,8 +73,9 @@ fn read<T: for<'de> Deserialize<'de>>(folder: &str) -> Vec<T> {
 }
 
 fn machine(text: String) -> Machine {
-    let name = Path::new("machine.toml");
-    load_bytes(name, text.clone().into_bytes(), &families())
+    // Programs stand beside it.
+    let name = root().join("spec/machines/machine.toml");
+    load_bytes(&name, text.clone().into_bytes(), &families())
         .unwrap_or_else(|e| panic!("{text}\n{e}"))
 }
 

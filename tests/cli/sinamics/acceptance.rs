@@ -175,6 +175,7 @@ fn the_configuration_decides_what_is_seen() {
             ),
             ("axes    = [\"B\"]", "axes    = [\"Y\"]"),
             ("axes    = [\"B\"]\nwithin", "axes    = [\"Y\"]\nwithin"),
+            ("axes    = [\"B\"]\nbutton", "axes    = [\"Y\"]\nbutton"),
             ("speed   = \"5 rev/min\"", "speed   = \"5000 mm/min\""),
         ],
     );

@@ -5,6 +5,7 @@ use stillpoint_lang::diag::Result;
 use stillpoint_lang::ir::{self, LazyKind, Node};
 use stillpoint_lang::syntax::{ast::TypeKind, parse_type};
 
+use crate::st::program::Output;
 use crate::st::term::{Term, Ty};
 
 /// The interface of a machine of the tables, which a program takes the place of.
@@ -15,6 +16,8 @@ pub struct Signature {
     pub(crate) outputs: Vec<Port>,
     /// Parameters of the machine, and the options of readings, which are BOOL.
     pub(crate) params: Vec<Port>,
+    /// What the outputs of the machine give, where the program has outputs by names of its own; else they have the same names.
+    pub(crate) given: Option<Vec<(String, Output)>>,
 }
 
 #[derive(Debug, Clone)]
@@ -31,9 +34,19 @@ pub(crate) struct Port {
     pub high: i64,
     /// Of an input that a program adds to those of the machine: its variable.
     pub added: Option<String>,
+    /// Of an input that a program knows by another name: that one.
+    pub called: Option<String>,
 }
 
 impl Port {
+    /// Whether a program means it by this name; names have no case.
+    pub fn is_called(&self, name: &str) -> bool {
+        self.called
+            .as_ref()
+            .unwrap_or(&self.name)
+            .eq_ignore_ascii_case(name)
+    }
+
     /// Its value, where it can be read.
     pub fn term(&self, fixed: bool) -> Term {
         let mut term = Term::leaf(self.name.clone(), self.ty, self.low, self.high);
@@ -75,6 +88,7 @@ impl Signature {
                 low: lazy.lo,
                 high: lazy.hi,
                 added: None,
+                called: None,
             })
         };
         Ok(Self {
@@ -82,6 +96,7 @@ impl Signature {
             inputs: inputs.iter().filter_map(input).collect(),
             outputs: system.lazies.iter().filter_map(output).collect(),
             params: system.params.iter().filter_map(param).collect(),
+            given: None,
         })
     }
 
@@ -143,5 +158,6 @@ fn of_var(name: &str, written: &str, var: &ir::Var) -> Port {
         low: constant(&var.lo, i64::from(-i32::MAX)),
         high: constant(&var.hi, i64::from(i32::MAX)),
         added: None,
+        called: None,
     }
 }

@@ -143,6 +143,7 @@ impl Wiring {
             low,
             high,
             added: Some(variable.to_string()),
+            called: None,
         });
         name
     }

@@ -29,6 +29,9 @@ impl<'a> Lowering<'a> {
     pub(super) fn program(&mut self, pou: &'a Pou) -> Scope<'a> {
         let scope = self.declare(pou, Body::Program, String::new(), &BTreeMap::new());
         let signature = self.signature;
+        if signature.given.is_some() {
+            return scope;
+        }
         let missing: Vec<String> = (signature.outputs.iter())
             .filter(|port| !matches!(scope.names.get(&upper(&port.name)), Some(Entry::Variable(id)) if self.variables[*id].role == Role::Output)
                 && !matches!(scope.names.get(&upper(&port.name)), Some(Entry::Failed)))
@@ -284,6 +287,12 @@ impl<'a> Lowering<'a> {
         ty: Ty,
         declared: Option<(Term, Term)>,
     ) -> Checked<Option<(Term, Term)>> {
+        if self.signature.given.is_some() {
+            return match (ty, declared) {
+                (Ty::Int | Ty::Time, None) => Err(no_range(&decl.ty)),
+                (_, declared) => Ok(declared),
+            };
+        }
         let port = self.port(&self.signature.outputs, &decl.name, "output", "VAR_OUTPUT")?;
         self.same_type(decl, ty, port.ty)?;
         let number = |value| Term::number(value, ty);
@@ -299,10 +308,7 @@ impl<'a> Lowering<'a> {
         what: &str,
         section: &str,
     ) -> Checked<&'a crate::st::signature::Port> {
-        if let Some(port) = ports
-            .iter()
-            .find(|p| p.name.eq_ignore_ascii_case(&name.text))
-        {
+        if let Some(port) = ports.iter().find(|p| p.is_called(&name.text)) {
             return Ok(port);
         }
         let known = || ports.iter().map(|p| p.name.as_str());

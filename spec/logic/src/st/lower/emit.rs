@@ -7,6 +7,7 @@ use toml::Spanned;
 
 use super::{Entry, Lowering, Role, Scope, Slot, Variable};
 use crate::fault::Span;
+use crate::st::program::Output;
 use crate::st::term::{Term, Ty, Use};
 use crate::{Compiled, Input};
 
@@ -17,6 +18,22 @@ pub(super) fn most_cycles(us: u64) -> i64 {
 
 fn text(span: &Span, text: impl Into<String>) -> Spanned<String> {
     Spanned::new(span.clone(), text.into())
+}
+
+/// What an output of the machine gives.
+#[derive(Clone, Copy)]
+enum Given {
+    Constant(bool),
+    Variable { id: usize, inverted: bool },
+}
+
+impl Given {
+    fn variable(self) -> Option<usize> {
+        match self {
+            Self::Constant(_) => None,
+            Self::Variable { id, .. } => Some(id),
+        }
+    }
 }
 
 impl<'a> Lowering<'a> {
@@ -30,9 +47,9 @@ impl<'a> Lowering<'a> {
                 self.set(id, settled);
             }
         }
-        for (_, id) in &outputs {
-            let settled = self.settled(*id, (*self.value(Slot::Variable(*id))).clone());
-            self.set(*id, settled);
+        for id in outputs.iter().filter_map(|(_, given)| given.variable()) {
+            let settled = self.settled(id, (*self.value(Slot::Variable(id))).clone());
+            self.set(id, settled);
         }
         let needed = self.needed(&outputs);
         let mut machine = Written::new(format!(
@@ -61,10 +78,16 @@ impl<'a> Lowering<'a> {
             );
             machine.add_rule(text(span, "cycle"), text(span, then), &note);
         }
-        for (name, id) in &outputs {
-            let variable = &self.variables[*id];
-            let value = text(&variable.span, self.value(Slot::Variable(*id)).text.clone());
-            machine.add_output(text(&variable.span, name.clone()), value, "");
+        for (name, given) in &outputs {
+            let (span, value) = match *given {
+                Given::Constant(value) => (span, Term::bool(value)),
+                Given::Variable { id, inverted } => {
+                    let value = (*self.value(Slot::Variable(id))).clone();
+                    let value = if inverted { value.not() } else { value };
+                    (&self.variables[id].span, value)
+                }
+            };
+            machine.add_output(text(span, name.clone()), text(span, value.text), "");
         }
         Compiled {
             name: self.tree.program.name.text.clone(),
@@ -103,17 +126,26 @@ impl<'a> Lowering<'a> {
         inputs
     }
 
-    /// The outputs in the order of the signature, by the names that it has for them.
-    fn outputs(&self, scope: &Scope<'a>) -> Vec<(String, usize)> {
-        let ports = self.signature.outputs.iter();
-        let found =
-            ports.filter_map(
-                |port| match scope.names.get(&super::declare::upper(&port.name)) {
-                    Some(Entry::Variable(id)) => Some((port.name.clone(), *id)),
-                    _ => None,
-                },
-            );
-        found.collect()
+    /// The outputs of the machine by the names that it has for them: of the same name, or what the interface says.
+    fn outputs(&self, scope: &Scope<'a>) -> Vec<(String, Given)> {
+        let named = |name: &str, inverted| match scope.names.get(&super::declare::upper(name)) {
+            Some(Entry::Variable(id)) => Some(Given::Variable { id: *id, inverted }),
+            _ => None,
+        };
+        match &self.signature.given {
+            None => (self.signature.outputs.iter())
+                .filter_map(|port| Some((port.name.clone(), named(&port.name, false)?)))
+                .collect(),
+            Some(given) => (given.iter())
+                .filter_map(|(port, output)| {
+                    let given = match output {
+                        Output::Constant(value) => Given::Constant(*value),
+                        Output::Variable { variable, inverted } => named(variable, *inverted)?,
+                    };
+                    Some((port.clone(), given))
+                })
+                .collect(),
+        }
     }
 
     /// The value under a name, where it reads state itself.
@@ -138,11 +170,11 @@ impl<'a> Lowering<'a> {
     }
 
     /// Everything that an output reads, at once or over the cycles, and every check.
-    fn needed(&self, outputs: &[(String, usize)]) -> BTreeSet<Use> {
+    fn needed(&self, outputs: &[(String, Given)]) -> BTreeSet<Use> {
         let mut needed = BTreeSet::new();
         let mut open: Vec<Use> = Vec::new();
-        for (_, id) in outputs {
-            open.extend(&self.value(Slot::Variable(*id)).uses);
+        for id in outputs.iter().filter_map(|(_, given)| given.variable()) {
+            open.extend(&self.value(Slot::Variable(id)).uses);
         }
         for check in &self.checks {
             open.extend(check.path.uses.iter().chain(&check.value.uses));

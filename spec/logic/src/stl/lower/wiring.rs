@@ -127,6 +127,7 @@ impl Wiring {
             low,
             high,
             added: Some(title),
+            called: None,
         });
         name
     }
