@@ -65,6 +65,9 @@ impl Family {
 
     /// Learns the names that the program of a machine file declares: what a signal can be.
     pub fn declare(&mut self, program: &[(String, bool)]) {
+        if program.is_empty() {
+            return; // the lists of numbered signals are long, and whole already
+        }
         let signals = &mut self.known.signals;
         signals.declare(program);
         let all = [&mut self.control, &mut self.axis, &mut self.door].into_iter();

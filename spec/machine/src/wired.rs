@@ -199,7 +199,7 @@ impl Wired {
             scan: Some(SCAN.to_owned()),
         };
         for (port, signal) in wiring {
-            let plain = signal.strip_prefix("NOT ").unwrap_or(signal);
+            let (plain, inverted) = plain(signal);
             if matches!(plain, "TRUE" | "FALSE") {
                 let output = stl::Output::Constant(signal == "TRUE");
                 interface.outputs.push((port.clone(), output));
@@ -212,7 +212,6 @@ impl Wired {
             match ports.is_told(port) {
                 true => interface.inputs.push((bit, port.clone())),
                 false => {
-                    let inverted = plain != signal;
                     let output = stl::Output::Bit { bit, inverted };
                     interface.outputs.push((port.clone(), output));
                 }
@@ -222,17 +221,23 @@ impl Wired {
     }
 }
 
+/// A signal without what inverts it, and whether it is inverted.
+fn plain(signal: &str) -> (&str, bool) {
+    let plain = signal.strip_prefix("NOT ");
+    (plain.unwrap_or(signal), plain.is_some())
+}
+
 /// How a program with names of its own is connected to the ports of the machine that it stands for.
 fn of_named(ports: &Ports, signature: Signature, wiring: &Wiring) -> st::Interface {
     let (told, given): (Vec<_>, Vec<_>) = wiring.iter().partition(|(port, _)| ports.is_told(port));
     let told = told.into_iter();
     let given = given.into_iter().map(|(port, signal)| {
-        let plain = signal.strip_prefix("NOT ").unwrap_or(signal);
+        let (plain, inverted) = plain(signal);
         let output = match plain {
             "TRUE" | "FALSE" => st::Output::Constant(plain == "TRUE"),
             _ => st::Output::Variable {
                 variable: plain.to_owned(),
-                inverted: plain != signal,
+                inverted,
             },
         };
         (port.clone(), output)
@@ -256,13 +261,12 @@ fn of_nck(ports: &Ports, signature: Signature, wiring: &Wiring) -> spf::Interfac
         readings: spf::Readings::default(),
     };
     for (port, signal) in wiring {
-        let plain = signal.strip_prefix("NOT ").unwrap_or(signal);
+        let (plain, inverted) = plain(signal);
         match plain.parse().ok() {
             Some(variable) if ports.is_told(port) => {
                 interface.inputs.push((variable, port.clone()));
             }
             Some(variable) => {
-                let inverted = plain != signal;
                 let output = spf::Output::Variable { variable, inverted };
                 interface.outputs.push((port.clone(), output));
             }
