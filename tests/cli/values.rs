@@ -49,8 +49,13 @@ fn unusual_values_are_told_with_place_reason_and_what_is_better() {
 fn a_check_tells_warnings_apart_from_verdicts() {
     let folder = Folder::new("values");
     let page = folder.file("report.html");
-    let output = stillpoint(&["check", FAST, "--json", "--html", &page]);
-    assert_eq!(status(&output), 0, "{}", stderr(&output));
+    let output = stillpoint(&["check", FAST, "--json", "--html", &page, "--deny-warnings"]);
+    assert_eq!(status(&output), 1, "{}", stderr(&output));
+    assert!(
+        stderr(&output).starts_with("error: 2 warnings about the values"),
+        "{}",
+        stderr(&output)
+    );
     let report: Value = serde_json::from_str(&stdout(&output)).expect("JSON");
     let verdicts = report["properties"].as_array().expect("properties").iter();
     let verdicts: Vec<&str> = verdicts.filter_map(|p| p["verdict"].as_str()).collect();
@@ -88,24 +93,48 @@ fn a_check_tells_warnings_apart_from_verdicts() {
     ] {
         assert!(html.contains(text), "{text}");
     }
-    let text = stillpoint(&["check", FAST, "--deny-warnings"]);
-    assert_eq!(status(&text), 1);
+}
+
+/// The same as text and as Markdown, of a machine that is checked in a second.
+#[test]
+fn warnings_stand_before_the_properties_and_can_be_denied() {
+    let folder = Folder::new("values-text");
+    let read = |name: &str| {
+        let path = crate::common::root().join("spec/machines").join(name);
+        std::fs::read_to_string(path).expect("readable")
+    };
+    folder.write("gantry-s120.st", &read("gantry-s120.st"));
+    let accepted = "
+[[accepted]]
+warning = \"shutdown-speed-high\"
+axis    = \"Y\"
+reason  = \"Nobody reaches the cross axis.\"
+";
+    let text = read("gantry-s120.toml") + accepted;
+    let changed = text.replace("p9560  = \"50 mm/min\"", "p9560  = \"3000 mm/min\"");
+    assert_ne!(changed, text);
+    let file = folder.write("gantry.toml", &changed);
+    let allowed = stillpoint(&["check", &file]);
+    assert_eq!(status(&allowed), 0, "{}", stderr(&allowed));
+    let denied = stillpoint(&["check", &file, "--deny-warnings"]);
+    assert_eq!(status(&denied), 1);
     assert!(
-        stderr(&text).starts_with("error: 2 warnings about the values"),
+        stderr(&denied).starts_with("error: 2 warnings about the values"),
         "{}",
-        stderr(&text)
+        stderr(&denied)
     );
-    let text = stdout(&text);
-    let part = text
-        .find("These values: 3 warnings, 1 of them accepted with reasons")
-        .expect("told");
-    assert!(
-        text.starts_with("door-too-fast: NO GUARANTEE IS ASKED"),
-        "{text}"
-    );
-    assert!(part < text.find("  holds").expect("a property"), "{text}");
-    let markdown = stdout(&stillpoint(&["check", FAST, "--markdown"]));
-    assert!(markdown.contains("These values") && markdown.contains("door-stage-not-slowest"));
+    for text in [stdout(&allowed), stdout(&denied)] {
+        let part = text
+            .find("These values: 3 warnings, 1 of them accepted with reasons")
+            .expect("told");
+        assert!(
+            text.starts_with("gantry-s120: ALL GUARANTEES HOLD"),
+            "{text}"
+        );
+        assert!(part < text.find("  holds        S120-").expect("a property"));
+    }
+    let markdown = stdout(&stillpoint(&["check", &file, "--markdown"]));
+    assert!(markdown.contains("These values") && markdown.contains("shutdown-speed-high"));
 }
 
 /// What is accepted must exist and have a reason, and what nothing needs is told.

@@ -5,7 +5,7 @@ use std::collections::btree_map::Entry;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use stillpoint_lang::analysis::Analysis;
+use stillpoint_lang::analysis::{Analysis, Known};
 use stillpoint_lang::bind::{BindError, Bound};
 use stillpoint_lang::diag::{Diagnostic, Diagnostics, Result};
 use stillpoint_lang::{Spec, read_text};
@@ -84,6 +84,7 @@ fn of_spec(path: &Path, text: Arc<str>, readings: &Readings) -> Result<Subject> 
     let spec = Spec::from_text(path, text.clone())?;
     let names: Vec<String> = spec.systems().map(str::to_owned).collect();
     let mut tasks = Vec::new();
+    let mut known = Known::default();
     let mut errors = Vec::new();
     for name in &names {
         let system = match spec.system(name, None) {
@@ -94,7 +95,7 @@ fn of_spec(path: &Path, text: Arc<str>, readings: &Readings) -> Result<Subject> 
             }
         };
         let bound = bind(path, &text, system, &BTreeMap::new(), readings)?;
-        match spec.analyse(&bound) {
+        match spec.analyse(&bound, &mut known) {
             Ok(analysis) => tasks.push(Task {
                 title: bound.system.text.clone(),
                 axes: Vec::new(),
@@ -148,6 +149,7 @@ pub fn of_runs(
     readings: &Readings,
 ) -> Result<Subject> {
     let mut tasks = Vec::new();
+    let mut known = Known::default();
     let mut specs: BTreeMap<_, Spec> = BTreeMap::new();
     for run in runs {
         let spec = match specs.entry((
@@ -162,7 +164,7 @@ pub fn of_runs(
         let system = spec.system(&run.system, cycle)?;
         let source: Arc<str> = Arc::from("");
         let bound = bind(&run.file, &source, system, &run.params, readings)?;
-        let analysis = spec.analyse(&bound)?;
+        let analysis = spec.analyse(&bound, &mut known)?;
         tasks.push(Task {
             title: run.title.clone(),
             axes: run.axes.clone(),

@@ -2,10 +2,12 @@
 //!
 //! The guards' variables (state, ports, nothing else) are enumerated on demand: only what a guard really reads.
 
+use std::collections::BTreeSet;
+
 use crate::bind::Bound;
 use crate::diag::{Diagnostic, Diagnostics, Result};
 use crate::eval::{Cells, Driven, Frame, UNSET, value};
-use crate::ir::{Lazy, LazyKind, Node, Space, Stmt};
+use crate::ir::{Lazy, LazyKind, Node, Space, Stmt, Ty};
 use crate::spec::Spec;
 
 /// Evaluations after which the analysis of one machine gives up and says so.
@@ -21,11 +23,11 @@ pub struct Analysis {
 }
 
 impl Spec {
-    /// Analyses the rules of `bound`, which must come from this specification.
+    /// Analyses the rules of `bound`, which must come from this specification; `known` may be of others.
     ///
     /// # Errors
     /// Uncovered cases of machines without `otherwise = "stay"`, overlaps in `exclusive` machines, bad keys.
-    pub fn analyse(&self, bound: &Bound) -> Result<Analysis> {
+    pub fn analyse(&self, bound: &Bound, known: &mut Known) -> Result<Analysis> {
         let mut out = Analysis::default();
         let mut errors: Vec<Diagnostic> = Vec::new();
         let mut first = 0;
@@ -62,13 +64,20 @@ impl Spec {
                     true
                 }
             };
-            let found = Guards::new(bound, k).examine(exclusive, stays);
-            match found {
+            let (guards, reading) = Guards::of(bound, k, exclusive, stays);
+            let at = known.0.iter().position(|(other, _)| *other == guards);
+            let at = at.unwrap_or_else(|| {
+                let found = guards.examine();
+                known.0.push((guards, found));
+                known.0.len() - 1
+            });
+            match &known.0[at].1 {
                 None => out.skipped.push(instance.name.clone()),
                 Some(found) => {
                     let dead = found.fires.iter().enumerate().filter(|(_, hit)| !**hit);
                     out.dead.extend(dead.map(|(n, _)| first + n));
-                    if let (Some(case), false) = (found.uncovered, stays) {
+                    if let (Some(case), false) = (&found.uncovered, stays) {
+                        let case = reading.show(case);
                         errors.push(
                             self.error(
                                 located.file,
@@ -79,8 +88,9 @@ impl Spec {
                             .help("add a rule, or `otherwise = \"stay\"` if nothing shall happen"),
                         );
                     }
-                    if let Some((a, b, case)) = found.overlap {
+                    if let Some((a, b, case)) = &found.overlap {
                         let name = |n: usize| machine.rule[n].name.get_ref().clone();
+                        let (a, b, case) = (*a, *b, reading.show(case));
                         errors.push(
                             self.error(
                                 located.file,
@@ -105,86 +115,95 @@ impl Spec {
     }
 }
 
-/// The guards of one instance, with state and wired ports turned into inputs of an enumeration.
-struct Guards<'a> {
-    bound: &'a Bound,
+/// What the guards of instances were found to do, so that those which are alike, such as the same machine in several axes, are examined once.
+#[derive(Debug, Default)]
+pub struct Known(Vec<(Guards, Option<Found>)>);
+
+/// The guards of one instance, with state, wired ports and elements of parameters turned into inputs of an enumeration, which are numbered
+/// anew: alike in each instance and system whose guards read alike.
+#[derive(Debug, PartialEq)]
+struct Guards {
     whens: Vec<Node>,
-    effects: Vec<Vec<Stmt>>,
-    lazies: Vec<Lazy>,
-    names: Vec<(String, crate::ir::Ty, i32, i32)>,
+    /// The values of the lets.
+    lets: Vec<Node>,
+    ranges: Vec<(i32, i32)>,
+    /// For each rule the first one with the same effect.
+    effects: Vec<usize>,
+    exclusive: bool,
+    stays: bool,
 }
 
+/// The inputs that an evaluation read, with their values.
+type Case = Vec<(usize, i32)>;
+
+#[derive(Debug)]
 struct Found {
     fires: Vec<bool>,
-    uncovered: Option<String>,
-    overlap: Option<(usize, usize, String)>,
+    uncovered: Option<Case>,
+    overlap: Option<(usize, usize, Case)>,
 }
 
-impl<'a> Guards<'a> {
-    fn new(bound: &'a Bound, k: usize) -> Self {
-        let system = &bound.system;
-        let mut names = Vec::new();
-        let cells = system.inputs.iter().zip(&bound.inputs);
-        names.extend(cells.map(|(v, (lo, hi))| (v.name.clone(), v.ty, *lo, *hi)));
-        let state = names.len() as u32;
-        let cells = system.states.iter().zip(&bound.states);
-        names.extend(cells.map(|(s, (lo, hi))| (s.var.name.clone(), s.var.ty, *lo, *hi)));
-        let wire = names.len() as u32;
-        names.extend(system.lazies.iter().map(|l| {
-            let clip = |v: i64| v.clamp(i64::from(i32::MIN) + 1, i64::from(i32::MAX)) as i32;
-            (l.name.clone(), l.ty, clip(l.lo), clip(l.hi))
-        }));
-        let free = |node: &Node| free(node, state, wire, &system.lazies);
-        let rules = &system.instances[k].rules;
-        let lazies = system
-            .lazies
-            .iter()
-            .map(|l| Lazy {
-                value: free(&l.value),
-                ..l.clone()
-            })
-            .collect();
-        Self {
+impl Guards {
+    fn of(bound: &Bound, k: usize, exclusive: bool, stays: bool) -> (Self, Reading<'_>) {
+        let rules = &bound.system.instances[k].rules;
+        let mut reading = Reading {
             bound,
-            whens: rules.iter().map(|r| free(&r.when)).collect(),
-            effects: rules
-                .iter()
-                .map(|r| r.then.iter().map(without_site).collect())
-                .collect(),
-            lazies,
-            names,
+            cells: BTreeSet::new(),
+            lets: BTreeSet::new(),
+        };
+        for rule in rules {
+            reading.gather(&rule.when);
         }
+        let effects: Vec<Vec<Stmt>> = rules
+            .iter()
+            .map(|r| r.then.iter().map(without_site).collect())
+            .collect();
+        let first = |e: &Vec<Stmt>| effects.iter().position(|other| other == e);
+        let lazies = reading
+            .lets
+            .iter()
+            .map(|k| &bound.system.lazies[*k as usize]);
+        let guards = Self {
+            whens: rules.iter().map(|r| reading.free(&r.when)).collect(),
+            lets: lazies.map(|l| reading.free(&l.value)).collect(),
+            ranges: reading.cells.iter().map(|c| reading.about(*c).2).collect(),
+            effects: effects.iter().filter_map(first).collect(),
+            exclusive,
+            stays,
+        };
+        (guards, reading)
     }
 
-    fn examine(&self, exclusive: bool, stays: bool) -> Option<Found> {
+    fn examine(&self) -> Option<Found> {
         let mut found = Found {
             fires: vec![false; self.whens.len()],
             uncovered: None,
             overlap: None,
         };
+        let lazies: Vec<Lazy> = self.lets.iter().map(unnamed).collect();
         let cells = Cells {
-            params: &self.bound.values,
-            lazies: &self.lazies,
+            params: &[],
+            lazies: &lazies,
         };
         let mut frame = Frame::empty();
-        frame.inputs = vec![UNSET; self.names.len()];
-        frame.lazies = vec![UNSET; self.lazies.len()];
-        // The reads of the present evaluation: (variable, value).
-        let mut reads: Vec<(usize, i32)> = Vec::new();
+        frame.inputs = vec![UNSET; self.ranges.len()];
+        frame.lazies = vec![UNSET; self.lets.len()];
+        // The reads of the present evaluation.
+        let mut reads: Case = Vec::new();
         for _ in 0..BUDGET {
             frame.inputs.fill(UNSET);
             frame.lazies.fill(UNSET);
             let mut at = 0;
             let mut read = |k: usize| {
                 if at == reads.len() {
-                    reads.push((k, self.names[k].2));
+                    reads.push((k, self.ranges[k].0));
                 }
                 at += 1;
                 reads[at - 1].1
             };
             let mut hit = None;
             for (n, when) in self.whens.iter().enumerate() {
-                if hit.is_some() && !exclusive {
+                if hit.is_some() && !self.exclusive {
                     break;
                 }
                 let memory = &mut Driven {
@@ -197,19 +216,20 @@ impl<'a> Guards<'a> {
                 match hit {
                     None => hit = Some(n),
                     Some(a) if self.effects[a] != self.effects[n] && found.overlap.is_none() => {
-                        let case = self.case(&frame);
-                        found.overlap = Some((a, n, case));
+                        found.overlap = Some((a, n, case(&frame)));
                     }
                     Some(_) => {}
                 }
             }
             match hit {
                 Some(n) => found.fires[n] = true,
-                None if found.uncovered.is_none() => found.uncovered = Some(self.case(&frame)),
+                None if found.uncovered.is_none() => found.uncovered = Some(case(&frame)),
                 None => {}
             }
             // Where the first rule wins and no rule is needed, there is nothing more to find.
-            if !exclusive && (stays || found.uncovered.is_some()) && found.fires.iter().all(|f| *f)
+            if !self.exclusive
+                && (self.stays || found.uncovered.is_some())
+                && found.fires.iter().all(|f| *f)
             {
                 return Some(found);
             }
@@ -217,7 +237,7 @@ impl<'a> Guards<'a> {
             loop {
                 match reads.last_mut() {
                     None => return Some(found),
-                    Some((k, v)) if *v < self.names[*k].3 => {
+                    Some((k, v)) if *v < self.ranges[*k].1 => {
                         *v += 1;
                         break;
                     }
@@ -229,17 +249,150 @@ impl<'a> Guards<'a> {
         }
         None
     }
+}
 
-    fn case(&self, frame: &Frame) -> String {
-        let set = frame
-            .inputs
+/// What was read so far, in the order of the variables.
+fn case(frame: &Frame) -> Case {
+    let set = frame.inputs.iter().copied().enumerate();
+    set.filter(|(_, v)| *v != UNSET).collect()
+}
+
+fn unnamed(value: &Node) -> Lazy {
+    Lazy {
+        name: String::new(),
+        kind: LazyKind::Let,
+        ty: Ty::Int,
+        value: value.clone(),
+        lo: i64::from(i32::MIN),
+        hi: i64::from(i32::MAX),
+        ids: Vec::new(),
+        text: String::new(),
+    }
+}
+
+/// What guards read of a system, numbered from 0: its inputs, then state, wired ports, elements of parameters.
+struct Reading<'a> {
+    bound: &'a Bound,
+    cells: BTreeSet<u32>,
+    lets: BTreeSet<u32>,
+}
+
+impl<'a> Reading<'a> {
+    /// The first state, wired port and parameter.
+    fn starts(&self) -> [u32; 3] {
+        let state = self.bound.system.inputs.len() as u32;
+        let wire = state + self.bound.system.states.len() as u32;
+        [state, wire, wire + self.bound.system.lazies.len() as u32]
+    }
+
+    fn number(&self, space: Space, k: u32) -> u32 {
+        let [state, _, param] = self.starts();
+        match space {
+            Space::Input => k,
+            Space::Before | Space::Now => state + k,
+            Space::Param => param + k,
+        }
+    }
+
+    fn is_let(&self, k: u32) -> bool {
+        self.bound.system.lazies[k as usize].kind == LazyKind::Let
+    }
+
+    /// Name, type and range of a variable.
+    fn about(&self, cell: u32) -> (&'a str, Ty, (i32, i32)) {
+        let system = &self.bound.system;
+        let [state, wire, param] = self.starts();
+        let clip = |v: i64| v.clamp(i64::from(i32::MIN) + 1, i64::from(i32::MAX)) as i32;
+        if cell < state {
+            let k = cell as usize;
+            (
+                &system.inputs[k].name,
+                system.inputs[k].ty,
+                self.bound.inputs[k],
+            )
+        } else if cell < wire {
+            let k = (cell - state) as usize;
+            let var = &system.states[k].var;
+            (&var.name, var.ty, self.bound.states[k])
+        } else if cell < param {
+            let l = &system.lazies[(cell - wire) as usize];
+            (&l.name, l.ty, (clip(l.lo), clip(l.hi)))
+        } else {
+            let k = (cell - param) as usize;
+            // Never shown: a case names what varies.
+            let value = self.bound.values[k];
+            ("", Ty::Int, (value, value))
+        }
+    }
+
+    fn gather(&mut self, node: &Node) {
+        match node {
+            Node::Cell(Space::Param, _) => {}
+            Node::Cell(space, k) => {
+                self.cells.insert(self.number(*space, *k));
+            }
+            Node::Lazy(k) if self.is_let(*k) => {
+                if self.lets.insert(*k) {
+                    let bound = self.bound;
+                    self.gather(&bound.system.lazies[*k as usize].value);
+                }
+            }
+            Node::Lazy(k) => {
+                let [_, wire, _] = self.starts();
+                self.cells.insert(wire + k);
+            }
+            Node::Element {
+                space, base, len, ..
+            } => {
+                let first = self.number(*space, *base);
+                self.cells.extend(first..first + len);
+            }
+            _ => {}
+        }
+        for child in node.children() {
+            self.gather(child);
+        }
+    }
+
+    /// State, wired ports and elements of parameters become inputs, parameters their values.
+    fn free(&self, node: &Node) -> Node {
+        let anew = |cell: u32| self.cells.range(..cell).count() as u32;
+        match node {
+            Node::Cell(Space::Param, k) => Node::Const(i64::from(self.bound.values[*k as usize])),
+            Node::Cell(space, k) => Node::Cell(Space::Input, anew(self.number(*space, *k))),
+            Node::Lazy(k) if self.is_let(*k) => Node::Lazy(self.lets.range(..k).count() as u32),
+            Node::Lazy(k) => {
+                let [_, wire, _] = self.starts();
+                Node::Cell(Space::Input, anew(wire + k))
+            }
+            Node::Element {
+                space,
+                base,
+                lo,
+                len,
+                index,
+            } => Node::Element {
+                space: Space::Input,
+                base: anew(self.number(*space, *base)),
+                lo: *lo,
+                len: *len,
+                index: Box::new(self.free(index)),
+            },
+            other => other.map(&mut |child| self.free(child)),
+        }
+    }
+
+    /// A case in words.
+    fn show(&self, case: &Case) -> String {
+        let cells: Vec<u32> = self.cells.iter().copied().collect();
+        let [_, _, param] = self.starts();
+        let parts: Vec<String> = case
             .iter()
-            .zip(&self.names)
-            .filter(|(v, _)| **v != UNSET);
-        let parts: Vec<String> = set
-            .map(|(v, (name, ty, ..))| {
+            .filter(|(k, _)| cells[*k] < param)
+            .map(|(k, v)| {
+                let (name, ty, _) = self.about(cells[*k]);
                 let short = name.rsplit('.').next().unwrap_or(name);
-                format!("{short} = {}", self.bound.system.show(*ty, i64::from(*v)))
+                format!("{short} = {}", self.bound.system.show(ty, i64::from(*v)))
             })
             .collect();
         if parts.is_empty() {
@@ -247,30 +400,6 @@ impl<'a> Guards<'a> {
         } else {
             parts.join(", ")
         }
-    }
-}
-
-/// State and wired ports become inputs, numbered from `state` and `wire`.
-fn free(node: &Node, state: u32, wire: u32, lazies: &[Lazy]) -> Node {
-    match node {
-        Node::Cell(Space::Before | Space::Now, k) => Node::Cell(Space::Input, state + k),
-        Node::Lazy(k) if lazies[*k as usize].kind != LazyKind::Let => {
-            Node::Cell(Space::Input, wire + k)
-        }
-        Node::Element {
-            space: Space::Before | Space::Now,
-            base,
-            lo,
-            len,
-            index,
-        } => Node::Element {
-            space: Space::Input,
-            base: state + base,
-            lo: *lo,
-            len: *len,
-            index: Box::new(free(index, state, wire, lazies)),
-        },
-        other => other.map(&mut |child| free(child, state, wire, lazies)),
     }
 }
 

@@ -47,7 +47,9 @@ fn load(path: &Path, text: &str, analyse: bool) {
             Ok(system) => match Bound::new(system, &BTreeMap::new(), &BTreeMap::new()) {
                 Err(error) => assert!(!error.to_string().is_empty()),
                 Ok(bound) if analyse => {
-                    if let Err(errors) = spec.analyse(&bound) {
+                    if let Err(errors) =
+                        spec.analyse(&bound, &mut stillpoint_lang::analysis::Known::default())
+                    {
                         showable(&errors);
                     }
                 }

@@ -199,9 +199,12 @@ fn cases_that_overlap_or_are_missing() {
         &BTreeMap::new(),
     );
     assert_eq!(
-        spec.analyse(&b.expect("bound"))
-            .unwrap_or_else(|e| panic!("{e}"))
-            .dead,
+        spec.analyse(
+            &b.expect("bound"),
+            &mut stillpoint_lang::analysis::Known::default()
+        )
+        .unwrap_or_else(|e| panic!("{e}"))
+        .dead,
         [1]
     );
 }
