@@ -139,3 +139,27 @@ fn modules_have_one_style() {
     let beside: Vec<_> = beside.collect();
     assert!(beside.is_empty(), "{beside:#?}");
 }
+
+/// The libraries have `doctest = false`, which spares the tests a reading of each: an example in Rust would not be run.
+#[test]
+fn no_comment_has_an_example_that_nothing_runs() {
+    let mut all = Vec::new();
+    for folder in ["harness", "impl", "model", "proofs", "spec", "tests"] {
+        sources(&root().join(folder), &[], &mut all);
+    }
+    assert!(all.len() > 500, "{} files", all.len());
+    for path in all {
+        let text = std::fs::read_to_string(&path).expect("readable");
+        let lines = text.lines().map(str::trim_start);
+        let comments = lines.filter(|l| l.starts_with("//!") || l.starts_with("///"));
+        let fences = comments.filter_map(|l| l[3..].trim_start().strip_prefix("```"));
+        for opening in fences.step_by(2) {
+            let words = ["text", "toml", "json", "sh"];
+            assert!(
+                words.contains(&opening),
+                "{}: an example in '{opening}'",
+                path.display()
+            );
+        }
+    }
+}
