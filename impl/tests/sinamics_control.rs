@@ -146,7 +146,7 @@ fn selecting_sto_acknowledges_nothing() {
 /// S120-ACK-514, S120-FDI-502: one broken input of the acknowledging F-DI neither acknowledges nor stays unseen.
 #[test]
 fn a_broken_input_does_not_acknowledge() {
-    let config = fail_safe_input::Config::new(Cycles::new(3), false).expect("some");
+    let config = fail_safe_input::Config::new(Cycles::new(3), false, false).expect("some");
     let mut input = fail_safe_input::Monitor::new(config);
     let mut edge = acknowledgement_edge::Monitor::new(acknowledgement_edge::Config);
     let mut step = |input1, input2| {

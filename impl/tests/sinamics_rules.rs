@@ -247,7 +247,7 @@ fn one_delay_for_sls_and_sos() {
 /// S120-FDI-504: level 11, SLS4. A discrepancy at one of both F-DIs leaves its bit 0, at both SLS1; the lower limit has its p9551.
 #[test]
 fn frozen_level_inputs_select_sls1() {
-    let config = fail_safe_input::Config::new(Cycles::new(2), false).expect("a time");
+    let config = fail_safe_input::Config::new(Cycles::new(2), false, false).expect("a time");
     let run = |broken: [bool; 2]| {
         let mut fdi = [fail_safe_input::Monitor::new(config); 2];
         let mut sls = speed_limits(Cycles::new(3));

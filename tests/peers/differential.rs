@@ -43,6 +43,7 @@ const SINAMICS_FUNCTIONS: &[&str] = &[
     "spec/families/sinamics-s120/gear.toml",
     "spec/families/sinamics-s120/setpoint-limit.toml",
     "spec/families/sinamics-s120/encoderless.toml",
+    "spec/families/sinamics-s120/start-phase.toml",
     "spec/families/sinamics-s120/drive-test.toml",
     "spec/families/sinamics-s120/sbt.toml",
 ];

@@ -14,7 +14,7 @@
 //! | [`ssm`], [`sdi`] | speed below a limit; motion in one direction only |
 //! | [`slp`], [`reference`], [`safe_position`] | range of positions with retraction; safe referencing; the transferred position |
 //! | [`actual_value`], [`gear`] | comparison of the actual values of both channels; gear stages |
-//! | [`encoderless`] | a drive without encoder after the suppression of its pulses |
+//! | [`encoderless`], [`start_phase`] | a drive without encoder after the suppression of its pulses; and after they have come again |
 //! | [`drive_test`], [`path_test`] | test stop of the Extended Functions; test of the paths by the Basic ones |
 //! | [`brake_test`], [`brake_test_request`] | safe brake test; its request by the test stop |
 //! | [`data_set`] | change of the drive data set |
@@ -39,7 +39,7 @@
 macro_rules! sinamics_monitors {
     ($callback:ident $($more:tt)*) => { $callback! { sinamics [$($more)*]
         sto sbc ss1_basic ss1 ss2 sos sam sbr sls sls_ramp setpoint_limit ssm sdi
-        slp reference safe_position actual_value gear encoderless drive_test path_test brake_test
+        slp reference safe_position actual_value gear encoderless start_phase drive_test path_test brake_test
         brake_test_request data_set
         input_filter terminal_pair chatter basic_selection basic_stop fail_safe_input fail_safe_output safe_state
         stop_arbiter acknowledgement_edge acknowledgement restart communication io_test message_buffer
@@ -73,6 +73,7 @@ pub mod ss1;
 pub mod ss1_basic;
 pub mod ss2;
 pub mod ssm;
+pub mod start_phase;
 pub mod sto;
 pub mod telegram;
 pub mod times;

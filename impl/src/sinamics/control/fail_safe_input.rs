@@ -3,32 +3,40 @@
 //! The value is 1 (deselected) only while both inputs say so. If they differ for p10002 the value is frozen at 0 until a safe
 //! acknowledgement. During the test stop of the TM54F everything is frozen as it was.
 //!
-//! Readings: AC-03. Input levels are filtered ([`crate::sinamics::input_filter`]).
+//! A discrepancy at the CU310-2 (C01770) is found by the cross-check and is a STOP F too (lines 4744 to 4748); one at a TM54F (F35151) is none.
+//!
+//! Readings: AC-03, AC-30 FDI_STOPF. Input levels are filtered ([`crate::sinamics::input_filter`]).
 
 use crate::kernel::{ConfigError, Cycles};
 
 config! {
-    /// The discrepancy time p10002 and the kind of input 2 (p10040).
+    /// The discrepancy time p10002, the kind of input 2 (p10040), and where the F-DI is.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub struct Config {
         pub(crate) tolerance: Cycles,
         pub(crate) normally_open: bool,
+        pub(crate) onboard: bool,
     }
 }
 
 impl Config {
     /// `tolerance`: how long the inputs may differ. `normally_open`: input 2 is NO, else NC; input 1 always is NC
-    /// (S120-FDI-500).
+    /// (S120-FDI-500). `onboard`: an F-DI of the CU310-2, not of a TM54F.
     ///
     /// # Errors
     /// [`ConfigError::NoDelay`] when the tolerance is 0: contacts never switch in the same cycle for certain.
-    pub const fn new(tolerance: Cycles, normally_open: bool) -> Result<Self, ConfigError> {
+    pub const fn new(
+        tolerance: Cycles,
+        normally_open: bool,
+        onboard: bool,
+    ) -> Result<Self, ConfigError> {
         if tolerance.is_zero() {
             return Err(ConfigError::NoDelay);
         }
         Ok(Self {
             tolerance,
             normally_open,
+            onboard,
         })
     }
 }
@@ -108,6 +116,8 @@ fields! {
         pub stable: bool,
         /// F35151, or C01770 and C30770.
         pub fault: bool,
+        /// The cross-check has found it: STOP F.
+        pub stop_f: bool,
     }
 }
 
@@ -133,6 +143,11 @@ monitor! { sinamics::fail_safe_input;
         when |s| s.before.timer == Cycles::new(1) && s.inputs.input1 != (s.inputs.input2 != s.config.normally_open)
             && !s.inputs.frozen && !s.inputs.power_on
             => s.outputs.fault && s.after.phase == Phase::Latched;
+
+    /// A discrepancy at the CU310-2 is a STOP F, and nothing else is one.
+    onboard_discrepancy_is_stop_f ["S120-CTRL-508", "S120-STOP-505"]:
+        when |s| s.outputs.fault || s.outputs.stop_f
+            => s.outputs.fault && s.outputs.stop_f == s.config.onboard;
 
     /// Nothing else latches.
     short_difference_is_not_latched ["S120-FDI-502", "S120-FDI-503"]:
@@ -188,10 +203,12 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
         read(before, config, inputs)
     };
     let settled = matches!(after.phase, Phase::High | Phase::Low);
+    let fault = after.phase == Phase::Latched;
     let outputs = Outputs {
         value: after.phase == Phase::High,
         stable: settled && !inputs.frozen,
-        fault: after.phase == Phase::Latched,
+        fault,
+        stop_f: fault && config.onboard,
     };
     (after, outputs)
 }
@@ -227,7 +244,7 @@ mod tests {
     use super::*;
 
     fn value(normally_open: bool, input1: bool, input2: bool) -> bool {
-        let config = Config::new(Cycles::new(3), normally_open).expect("some");
+        let config = Config::new(Cycles::new(3), normally_open, false).expect("some");
         let inputs = Inputs {
             input1,
             input2,
@@ -253,7 +270,7 @@ mod tests {
     /// S120-FDI-503, S120-FDI-504: frozen at 0, until it is acknowledged; both level inputs frozen are level 00.
     #[test]
     fn a_frozen_input_waits_for_the_acknowledgement() {
-        let mut input = Monitor::new(Config::new(Cycles::new(2), false).expect("some"));
+        let mut input = Monitor::new(Config::new(Cycles::new(2), false, true).expect("some"));
         let high = Inputs {
             input1: true,
             input2: true,
@@ -266,7 +283,7 @@ mod tests {
         assert!(input.step(&high).value);
         assert!(!input.step(&broken).fault);
         assert!(!input.step(&broken).fault);
-        assert!(input.step(&broken).fault);
+        assert!(input.step(&broken).stop_f);
         assert!(!input.step(&high).value);
         let acknowledge = Inputs {
             acknowledge: true,

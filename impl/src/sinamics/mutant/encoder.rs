@@ -1,7 +1,9 @@
 //! Wrong variants of the monitors of actual values and of drives without encoder.
 
 use crate::kernel::Cycles;
-use crate::sinamics::{actual_value, data_set, encoderless, gear, reference, safe_position};
+use crate::sinamics::{
+    actual_value, data_set, encoderless, gear, reference, safe_position, start_phase,
+};
 
 variants! { sinamics::reference:
     /// The agreement of one channel is enough.
@@ -166,6 +168,42 @@ variants! { sinamics::encoderless:
     "encoderless-quiet" |state, config, inputs| {
         let (after, mut outputs) = encoderless::transition(state, config, inputs);
         outputs.no_current = false;
+        (after, outputs)
+    }
+}
+
+variants! { sinamics::start_phase:
+    /// Only the first start has a start phase.
+    "start-phase-once" |state, config, inputs| {
+        let (after, outputs) = start_phase::transition(state, config, inputs);
+        let enabled = state.enabled || inputs.pulses;
+        (start_phase::State { enabled, ..after }, outputs)
+    }
+
+    /// It ends a cycle early.
+    "start-phase-short" |state, config, inputs| {
+        let left = if state.left == Cycles::new(2) { Cycles::new(1) } else { state.left };
+        start_phase::transition(start_phase::State { left, ..state }, config, inputs)
+    }
+
+    /// What is wrong meanwhile is told.
+    "start-phase-hasty" |state, config, inputs| {
+        let (after, mut outputs) = start_phase::transition(state, config, inputs);
+        outputs.stop_f = inputs.pulses && !inputs.plausible;
+        (after, outputs)
+    }
+
+    /// A wrong value is hidden for good.
+    "start-phase-quiet" |state, config, inputs| {
+        let (after, mut outputs) = start_phase::transition(state, config, inputs);
+        outputs.stop_f = false;
+        (after, outputs)
+    }
+
+    /// What is wrong takes the actual value from SLS and SDI.
+    "start-phase-blind" |state, config, inputs| {
+        let (after, mut outputs) = start_phase::transition(state, config, inputs);
+        outputs.known &= inputs.plausible;
         (after, outputs)
     }
 }

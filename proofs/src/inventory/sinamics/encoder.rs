@@ -28,6 +28,11 @@ inventory! {
         tries: "window: 1 3; config.current: 1 2; left: 0..3",
         caveat: "none",
     }]
+    [contract s120_start_phase_contract on sinamics::start_phase {
+        property: "every clause of the start phase without encoder: p9586 after the pulses, what is told of the actual value",
+        tries: "delay: 0 1 3 1200000; left: 0..3 1200000",
+        caveat: "none",
+    }]
     [contract s120_data_set_contract on sinamics::data_set {
         property: "every clause of the change of the data set: other encoder data are a STOP A until POWER ON",
         tries: "",

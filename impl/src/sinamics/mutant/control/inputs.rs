@@ -111,6 +111,20 @@ variants! { sinamics::fail_safe_input:
         }
         fail_safe_input::transition(state, config, inputs)
     }
+
+    /// A discrepancy at the CU310-2 only freezes.
+    "fail-safe-input-freezes-only" |state, config, inputs| {
+        let (after, mut outputs) = fail_safe_input::transition(state, config, inputs);
+        outputs.stop_f = false;
+        (after, outputs)
+    }
+
+    /// One at a TM54F is a STOP F too.
+    "fail-safe-input-stops-all" |state, config, inputs| {
+        let (after, mut outputs) = fail_safe_input::transition(state, config, inputs);
+        outputs.stop_f = outputs.fault;
+        (after, outputs)
+    }
 }
 
 variants! { sinamics::fail_safe_output:

@@ -25,18 +25,18 @@ peers! { sinamics |p|
             ("t_f", "delay"), ("stopping", "inputs.fault"), ("differs", "difference"), ("event_ack", "internal_event_ack"),
             ("off", "pulses_off"), ("entry", "entered"), ("was_selected", "state.selected"),
         ]);
-    // Here the table is told when the fault is cleared, and has no entry of its own.
+    // Here the table has one cause alone, which can be acknowledged.
     "basic_fault" => basic_stop
         .named(&[
-            ("t_f", "delay"), ("error", "difference"), ("cleared", "internal_event_ack"), ("fault", "stop"), ("stop_a", "pulses_off"),
+            ("t_f", "delay"), ("error", "difference"), ("ack", "acknowledge"), ("event_ack", "internal_event_ack"), ("fault", "stop"),
+            ("stop_a", "pulses_off"), ("entry", "entered"), ("was_selected", "state.selected"),
         ])
-        .constants(&[("inputs.fault", 0), ("locking", 0), ("inputs.selected", 1), ("acknowledge", 0)])
-        .hidden(&["entered", "state.selected"])
-        .without(&["selected"]);
+        .constants(&[("inputs.fault", 0), ("locking", 0)]);
 
     // Fail-safe inputs, acknowledgement.
     "fdi" => fail_safe_input
         .live("normally_open", "nc_no")
+        .live("onboard", "onboard")
         .named(&[
             ("t_disc", "tolerance"), ("in_1", "input1"), ("in_2", "input2"), ("ack", "acknowledge"), ("error", "fault"),
             ("state", "state.phase"),

@@ -272,6 +272,10 @@ peers! { sinamics |p|
         ])
         .without(&["below"])
         .cell("left", upto(p.value("t_wait")));
+    "start_phase" => start_phase
+        .named(&[("t_start", "delay"), ("correct", "plausible"), ("differs", "stop_f"), ("timer", "left")])
+        .hidden(&["enabled"])
+        .told("sight", |state, outputs| i64::from(state.enabled) + bit(outputs.known));
     // The brake test of a test stop.
     "with_test_stop" => brake_test_request
         .constants(&[("by_test_stop", 1), ("negative", 0), ("config.automatic", 0), ("complete", 0)])

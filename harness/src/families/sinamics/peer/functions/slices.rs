@@ -47,6 +47,9 @@ pub(super) const SLICES: &[Slice] = &[
     whole("blind", &[("ssm_ends", 1), ("sdi_ends", 0)], BLIND),
     // Without selection, SSM beside it.
     whole("blind", &[("static", 1), ("ssm", 1)], BLIND),
+    // Evaluated from the first pulse on, and later.
+    whole("start_phase", &[("t_start", 0)], &["pulses", "correct"]),
+    whole("start_phase", &[("t_start", 3)], &["pulses", "correct"]),
     // A ramp that is no whole number in a cycle, down to 0.
     whole("sbr", &[("t_ref", 6), ("n_res", 0)], &["brakes", "n"]),
     // Positions within and beyond the 16 bits.
