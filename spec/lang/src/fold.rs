@@ -11,6 +11,31 @@ pub struct Folder<'a> {
     lazies: Vec<Option<Node>>,
 }
 
+/// A system with its parameter values in every expression: what they settle reads nothing any more. Everything keeps its number; a rule
+/// that cannot fire has the guard FALSE and no effect.
+pub fn folded(bound: &Bound) -> Bound {
+    // Names stay: inlined, one of a variable that is stepped meanwhile could have two values in one cycle.
+    let mut folder = Folder::new(bound, 0);
+    let mut out = bound.clone();
+    let system = &mut out.system;
+    for (k, lazy) in system.lazies.iter_mut().enumerate() {
+        lazy.value = folder.lazy(k);
+    }
+    for instance in &mut system.instances {
+        let mut kept = folder.rules(&instance.rules).into_iter().peekable();
+        for (number, rule) in instance.rules.iter_mut().enumerate() {
+            let left = kept.next_if(|(place, ..)| *place == number);
+            let (when, then) =
+                left.map_or((Node::Const(0), Vec::new()), |(_, when, then)| (when, then));
+            (rule.when, rule.then) = (when, then);
+        }
+    }
+    for node in system.atoms.iter_mut().chain(&mut system.observed) {
+        *node = folder.node(node);
+    }
+    out
+}
+
 impl<'a> Folder<'a> {
     /// Named expressions of at most `inline` nodes, and constants, stand where they are used.
     pub fn new(bound: &'a Bound, inline: usize) -> Self {

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use stillpoint_lang::bind::Bound;
-use stillpoint_lang::fold::Folder;
+use stillpoint_lang::fold::folded;
 use stillpoint_lang::ir::{Node, Space, Stmt, System};
 use stillpoint_model::Condition;
 
@@ -20,6 +20,17 @@ pub(super) enum Cell {
     Named(usize),
 }
 
+/// Where a value comes from that a step asks for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Source {
+    /// A state variable as it was before the cycle.
+    Before(usize),
+    /// A cell that was left to the stage, by its place in the class.
+    Left(usize),
+    /// An input that no stage before has read: all its values.
+    Free(usize),
+}
+
 /// The step of one instance.
 pub(super) struct Stage {
     /// State variables whose values before the cycle it may look at, its own among them.
@@ -32,6 +43,24 @@ pub(super) struct Stage {
     pub(super) combinations: u64,
     /// The number of its first rule.
     pub(super) first_rule: usize,
+    /// The cells that are left to it, in order.
+    left: Vec<Cell>,
+    /// Its row: the variables of `writes`, then the cells that it leaves.
+    pub(super) row: Vec<Cell>,
+    /// Where the row has its values from if the step makes nothing.
+    pub(super) kept: Vec<Option<Source>>,
+}
+
+impl Stage {
+    /// Where a cell has its value from that the step has not made; none if it has no value.
+    pub(super) fn source(&self, cell: Cell) -> Option<Source> {
+        match (self.left.binary_search(&cell), cell) {
+            (Ok(place), _) => Some(Source::Left(place)),
+            // Its own variable, or one of an instance that has made no step yet.
+            (Err(_), Cell::Now(k)) => Some(Source::Before(k)),
+            (Err(_), _) => None,
+        }
+    }
 }
 
 /// Where the end of the last stage tells whether a condition holds.
@@ -44,8 +73,8 @@ pub(super) struct Plan {
     /// The system, with further named expressions for parts of the conditions.
     pub(super) bound: Bound,
     pub(super) stages: Vec<Stage>,
-    /// What is kept before the first stage, and after each one.
-    pub(super) boundaries: Vec<Vec<Cell>>,
+    /// How many cells are kept before the first stage, and after each one.
+    pub(super) widths: Vec<usize>,
     pub(super) marks: Vec<Mark>,
 }
 
@@ -55,7 +84,8 @@ impl Plan {
         if number < 2 {
             return None;
         }
-        let mut bound = settled(bound);
+        // What the parameter values settle reads nothing any more: stages look at less.
+        let mut bound = folded(bound);
         let mut order = Order::new(&bound.system);
         let results = conditions::add(&mut bound.system, &mut order, conditions);
         let system = &bound.system;
@@ -64,7 +94,8 @@ impl Plan {
             Node::Lazy(k) => Some(Cell::Named(*k as usize)),
             _ => None,
         }));
-        let mut boundaries = vec![live.iter().copied().collect::<Vec<_>>()];
+        let last: Vec<Cell> = live.iter().copied().collect();
+        let mut widths = vec![last.len()];
         let mut stages = Vec::new();
         for stage in (0..number).rev() {
             let instance = &system.instances[stage];
@@ -90,19 +121,23 @@ impl Plan {
             });
             let combinations = sizes.into_iter().try_fold(1, u64::checked_mul)?;
             let earlier = system.instances[..stage].iter();
-            stages.push(Stage {
+            let leaves = std::mem::replace(&mut live, needs.cells);
+            widths.push(live.len());
+            let mut stage = Stage {
+                row: own.clone().map(Cell::Now).chain(leaves).collect(),
+                left: live.iter().copied().collect(),
                 reads: needs.reads.into_iter().collect(),
                 writes: own.collect(),
                 forced,
                 combinations,
                 first_rule: earlier.map(|i| i.rules.len()).sum(),
-            });
-            live = needs.cells;
-            boundaries.push(live.iter().copied().collect());
+                kept: Vec::new(),
+            };
+            stage.kept = stage.row.iter().map(|cell| stage.source(*cell)).collect();
+            stages.push(stage);
         }
         stages.reverse();
-        boundaries.reverse();
-        let last = boundaries.last()?;
+        widths.reverse();
         let mark = |node: &Node| match node {
             Node::Lazy(k) => {
                 let place = last
@@ -117,34 +152,10 @@ impl Plan {
         Some(Self {
             bound,
             stages,
-            boundaries,
+            widths,
             marks,
         })
     }
-}
-
-/// The system with its parameter values in every expression: what they settle reads nothing any more, so stages look at less. Rules keep their
-/// numbers; one that cannot fire has no effect.
-fn settled(bound: &Bound) -> Bound {
-    // Names stay: inlined, one of a variable that is stepped meanwhile could have two values in one cycle.
-    let mut folder = Folder::new(bound, 0);
-    let mut out = bound.clone();
-    for (k, lazy) in out.system.lazies.iter_mut().enumerate() {
-        lazy.value = folder.lazy(k);
-    }
-    for instance in &mut out.system.instances {
-        let mut kept = folder.rules(&instance.rules).into_iter().peekable();
-        for (number, rule) in instance.rules.iter_mut().enumerate() {
-            let left = kept.next_if(|(place, ..)| *place == number);
-            let (when, then) =
-                left.map_or((Node::Const(0), Vec::new()), |(_, when, then)| (when, then));
-            (rule.when, rule.then) = (when, then);
-        }
-    }
-    for atom in &mut out.system.atoms {
-        *atom = folder.node(atom);
-    }
-    out
 }
 
 /// After which stage what is known.

@@ -1,30 +1,17 @@
 //! Constant folding of a whole system, its parameter values put in: what they settle depends on nothing any more.
 
 use crate::bind::Bound;
-use crate::fold::Folder;
+use crate::fold;
 use crate::interval::Ranges;
-use crate::ir::{Node, Rule, Stmt};
+use crate::ir::{Node, Stmt};
 
-/// `bound` with its parameter values in every expression. Cells, named expressions, atoms and properties keep their
+/// `bound` with its parameter values in every expression and range. Cells, named expressions, atoms and properties keep their
 /// numbers; rules that cannot fire are gone, and so are checks of values that fit these ranges.
 pub(super) fn folded(bound: &Bound) -> Bound {
-    let mut folder = Folder::new(bound, 0);
-    let mut out = bound.clone();
+    let mut out = fold::folded(bound);
     let system = &mut out.system;
-    for (k, lazy) in system.lazies.iter_mut().enumerate() {
-        lazy.value = folder.lazy(k);
-    }
     for instance in &mut system.instances {
-        let rules = folder.rules(&instance.rules).into_iter();
-        let rules = rules.map(|(number, when, then)| Rule {
-            when,
-            then,
-            ..instance.rules[number].clone()
-        });
-        instance.rules = rules.collect::<Vec<_>>();
-    }
-    for node in system.atoms.iter_mut().chain(&mut system.observed) {
-        *node = folder.node(node);
+        instance.rules.retain(|rule| rule.when != Node::Const(0));
     }
     let constant = |v: i32| Node::Const(i64::from(v));
     for (k, state) in system.states.iter_mut().enumerate() {
