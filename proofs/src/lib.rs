@@ -32,6 +32,8 @@ pub mod complete;
 pub mod draw;
 #[cfg(kani)]
 mod kani_source;
+#[cfg(kani)]
+mod own_clauses;
 #[cfg(not(kani))]
 pub mod page;
 pub mod properties;

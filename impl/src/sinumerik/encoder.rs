@@ -174,12 +174,20 @@ impl Encoder {
             * cycle_us.get() as u128
             * self.subdivision.get() as u128
             * self.numerator as u128;
-        let increments = product / (1_000_000 * self.denominator.get() as u128);
+        let increments = quotient(product, 1_000_000 * self.denominator.get() as u128);
         if increments > u32::MAX as u128 {
             Err(ConfigError::ValueTooLarge)
         } else {
             Ok(Speed(increments as u32))
         }
+    }
+}
+
+/// A division of 128 bits, which the proofs replace by its definition; 0 for a divisor of 0.
+const fn quotient(number: u128, divisor: u128) -> u128 {
+    match number.checked_div(divisor) {
+        Some(quotient) => quotient,
+        None => 0,
     }
 }
 

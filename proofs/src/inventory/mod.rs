@@ -290,6 +290,7 @@ macro_rules! kani_harness {
                     kani::assume(before.invariant(&config));
                     assert!(State::INITIAL.invariant(&config), "initial_state_satisfies_the_invariant");
                     let (after, outputs) = next(before, &config, &inputs);
+                    crate::own_clauses::choose($number, $count);
                     assert_clauses(Step { before, config, inputs, after, outputs }, $number, $count);
                 }
             }})+

@@ -240,9 +240,9 @@ mod tests {
         let of = |id: &str| inventory::all().find(|entry| entry.id == id).map(parts);
         assert_eq!(of("external_contract"), Some(1));
         assert_eq!(of("motion_contract"), Some(1));
-        assert_eq!(of("channel_contract"), Some(15));
+        assert_eq!(of("channel_contract"), Some(5));
         assert_eq!(of("units_speed"), Some(3));
-        assert_eq!(of("hfs_units"), Some(12));
+        assert_eq!(of("s120_frames"), Some(4));
     }
 
     /// Clause `n` is asserted by part `n` modulo the number of parts: with a part for each remainder none is left out.

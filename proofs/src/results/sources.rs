@@ -52,11 +52,34 @@ pub fn fingerprint(entry: &Entry) -> String {
             .flatten()
             .cloned(),
     );
+    let named = stubs(entry.kani).into_iter().map(|file| root.join(file));
+    texts.extend(named.map(|file| code(&file)));
     texts.push(format!("{} {} {:?}", entry.id, entry.kani, entry.few));
     if !entry.few_in.is_empty() {
         texts.push(format!("{:?}", entry.few_in));
     }
     hash(&texts)
+}
+
+/// The files of the stubs that the attributes of a harness name, but for those that every harness is made of, or its draws.
+fn stubs(attributes: &str) -> BTreeSet<PathBuf> {
+    let attributes = attributes.replace(' ', "");
+    let paths = attributes.split("crate::").skip(1);
+    let of = |path: &str| {
+        let end = path.find(|c: char| !c.is_alphanumeric() && c != '_' && c != ':');
+        let modules: Vec<&str> = path.get(..end?)?.split("::").collect();
+        let known = matches!(modules.first(), Some(&("kani_source" | "arbitrary")) | None);
+        // What stands behind the file are its modules and the function.
+        let files = (1..modules.len()).rev().map(|count| {
+            let mut file = Path::new("src").join(modules.get(..count)?.join("/"));
+            file.set_extension("rs");
+            Some(file)
+        });
+        let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+        let mut files = files.flatten().filter(|file| root.join(file).exists());
+        files.next().filter(|_| !known)
+    };
+    paths.filter_map(of).collect()
 }
 
 /// The modules of `modules` that a text names.
@@ -156,6 +179,14 @@ mod tests {
         let needed = |name: &str| named(&modules[name].join("\n"), &modules);
         assert!(needed("channel").contains(&"ramp".to_owned()));
         assert!(!needed("ramp").contains(&"channel".to_owned()));
+    }
+
+    #[test]
+    fn a_stub_is_a_source() {
+        let attributes = "kani(stub(a::b, crate :: properties::sinumerik::units::by_definition::quotient), stub(c, \
+            crate::own_clauses::srm::endzone), stub(d, crate::kani_source::folded_in_range))";
+        let files = ["src/own_clauses.rs", "src/properties/sinumerik/units.rs"];
+        assert_eq!(stubs(attributes), files.map(PathBuf::from).into());
     }
 
     /// Else an answer would never be older than its monitor.

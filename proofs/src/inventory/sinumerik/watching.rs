@@ -150,31 +150,31 @@ inventory! {
         bound: "32 bits of thousandths",
         caveat: "Kani takes 16 bits of thousandths",
     }]
-    [run(4) [kani(solver(kissat))] units_folding on sinumerik::"units, cam" by units::folding_keeps_the_position {
+    [run(4) [kani(solver(kissat), stub(i64::checked_rem_euclid, crate::properties::sinumerik::units::by_definition::rem_euclid))] units_folding on sinumerik::"units, cam" by units::folding_keeps_the_position {
         property: "a folded position is in the modulo range, a whole number of ranges away",
         requirements: ["S840D-SN-011", "S840D-PARAM-014"],
         covers: ["folded down", "folded up", "no range"],
         domain: NARROW,
         domain_text: "ranges -3 to 3, positions -9 to 9, and the ends of 32 bits",
         bound: "none",
-        caveat: "Kani takes range and position of 8 bits",
+        caveat: "Kani takes the remainder by its definition",
     }]
-    [run(4) [kani(solver(kissat), stub(stillpoint_monitors::sinumerik::encoder::greatest_common_divisor, crate::properties::sinumerik::units::no_common_divisor))] encoder_position on sinumerik::"encoder" by units::encoder_position_rounds_down {
+    [run(4) [kani(solver(kissat), stub(stillpoint_monitors::sinumerik::encoder::greatest_common_divisor, crate::properties::sinumerik::units::no_common_divisor), stub(i64::checked_div_euclid, crate::properties::sinumerik::units::by_definition::div_euclid))] encoder_position on sinumerik::"encoder" by units::encoder_position_rounds_down {
         property: "the position of a rotary encoder is the exact one rounded down, in both directions",
         requirements: ["S840D-ENC-006", "S840D-ARCH-503/b"],
         covers: ["reversed, below zero, rounded"],
         domain: NARROW,
         domain_text: "small pulses, gear ratios and pitches, and the largest; counts -6 to 6 and the ends of 32 bits",
         bound: "ratios of 32 bits in lowest terms; others are refused",
-        caveat: "Kani decides no division by a product of wide variables: it takes encoders, gears and pitches of 2 or 3 bits and counts of 8, and leaves out the reduction to lowest terms",
+        caveat: "Kani takes the quotient by its definition, encoders, gears and pitches of 3 or 4 bits and counts of 10, and leaves out the reduction to lowest terms",
     }]
-    [run(4) [kani(solver(kissat), stub(stillpoint_monitors::sinumerik::encoder::greatest_common_divisor, crate::properties::sinumerik::units::no_common_divisor))] encoder_speed on sinumerik::"encoder" by units::encoder_speed_rounds_down {
+    [run(4) [kani(solver(kissat), stub(stillpoint_monitors::sinumerik::encoder::greatest_common_divisor, crate::properties::sinumerik::units::no_common_divisor), stub(stillpoint_monitors::sinumerik::encoder::quotient, crate::properties::sinumerik::units::by_definition::quotient))] encoder_speed on sinumerik::"encoder" by units::encoder_speed_rounds_down {
         property: "the highest speed under the encoder limit frequency is the exact one rounded down, at load and encoder",
         requirements: ["S840D-FREQ-001", "S840D-FREQ-002", "S840D-FREQ-003"],
         covers: ["an extended limit frequency"],
         domain: NARROW,
         domain_text: "300 kHz to 300.003 kHz and 420 kHz; cycles 24.998 to 25 ms and 1 us; small encoders and gears, and the largest",
         bound: "results of 32 bits; others are refused",
-        caveat: "Kani decides no division by a product of wide variables: it takes encoders, gears and pitches of 2 or 3 bits, cycles to 32 us and 300 to 300.063 kHz, and leaves out the reduction to lowest terms",
+        caveat: "Kani takes the quotient by its definition, encoders, gears and pitches of 2 or 3 bits, cycles to 32 us and 300 to 300.063 kHz, and leaves out the reduction to lowest terms",
     }]
 }

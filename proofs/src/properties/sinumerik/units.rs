@@ -4,6 +4,8 @@ use core::num::NonZeroU32;
 
 use stillpoint_monitors::kernel::{Percent, Position, Speed};
 use stillpoint_monitors::sinumerik::encoder::{Encoder, LimitFrequency, Mounting};
+#[cfg(kani)]
+use stillpoint_monitors::sinumerik::selection;
 use stillpoint_monitors::sinumerik::selection::{Monitored, Stage};
 use stillpoint_monitors::sinumerik::{motion, speed};
 use stillpoint_monitors::units::{
@@ -34,6 +36,75 @@ fn cut<S: Source>(source: &mut S, reach: u32, highest: u32, bits: u32) -> u32 {
 #[cfg(kani)]
 pub(crate) fn no_common_divisor(_: u128, _: u128) -> u128 {
     1
+}
+
+/// In the place of the factor of a choice, for Kani, where no override is configured: the whole. The list of the factors is then
+/// no part of the formula.
+#[cfg(kani)]
+pub(crate) fn no_factor(config: &selection::Config, _: selection::Choice) -> Percent {
+    use selection::FactorIndex;
+    let first = FactorIndex::from_bits(false, false, false, true);
+    assert!(config.choice(Stage::Sg2, first).factor == FactorIndex::NONE);
+    Percent::WHOLE
+}
+
+/// Divisions by their definition, for Kani: a quotient and a rest of which the product and the sum are the dividend. A divider of
+/// 64 bits, which is what a division in the source becomes, is the same with numbers of 64 bits.
+#[cfg(kani)]
+pub(crate) mod by_definition {
+    use core::sync::atomic::{AtomicI64, Ordering};
+
+    /// The whole number of divisors that the last division has taken away.
+    static TAKEN: AtomicI64 = AtomicI64::new(0);
+
+    /// The whole number of divisors that the last division has taken away.
+    pub(crate) fn taken() -> i64 {
+        TAKEN.load(Ordering::Relaxed)
+    }
+
+    /// `i64::checked_rem_euclid` of a difference of two positions and a width.
+    pub(crate) fn rem_euclid(number: i64, divisor: i64) -> Option<i64> {
+        // No quotient is then greater than 33 bits, and no product than 66.
+        assert!(-(1 << 32) < number && number < 1 << 32);
+        assert!(0 <= divisor && divisor < 1 << 32);
+        if divisor == 0 {
+            return None;
+        }
+        let (quotient, rest): (i64, u32) = (kani::any(), kani::any());
+        let rest = i64::from(rest);
+        kani::assume(-(1 << 32) < quotient && quotient < 1 << 32);
+        kani::assume(rest < divisor);
+        let taken = number - rest;
+        kani::assume(i128::from(divisor as u32) * i128::from(quotient) == i128::from(taken));
+        TAKEN.store(taken, Ordering::Relaxed);
+        Some(rest)
+    }
+
+    /// `i64::checked_div_euclid` of numbers of at most 31 bits.
+    pub(crate) fn div_euclid(number: i64, divisor: i64) -> Option<i64> {
+        assert!(-(1 << 30) < number && number < 1 << 30);
+        assert!(0 < divisor && divisor < 1 << 16);
+        let quotient: i32 = kani::any();
+        let rest: u16 = kani::any();
+        let divisor = divisor as u16;
+        kani::assume(rest < divisor);
+        kani::assume(i64::from(divisor) * i64::from(quotient) + i64::from(rest) == number);
+        Some(i64::from(quotient))
+    }
+
+    /// The encoder's quotient of numbers of at most 64 bits.
+    pub(crate) fn quotient(number: u128, divisor: u128) -> u128 {
+        assert!(number < 1 << 60);
+        assert!(0 < divisor && divisor < 1 << 31);
+        let quotient: u32 = kani::any();
+        let rest: u32 = kani::any();
+        let divisor = divisor as u32;
+        // A quotient of more than 32 bits would be another one.
+        assert!(number < u128::from(divisor) << 32);
+        kani::assume(rest < divisor);
+        kani::assume(u64::from(divisor) * u64::from(quotient) + u64::from(rest) == number as u64);
+        u128::from(quotient)
+    }
 }
 
 /// Either kind of axis, a part of the domain each.
@@ -256,8 +327,8 @@ pub fn limits_round_inwards<S: Source>(source: &mut S, _subject: &Subject) -> Ve
 ///
 /// Cover 0: folded down, cover 1: folded up, cover 2: no range.
 pub fn folding_keeps_the_position<S: Source>(source: &mut S, _subject: &Subject) -> Verdict {
-    let (lower, upper) = (source.any_cut_i32(3, 8), source.any_cut_i32(3, 8));
-    let position = source.any_cut_i32(9, 8);
+    let (lower, upper) = (source.any_i32(3), source.any_i32(3));
+    let position = source.any_i32(9);
     let Ok(range) = ModuloRange::new(Position(lower), Position(upper)) else {
         return Verdict::Discarded;
     };
@@ -267,7 +338,8 @@ pub fn folding_keeps_the_position<S: Source>(source: &mut S, _subject: &Subject)
     source.cover(1, away < 0);
     source.cover(2, !range.folds());
     let right = if range.folds() {
-        (lower..upper).contains(&folded) && away % (i64::from(upper) - i64::from(lower)) == 0
+        let width = i64::from(upper) - i64::from(lower);
+        lower <= folded && folded < upper && is_multiple(away, width)
     } else {
         away == 0
     };
@@ -278,16 +350,28 @@ pub fn folding_keeps_the_position<S: Source>(source: &mut S, _subject: &Subject)
     }
 }
 
+/// Whether a folded position is a whole number of widths away. For Kani that number is the one that the division has taken away.
+#[cfg(kani)]
+fn is_multiple(away: i64, _width: i64) -> bool {
+    away == by_definition::taken()
+}
+
+/// Whether a folded position is a whole number of widths away.
+#[cfg(not(kani))]
+fn is_multiple(away: i64, width: i64) -> bool {
+    away % width == 0
+}
+
 /// The position of a rotary encoder is the exact one of S840D-ENC-006 rounded down, in both directions.
 ///
 /// Cover 0: reversed, below zero and rounded.
 pub fn encoder_position_rounds_down<S: Source>(source: &mut S, _subject: &Subject) -> Verdict {
     let (Some(pulses), Some(denom), Some(numera), Some(load), Some(subdivision)) = (
-        positive(source, 2, 100_000, 3),
-        positive(source, 2, 8_388_607, 2),
-        positive(source, 1, 8_388_607, 2),
-        positive(source, 3, 10_000_000, 3),
-        positive(source, 0, 16_384, 2),
+        positive(source, 2, 100_000, 4),
+        positive(source, 2, 8_388_607, 3),
+        positive(source, 1, 8_388_607, 3),
+        positive(source, 3, 10_000_000, 4),
+        positive(source, 0, 16_384, 3),
     ) else {
         return Verdict::Discarded;
     };
@@ -298,7 +382,7 @@ pub fn encoder_position_rounds_down<S: Source>(source: &mut S, _subject: &Subjec
         load,
     };
     let reversed = source.any_bool();
-    let count = source.any_cut_i32(6, 8);
+    let count = source.any_cut_i32(6, 10);
     let Ok(encoder) = Encoder::new(mounting, subdivision, reversed) else {
         return Verdict::Discarded;
     };
@@ -364,8 +448,12 @@ pub fn encoder_speed_rounds_down<S: Source>(source: &mut S, _subject: &Subject) 
         return Verdict::Discarded;
     };
     let micro_pulses = u128::from(hz) * u128::from(cycle_us.get());
-    let exact = micro_pulses * u128::from(denom.get()) * u128::from(load.get());
-    let divisor = 1_000_000 * u128::from(pulses.get()) * u128::from(numera.get());
+    // Of counts, not of pulses: a factor on both sides, with which Kani finds the numbers of the monitor again.
+    let subdivision = u128::from(subdivision.get());
+    let increments = u128::from(denom.get()) * u128::from(load.get());
+    let exact = micro_pulses * subdivision * increments;
+    let counts = u128::from(pulses.get()) * u128::from(numera.get()) * subdivision;
+    let divisor = 1_000_000 * counts;
     source.cover(0, hz > LimitFrequency::STANDARD.hz());
     if rounded_down_wide(at_load.0, exact, divisor)
         && rounded_down_wide(at_encoder.0, micro_pulses, 1_000_000)
