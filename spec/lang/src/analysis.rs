@@ -332,10 +332,12 @@ impl<'a> Reading<'a> {
                 self.cells.insert(self.number(*space, *k));
             }
             Node::Lazy(k) if self.is_let(*k) => {
-                if self.lets.insert(*k) {
-                    let bound = self.bound;
-                    self.gather(&bound.system.lazies[*k as usize].value);
+                // Known, and all that it reads.
+                if !self.lets.insert(*k) {
+                    return;
                 }
+                let bound = self.bound;
+                self.gather(&bound.system.lazies[*k as usize].value);
             }
             Node::Lazy(k) => {
                 let [_, wire, _] = self.starts();

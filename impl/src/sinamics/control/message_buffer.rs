@@ -26,6 +26,10 @@ mod case {
     fields! {
         /// The messages of a case, in the order of their occurrence.
         #[derive(Clone, Copy, Debug, Default, Eq, Hash)]
+        #[allow(
+            clippy::derived_hash_with_manual_eq,
+            reason = "equal ones are the same as if that were derived"
+        )]
         pub struct Case {
             /// How many there are.
             pub count: Count,
@@ -116,10 +120,6 @@ mod case {
         }
     }
 
-    #[allow(
-        clippy::derived_hash_with_manual_eq,
-        reason = "equal ones are the same as if this were derived"
-    )]
     impl PartialEq for Case {
         fn eq(&self, other: &Self) -> bool {
             // By places: a comparison of the bytes is many times as much for a model checker to execute.
