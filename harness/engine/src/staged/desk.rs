@@ -1,119 +1,132 @@
-//! Where the step of one instance is made: the cells that it may read, and a record of what it asked for.
+//! Where the step of one instance is made: the cells that it may read, and all combinations of the inputs that it reads.
 
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::eval::{Memory, UNSET};
 
-use super::plan::{Cell, Source, Stage};
+use super::plan::{Cell, Stage};
 
-/// The cells of a cycle as far as one step has asked for them.
-pub(super) struct Desk<'a> {
-    stage: &'a Stage,
-    before: &'a [i32],
-    left: &'a [i32],
-    /// The values of free inputs, in the order in which they are asked for; those that are missing are their least ones.
-    chosen: &'a [i32],
-    ranges: &'a [(i32, i32)],
-    free: usize,
-    /// State variables that were assigned, inputs that were read, names that were evaluated.
+/// The cells of a cycle as far as one stage knows them.
+pub(super) struct Desk {
+    before: Vec<i32>,
     now: Vec<i32>,
     inputs: Vec<i32>,
     names: Vec<i32>,
-    /// Each question once, with the answer.
-    pub(super) asked: Vec<(Source, i32)>,
-    /// The rule that fired, from 1; 0 for none.
-    pub(super) rule: usize,
+    ranges: Vec<(i32, i32)>,
+    /// The inputs read here, in this order, with their values; the last one turns fastest.
+    choices: Vec<(usize, i32)>,
+    at: usize,
+    rule: usize,
 }
 
-impl<'a> Desk<'a> {
-    pub(super) fn new(
-        bound: &'a Bound,
-        stage: &'a Stage,
-        before: &'a [i32],
-        left: &'a [i32],
-        chosen: &'a [i32],
-    ) -> Self {
+impl Desk {
+    pub(super) fn new(bound: &Bound) -> Self {
         Self {
-            stage,
-            before,
-            left,
-            chosen,
-            ranges: &bound.inputs,
-            free: 0,
+            before: vec![UNSET; bound.states.len()],
             now: vec![UNSET; bound.states.len()],
             inputs: vec![UNSET; bound.inputs.len()],
             names: vec![UNSET; bound.system.lazies.len()],
-            asked: Vec::new(),
+            ranges: bound.inputs.clone(),
+            choices: Vec::new(),
+            at: 0,
             rule: 0,
         }
     }
 
-    /// The value that the step has given to a cell; none if the cell is as it was.
-    pub(super) fn made(&self, cell: Cell) -> Option<i32> {
-        let value = match cell {
-            Cell::Now(k) => self.now[k],
-            Cell::Input(k) => self.inputs[k],
-            Cell::Named(k) => self.names[k],
-        };
-        Some(value).filter(|value| *value != UNSET)
+    /// The first combination comes next.
+    pub(super) fn begin(&mut self) {
+        self.choices.clear();
     }
 
-    fn ask(&mut self, source: Source) -> i32 {
-        // A step asks for few cells.
-        if let Some((_, value)) = self.asked.iter().find(|(old, _)| *old == source) {
-            return *value;
+    /// Lays out what a stage may look at: state variables before the cycle, and what was left to it.
+    pub(super) fn start(&mut self, before: &[i32], stage: &Stage, cells: &[Cell], values: &[i32]) {
+        self.at = 0;
+        self.rule = 0;
+        self.inputs.fill(UNSET);
+        self.names.fill(UNSET);
+        self.before.fill(UNSET);
+        self.now.fill(UNSET);
+        for k in &stage.reads {
+            self.before[*k] = before[*k];
+            // Its own variables, and those of instances that have made no step yet.
+            self.now[*k] = before[*k];
         }
-        let value = match source {
-            Source::Before(k) => {
-                let foreseen = self.stage.reads.binary_search(&k).is_ok();
-                debug_assert!(foreseen, "more is read than was foreseen");
-                self.before[k]
+        for (cell, value) in cells.iter().zip(values) {
+            match cell {
+                Cell::Now(k) => self.now[*k] = *value,
+                Cell::Input(k) => self.inputs[*k] = *value,
+                Cell::Named(k) => self.names[*k] = *value,
             }
-            Source::Left(place) => self.left[place],
-            Source::Free(k) => {
-                self.free += 1;
-                let chosen = self.chosen.get(self.free - 1);
-                chosen.copied().unwrap_or(self.ranges[k].0)
-            }
-        };
-        self.asked.push((source, value));
-        value
+        }
     }
 
-    /// A cell that this step has not made.
-    fn found(&mut self, cell: Cell) -> i32 {
-        self.stage
-            .source(cell)
-            .map_or(UNSET, |source| self.ask(source))
+    /// The values of these cells.
+    pub(super) fn class(&self, cells: &[Cell]) -> Box<[i32]> {
+        let value = |cell: &Cell| match cell {
+            Cell::Now(k) => self.now[*k],
+            Cell::Input(k) => self.inputs[*k],
+            Cell::Named(k) => self.names[*k],
+        };
+        cells.iter().map(value).collect()
+    }
+
+    pub(super) fn after(&self, k: usize) -> i32 {
+        self.now[k]
+    }
+
+    /// The rule that fired, from 0.
+    pub(super) fn rule(&self) -> Option<usize> {
+        self.rule.checked_sub(1)
+    }
+
+    /// The combinations of the inputs read here.
+    pub(super) fn combinations(&self) -> u64 {
+        let sizes = self.choices[..self.at].iter().map(|(k, _)| {
+            let (lo, hi) = self.ranges[*k];
+            u64::from(hi.abs_diff(lo)) + 1
+        });
+        sizes.product()
+    }
+
+    /// The next combination; false if there is none.
+    pub(super) fn advance(&mut self) -> bool {
+        self.choices.truncate(self.at);
+        while let Some((k, value)) = self.choices.last_mut() {
+            if *value < self.ranges[*k].1 {
+                *value += 1;
+                return true;
+            }
+            self.choices.pop();
+        }
+        false
     }
 }
 
-impl Memory for Desk<'_> {
+impl Memory for Desk {
     fn before(&mut self, k: usize) -> i32 {
-        self.ask(Source::Before(k))
+        debug_assert_ne!(self.before[k], UNSET, "more is read than was foreseen");
+        self.before[k]
     }
 
     fn now(&mut self, k: usize) -> i32 {
-        match self.now[k] {
-            UNSET => self.found(Cell::Now(k)),
-            value => value,
-        }
+        debug_assert_ne!(self.now[k], UNSET, "more is read than was foreseen");
+        self.now[k]
     }
 
     fn input(&mut self, k: usize) -> i32 {
         if self.inputs[k] == UNSET {
-            self.inputs[k] = match self.found(Cell::Input(k)) {
-                UNSET => self.ask(Source::Free(k)),
-                value => value,
-            };
+            if self.at == self.choices.len() {
+                self.choices.push((k, self.ranges[k].0));
+            }
+            let (asked, value) = self.choices[self.at];
+            debug_assert_eq!(asked, k, "the same answers led to another question");
+            self.at += 1;
+            self.inputs[k] = value;
         }
         self.inputs[k]
     }
 
     fn named(&mut self, k: usize) -> Option<i32> {
-        if self.names[k] == UNSET {
-            self.names[k] = self.found(Cell::Named(k));
-        }
-        self.made(Cell::Named(k))
+        Some(self.names[k]).filter(|value| *value != UNSET)
     }
 
     fn assign(&mut self, k: usize, value: i32) {

@@ -2,47 +2,63 @@
 //! inputs that it may read, and of what the instances before it have left for it and for those after it.
 //!
 //! `plan` finds what that is. What an expression of a property, or a named expression, needs of the inputs is worked out as soon as
-//! it can be, so that inputs are forgotten early. `desk` makes the step of one instance, `paths` keeps what it did, `steps` goes through all
-//! combinations of its inputs.
+//! it can be, so that inputs are forgotten early. `desk` makes the step of one instance.
 
 mod conditions;
 mod desk;
-mod paths;
 mod plan;
-mod rows;
-mod steps;
+
+use std::collections::HashMap;
 
 use stillpoint_lang::bind::Bound;
-use stillpoint_lang::eval::UNSET;
 use stillpoint_model::{Condition, Fault, Outcome, Stages};
 
-use paths::Paths;
-use plan::{Mark, Plan, Source};
-use rows::Rows;
-use steps::Steps;
+use desk::Desk;
+use plan::{Mark, Plan};
+
+/// The most input vectors of one step of an instance: so many are made without a look at the limits.
+const MOST_VECTORS: u32 = 1 << 16;
 
 /// The stages of a system; none if it has fewer than two instances, or one reads a name before what it names is known.
 pub(crate) fn stages(bound: &Bound, conditions: &[Condition]) -> Option<Box<dyn Stages>> {
     let plan = Plan::new(bound, conditions)?;
-    let mut classes: Vec<Rows> = plan.widths.iter().map(|width| Rows::new(*width)).collect();
-    // Before the first stage nothing is known: class 0.
-    classes[0].number(&vec![UNSET; plan.widths[0]]);
-    Some(Box::new(Staged {
-        paths: plan.stages.iter().map(|_| Paths::default()).collect(),
-        classes,
-        kept: Vec::new(),
+    let classes = plan.boundaries.iter().map(|_| Classes::default());
+    let mut staged = Staged {
+        desk: Desk::new(&plan.bound),
+        classes: classes.collect(),
         plan,
-    }))
+    };
+    let first = staged.desk.class(&staged.plan.boundaries[0]);
+    staged.classes[0].number(first);
+    Some(Box::new(staged))
+}
+
+/// What a stage may leave to the next one, numbered.
+#[derive(Default)]
+struct Classes {
+    numbers: HashMap<Box<[i32]>, u32>,
+    values: Vec<Box<[i32]>>,
+    bytes: u64,
+}
+
+impl Classes {
+    fn number(&mut self, values: Box<[i32]>) -> u32 {
+        if let Some(number) = self.numbers.get(&values) {
+            return *number;
+        }
+        let number = self.values.len() as u32;
+        self.bytes += 2 * size_of_val(&*values) as u64 + 64;
+        self.values.push(values.clone());
+        self.numbers.insert(values, number);
+        number
+    }
 }
 
 struct Staged {
     plan: Plan,
-    /// Of each stage.
-    paths: Vec<Paths>,
-    /// What may be left, numbered, at each boundary; the first one is before the first stage.
-    classes: Vec<Rows>,
-    /// The row of a stage as it is where the step makes nothing.
-    kept: Vec<i32>,
+    desk: Desk,
+    /// For each boundary, the first one being before the first stage.
+    classes: Vec<Classes>,
 }
 
 impl Stages for Staged {
@@ -69,34 +85,43 @@ impl Stages for Staged {
         class: u32,
         list: &mut Vec<Outcome>,
     ) -> Result<(), Fault> {
-        let own = &self.plan.stages[stage];
-        let (left, leaves) = self.classes.split_at_mut(stage + 1);
-        let left = left[stage].row(class);
-        self.kept.clear();
-        self.kept.extend(own.kept.iter().map(|source| match source {
-            Some(Source::Before(k)) => before[*k],
-            Some(Source::Left(place)) => left[*place],
-            Some(Source::Free(_)) | None => UNSET,
-        }));
-        let mut steps = Steps {
-            bound: &self.plan.bound,
-            stage,
-            own,
-            paths: &mut self.paths[stage],
-            before,
-            left,
-            kept: &self.kept,
-            row: Vec::new(),
-            leaves: &mut leaves[0],
-            chosen: Vec::new(),
-            list,
-        };
-        steps.from(0, own.combinations)
+        let Staged {
+            plan,
+            desk,
+            classes,
+        } = self;
+        let own = &plan.stages[stage];
+        let values = classes[stage].values[class as usize].clone();
+        desk.begin();
+        let mut vectors = 0;
+        loop {
+            vectors += 1;
+            if vectors > MOST_VECTORS {
+                // The states that need it are made one by one.
+                return Err(Fault::OUT_OF_DOMAIN);
+            }
+            desk.start(before, own, &plan.boundaries[stage], &values);
+            let step = plan.bound.step_over(stage, desk);
+            step.map_err(|code| Fault { code })?;
+            for name in &own.forced {
+                plan.bound.value_over(name, desk);
+            }
+            let class = desk.class(&plan.boundaries[stage + 1]);
+            list.push(Outcome {
+                after: own.writes.iter().map(|k| desk.after(*k)).collect(),
+                class: classes[stage + 1].number(class),
+                rule: desk.rule().map(|rule| own.first_rule + rule),
+                share: own.combinations / desk.combinations(),
+            });
+            if !desk.advance() {
+                return Ok(());
+            }
+        }
     }
 
     fn conditions(&self, class: u32) -> u128 {
         let last = self.plan.stages.len();
-        let values = self.classes[last].row(class);
+        let values = &self.classes[last].values[class as usize];
         let holds = |mark: &Mark| match mark {
             Mark::Fixed(holds) => *holds,
             Mark::At(place) => values[*place] != 0,
@@ -106,7 +131,6 @@ impl Stages for Staged {
     }
 
     fn bytes(&self) -> u64 {
-        let classes = self.classes.iter().map(Rows::bytes).sum::<u64>();
-        classes + self.paths.iter().map(Paths::bytes).sum::<u64>()
+        self.classes.iter().map(|classes| classes.bytes).sum()
     }
 }

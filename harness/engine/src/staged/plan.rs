@@ -20,17 +20,6 @@ pub(super) enum Cell {
     Named(usize),
 }
 
-/// Where a value comes from that a step asks for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Source {
-    /// A state variable as it was before the cycle.
-    Before(usize),
-    /// A cell that was left to the stage, by its place in the class.
-    Left(usize),
-    /// An input that no stage before has read: all its values.
-    Free(usize),
-}
-
 /// The step of one instance.
 pub(super) struct Stage {
     /// State variables whose values before the cycle it may look at, its own among them.
@@ -43,24 +32,6 @@ pub(super) struct Stage {
     pub(super) combinations: u64,
     /// The number of its first rule.
     pub(super) first_rule: usize,
-    /// The cells that are left to it, in order.
-    left: Vec<Cell>,
-    /// Its row: the variables of `writes`, then the cells that it leaves.
-    pub(super) row: Vec<Cell>,
-    /// Where the row has its values from if the step makes nothing.
-    pub(super) kept: Vec<Option<Source>>,
-}
-
-impl Stage {
-    /// Where a cell has its value from that the step has not made; none if it has no value.
-    pub(super) fn source(&self, cell: Cell) -> Option<Source> {
-        match (self.left.binary_search(&cell), cell) {
-            (Ok(place), _) => Some(Source::Left(place)),
-            // Its own variable, or one of an instance that has made no step yet.
-            (Err(_), Cell::Now(k)) => Some(Source::Before(k)),
-            (Err(_), _) => None,
-        }
-    }
 }
 
 /// Where the end of the last stage tells whether a condition holds.
@@ -73,8 +44,8 @@ pub(super) struct Plan {
     /// The system, with further named expressions for parts of the conditions.
     pub(super) bound: Bound,
     pub(super) stages: Vec<Stage>,
-    /// How many cells are kept before the first stage, and after each one.
-    pub(super) widths: Vec<usize>,
+    /// What is kept before the first stage, and after each one.
+    pub(super) boundaries: Vec<Vec<Cell>>,
     pub(super) marks: Vec<Mark>,
 }
 
@@ -94,8 +65,7 @@ impl Plan {
             Node::Lazy(k) => Some(Cell::Named(*k as usize)),
             _ => None,
         }));
-        let last: Vec<Cell> = live.iter().copied().collect();
-        let mut widths = vec![last.len()];
+        let mut boundaries = vec![live.iter().copied().collect::<Vec<_>>()];
         let mut stages = Vec::new();
         for stage in (0..number).rev() {
             let instance = &system.instances[stage];
@@ -121,23 +91,19 @@ impl Plan {
             });
             let combinations = sizes.into_iter().try_fold(1, u64::checked_mul)?;
             let earlier = system.instances[..stage].iter();
-            let leaves = std::mem::replace(&mut live, needs.cells);
-            widths.push(live.len());
-            let mut stage = Stage {
-                row: own.clone().map(Cell::Now).chain(leaves).collect(),
-                left: live.iter().copied().collect(),
+            stages.push(Stage {
                 reads: needs.reads.into_iter().collect(),
                 writes: own.collect(),
                 forced,
                 combinations,
                 first_rule: earlier.map(|i| i.rules.len()).sum(),
-                kept: Vec::new(),
-            };
-            stage.kept = stage.row.iter().map(|cell| stage.source(*cell)).collect();
-            stages.push(stage);
+            });
+            live = needs.cells;
+            boundaries.push(live.iter().copied().collect());
         }
         stages.reverse();
-        widths.reverse();
+        boundaries.reverse();
+        let last = boundaries.last()?;
         let mark = |node: &Node| match node {
             Node::Lazy(k) => {
                 let place = last
@@ -152,7 +118,7 @@ impl Plan {
         Some(Self {
             bound,
             stages,
-            widths,
+            boundaries,
             marks,
         })
     }
