@@ -133,31 +133,12 @@ impl<'a> Builder<'a> {
 
     /// An expression in which the parameters are state variables.
     fn node(&self, node: &Node) -> Node {
-        let place = |k: u32| self.places[k as usize];
-        match node {
-            Node::Cell(Space::Param, k) => match place(*k) {
-                Some(k) => Node::Cell(Space::Before, k),
-                None => node.clone(),
-            },
-            Node::Element {
-                space: Space::Param,
-                base,
-                lo,
-                len,
-                index,
-            } => match place(*base) {
-                // The elements of an array are set free together, so they stand together.
-                Some(base) => Node::Element {
-                    space: Space::Before,
-                    base,
-                    lo: *lo,
-                    len: *len,
-                    index: Box::new(self.node(index)),
-                },
-                None => node.map(&mut |n| self.node(n)),
-            },
-            _ => node.map(&mut |n| self.node(n)),
-        }
+        // The elements of an array are set free together, so they stand together.
+        let mut place = |space, k: u32| match space {
+            Space::Param => self.places[k as usize].map_or((space, k), |k| (Space::Before, k)),
+            _ => (space, k),
+        };
+        node.placed(&mut place, &mut |n| self.node(n))
     }
 
     fn statements(&self, list: &[Stmt]) -> Vec<Stmt> {

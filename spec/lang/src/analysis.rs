@@ -359,28 +359,15 @@ impl<'a> Reading<'a> {
     /// State, wired ports and elements of parameters become inputs, parameters their values.
     fn free(&self, node: &Node) -> Node {
         let anew = |cell: u32| self.cells.range(..cell).count() as u32;
+        let mut place = |space, k| (Space::Input, anew(self.number(space, k)));
         match node {
             Node::Cell(Space::Param, k) => Node::Const(i64::from(self.bound.values[*k as usize])),
-            Node::Cell(space, k) => Node::Cell(Space::Input, anew(self.number(*space, *k))),
             Node::Lazy(k) if self.is_let(*k) => Node::Lazy(self.lets.range(..k).count() as u32),
             Node::Lazy(k) => {
                 let [_, wire, _] = self.starts();
                 Node::Cell(Space::Input, anew(wire + k))
             }
-            Node::Element {
-                space,
-                base,
-                lo,
-                len,
-                index,
-            } => Node::Element {
-                space: Space::Input,
-                base: anew(self.number(*space, *base)),
-                lo: *lo,
-                len: *len,
-                index: Box::new(self.free(index)),
-            },
-            other => other.map(&mut |child| self.free(child)),
+            other => other.placed(&mut place, &mut |child| self.free(child)),
         }
     }
 

@@ -82,22 +82,38 @@ impl Node {
 
     /// The same expression with each direct part replaced.
     pub fn map(&self, f: &mut impl FnMut(&Node) -> Node) -> Node {
+        self.placed(&mut |space, k| (space, k), f)
+    }
+
+    /// The same expression with its own cell, or the first one of its array, in another place, and each direct part replaced.
+    pub fn placed(
+        &self,
+        place: &mut impl FnMut(Space, u32) -> (Space, u32),
+        f: &mut impl FnMut(&Node) -> Node,
+    ) -> Node {
         let mut boxed = |n: &Node| Box::new(f(n));
         match self {
-            Node::Const(_) | Node::Cell(..) | Node::Lazy(_) => self.clone(),
+            Node::Const(_) | Node::Lazy(_) => self.clone(),
+            Node::Cell(space, k) => {
+                let (space, k) = place(*space, *k);
+                Node::Cell(space, k)
+            }
             Node::Element {
                 space,
                 base,
                 lo,
                 len,
                 index,
-            } => Node::Element {
-                space: *space,
-                base: *base,
-                lo: *lo,
-                len: *len,
-                index: boxed(index),
-            },
+            } => {
+                let (space, base) = place(*space, *base);
+                Node::Element {
+                    space,
+                    base,
+                    lo: *lo,
+                    len: *len,
+                    index: boxed(index),
+                }
+            }
             Node::Not(a) => Node::Not(boxed(a)),
             Node::Neg(a) => Node::Neg(boxed(a)),
             Node::Abs(a) => Node::Abs(boxed(a)),

@@ -186,28 +186,14 @@ impl<'a> Cut<'a> {
     }
 
     fn node(&self, node: &Node) -> Node {
-        let cell = |space: Space, k: u32| match space {
-            Space::Param => k,
-            Space::Before | Space::Now => self.states.get(k),
-            Space::Input => self.inputs.get(k),
+        let mut place = |space: Space, k: u32| match space {
+            Space::Param => (space, k),
+            Space::Before | Space::Now => (space, self.states.get(k)),
+            Space::Input => (space, self.inputs.get(k)),
         };
         match node {
-            Node::Cell(space, k) => Node::Cell(*space, cell(*space, *k)),
             Node::Lazy(k) => Node::Lazy(self.lazies.get(*k)),
-            Node::Element {
-                space,
-                base,
-                lo,
-                len,
-                index,
-            } => Node::Element {
-                space: *space,
-                base: cell(*space, *base),
-                lo: *lo,
-                len: *len,
-                index: Box::new(self.node(index)),
-            },
-            other => other.map(&mut |n| self.node(n)),
+            other => other.placed(&mut place, &mut |n| self.node(n)),
         }
     }
 
