@@ -4,6 +4,7 @@
 mod alarms;
 mod blocks;
 mod book;
+mod claimed_times;
 mod conversion;
 mod db18;
 mod fuzz;

@@ -1,11 +1,13 @@
 //! Guarantees that no shipped machine asks for: each holds where it is added, and is broken by each of its changes.
 
+use std::path::PathBuf;
+
 use serde::Deserialize;
 use stillpoint_engine::check::Settings;
 use stillpoint_harness::guarantees::answers;
-use stillpoint_machine::{self as machine, families};
-use stillpoint_model::{Until, Verdict};
-use stillpoint_tests::guarantees::decided;
+use stillpoint_machine::{self as machine, Machine, families};
+use stillpoint_model::Verdict;
+use stillpoint_tests::guarantees::{decided, is_violated};
 use stillpoint_tests::peer::each;
 use stillpoint_tests::root;
 
@@ -37,8 +39,8 @@ struct Change {
     by: String,
 }
 
-/// The verdict on the guarantee, and whether a way is told with it.
-fn judged(added: &Added, change: Option<&Change>) -> (Verdict, bool) {
+/// The machine of the guarantee, which stands at the end of its file, with what is changed.
+fn loaded(added: &Added, change: Option<&Change>) -> (PathBuf, Machine) {
     let path = root().join(&added.file);
     let mut text = std::fs::read_to_string(&path).expect("the machine");
     text.push_str(&added.text);
@@ -48,12 +50,14 @@ fn judged(added: &Added, change: Option<&Change>) -> (Verdict, bool) {
     }
     let machine = machine::load_bytes(&path, text.into_bytes(), &families(&path));
     let machine = machine.unwrap_or_else(|e| panic!("{}: {e}", added.name));
+    (path, machine)
+}
+
+/// The verdict on the guarantee, and whether a way is told with it.
+fn judged(added: &Added) -> (Verdict, bool) {
+    let (path, machine) = loaded(added, None);
     let names = [added.name.as_str()];
-    let settings = Settings {
-        until: change.map_or(Until::Complete, |_| Until::Violated),
-        ..Settings::default()
-    };
-    let (subject, checked) = decided(&path, machine, &names, &settings);
+    let (subject, checked) = decided(&path, machine, &names, &Settings::default());
     let list = answers(&subject, &checked);
     let answer = (list.iter())
         .find(|answer| answer.guarantee.name == added.name)
@@ -69,12 +73,13 @@ fn every_added_guarantee_holds_and_is_broken_by_each_change() {
     let file: File = toml::from_str(&text).unwrap_or_else(|e| panic!("{e}"));
     let wrong = each(&file.guarantee, |added| {
         let mut wrong = Vec::new();
-        let found = judged(added, None);
+        let found = judged(added);
         if found != (Verdict::Holds, added.way) {
             wrong.push(format!("{}: {found:?}", added.name));
         }
         for change in &added.change {
-            if judged(added, Some(change)).0 != Verdict::Violated {
+            let (path, machine) = loaded(added, Some(change));
+            if !is_violated(&path, &machine, &added.name) {
                 wrong.push(format!("{}: {}: not broken", added.name, change.text));
             }
         }

@@ -4,7 +4,9 @@ use std::path::Path;
 
 use stillpoint_engine::check::{Checked, Settings, check};
 use stillpoint_engine::subject::{self, Readings, Subject};
-use stillpoint_machine::Machine;
+use stillpoint_harness::guarantees::answers;
+use stillpoint_machine::{Machine, Run};
+use stillpoint_model::{Until, Verdict};
 
 /// The explorations that decide these guarantees of a machine of this file, and what they have given.
 ///
@@ -20,8 +22,39 @@ pub fn decided(
         .filter(|run| run.guarantee.as_deref().is_some_and(|g| names.contains(&g)))
         .cloned()
         .collect();
+    explored(path, machine, &runs, settings)
+}
+
+/// Whether a guarantee of a machine of this file is violated. The first exploration that violates it is enough; there are many
+/// machines to look at, so each has one thread.
+///
+/// # Panics
+/// If one cannot be explored.
+pub fn is_violated(path: &Path, machine: &Machine, name: &str) -> bool {
+    let settings = Settings {
+        threads: 1,
+        until: Until::Violated,
+        ..Settings::default()
+    };
+    let mut runs = machine.runs.iter();
+    runs.any(|run| {
+        run.guarantee.as_deref() == Some(name) && {
+            let runs = std::slice::from_ref(run);
+            let (subject, checked) = explored(path, machine.clone(), runs, &settings);
+            let mut answers = answers(&subject, &checked).into_iter();
+            answers.any(|a| a.verdict == Verdict::Violated)
+        }
+    })
+}
+
+fn explored(
+    path: &Path,
+    machine: Machine,
+    runs: &[Run],
+    settings: &Settings,
+) -> (Subject, Vec<Checked>) {
     let subject =
-        subject::of_runs(path, machine, &runs, &Readings::new()).unwrap_or_else(|e| panic!("{e}"));
+        subject::of_runs(path, machine, runs, &Readings::new()).unwrap_or_else(|e| panic!("{e}"));
     let checked = check(&subject, settings, &mut |_| Box::new(()))
         .unwrap_or_else(|(t, e)| panic!("{t}: {e}"));
     (subject, checked)

@@ -34,6 +34,28 @@ pub fn names<'a>(expr: &'a Expr, visit: &mut dyn FnMut(&'a str)) {
     }
 }
 
+/// Calls `visit` with each name that decides the value of `expr` with these values, in order: of `SEL` what it selects only.
+pub fn deciding<'a>(expr: &'a Expr, values: &Values, cycle: i64, visit: &mut dyn FnMut(&'a str)) {
+    let mut within = |e: &'a Expr| deciding(e, values, cycle, visit);
+    match &expr.kind {
+        Kind::Call(name, args) if name == "SEL" => {
+            if let [g, a, b] = args.as_slice() {
+                within(g);
+                match eval(g, values, cycle) {
+                    Ok(0) => within(a),
+                    Ok(_) => within(b),
+                    // What nobody knows here may be either.
+                    Err(_) => [a, b].into_iter().for_each(within),
+                }
+            }
+        }
+        Kind::Index(a, b) | Kind::Binary(_, a, b) => [a, b].into_iter().for_each(|e| within(e)),
+        Kind::Unary(_, a) => within(a),
+        Kind::Call(_, args) => args.iter().for_each(within),
+        _ => names(expr, visit),
+    }
+}
+
 struct Evaluator<'a> {
     values: &'a Values,
     cycle: i64,

@@ -10,7 +10,6 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::AxisKind;
-use super::ground::read_names;
 use super::guarantee::Pattern;
 use super::signal::{self, Signals};
 use super::units::{Dimension, quoted};
@@ -96,14 +95,18 @@ impl Family {
         all.chain(&self.group).find_map(|params| params.get(name))
     }
 
-    /// The names with those that the named expressions among them read, each once; of what the family has no parameter too.
-    pub fn resolved(&self, names: Vec<String>) -> IndexSet<String> {
+    /// The names with those that the named expressions among them read by `read`, each once; of what the family has no parameter too.
+    pub fn resolved(
+        &self,
+        names: Vec<String>,
+        read: &dyn Fn(&Expr) -> Vec<String>,
+    ) -> IndexSet<String> {
         let mut found = IndexSet::from_iter(names);
         let mut at = 0;
         while let Some(name) = found.get_index(at) {
             let more = match self.named(name) {
-                Some(formula) => read_names(&formula.expr),
-                None if name == "monitoring_cycle" => read_names(&self.monitoring_cycle.expr),
+                Some(formula) => read(&formula.expr),
+                None if name == "monitoring_cycle" => read(&self.monitoring_cycle.expr),
                 None => Vec::new(),
             };
             found.extend(more);
@@ -393,6 +396,9 @@ pub(super) struct Rule {
     pub fix: String,
 }
 
+/// The name under which the expressions of an explored system read the time that passes beside it.
+pub(super) const BEFORE: &str = "before";
+
 /// A system to explore for an axis, a group of axes, a door or the machine.
 #[derive(Debug)]
 pub(super) struct Explore {
@@ -407,7 +413,7 @@ pub(super) struct Explore {
     pub members: usize,
     /// The length of a cycle of the system, where it is not the monitoring cycle.
     pub cycle: Option<Formula>,
-    /// A time that passes before what is explored begins, and that a bound found there does not have.
+    /// A time that passes beside what is explored, and that a bound found there does not have. The other expressions read it as `before`.
     pub before: Option<Formula>,
     /// The greatest speed at which the axis may be monitored before, in base units a minute: a bound at this speed is a way.
     pub travel: Option<Formula>,

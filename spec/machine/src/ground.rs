@@ -8,7 +8,7 @@ use std::sync::Arc;
 use serde::Deserialize;
 
 use super::document::Findings;
-use super::eval::{Values, eval, given, names};
+use super::eval::{Values, deciding, eval, given, names};
 use super::family::{Family, Formula, Quantity};
 use super::family_file::Check;
 use super::guarantee::Guarantee;
@@ -455,5 +455,12 @@ fn others<'a>(machine: &'a Machine, axis: &'a Axis) -> impl Iterator<Item = &'a 
 pub(super) fn read_names(expr: &Expr) -> Vec<String> {
     let mut list = Vec::new();
     names(expr, &mut |name| list.push(name.to_owned()));
+    list
+}
+
+/// The names that decide the value of an expression with these values: of `SEL` the condition and what it selects.
+pub(super) fn read_with(expr: &Expr, values: &Values, cycle: i64) -> Vec<String> {
+    let mut list = Vec::new();
+    deciding(expr, values, cycle, &mut |name| list.push(name.to_owned()));
     list
 }

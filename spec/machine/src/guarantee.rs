@@ -11,9 +11,10 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::eval::Values;
+use super::explore_file::ExploreData;
 use super::family::{Explore, Family, Formula, Known, Param, Quantity, Rule};
-use super::family_file::{Check, ExploreData, ParamData, RuleData};
-use super::ground::{About as Subjects, DataFile, grounds};
+use super::family_file::{Check, ParamData, RuleData};
+use super::ground::{About as Subjects, DataFile, grounds, read_names, read_with};
 use super::own::Own;
 use super::plausible::{Judged, evaluate, insert};
 use super::runs::Parts;
@@ -22,6 +23,7 @@ use super::uses::{of_system, of_wires};
 use super::whole::before;
 use super::{Machine, Place, Settings};
 use stillpoint_lang::diag::Result;
+use stillpoint_lang::syntax::ast::Expr;
 
 /// The file of the patterns in the folder of a family.
 pub(super) const FILE: &str = "guarantees.toml";
@@ -336,8 +338,12 @@ impl Machine {
         let programmed = self.basis.logic.is_programmed();
         let wires = pattern.explore.iter().filter(|_| programmed);
         let names = wires.flat_map(of_wires);
+        let mut values = ground.values.clone();
+        insert(&mut values, &guarantee.values);
+        let cycle = self.basis.judged.cycle;
+        let read = |expr: &Expr| read_with(expr, &values, cycle);
         let names: Vec<String> = names
-            .chain(pattern.explore.iter().flat_map(of_system))
+            .chain(pattern.explore.iter().flat_map(|e| of_system(e, &read)))
             .collect();
         let groups = grounds(self, Subjects::Group);
         let group = groups
@@ -358,9 +364,9 @@ impl Machine {
         // What a group has from its axes depends on each of them.
         let (whole, own): (Vec<String>, Vec<String>) = (names.into_iter())
             .partition(|name| family.group_lets.iter().any(|(known, _)| known == name));
-        let of_group = family.resolved(whole).into_iter();
+        let of_group = family.resolved(whole, &read_names).into_iter();
         let of_group = of_group.filter_map(|name| Some((name.clone(), group?.shown(&name, 0)?)));
-        let own = family.resolved(own).into_iter().filter_map(value);
+        let own = family.resolved(own, &read).into_iter().filter_map(value);
         own.chain(of_group).collect()
     }
 }

@@ -20,6 +20,7 @@ pub mod data;
 mod document;
 mod entry;
 mod eval;
+mod explore_file;
 mod family;
 mod family_file;
 #[cfg(test)]

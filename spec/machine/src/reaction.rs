@@ -10,8 +10,9 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::entry::{Premise, Reader};
+use super::explore_file::ExploreData;
 use super::family::{Explore, Family, Formula};
-use super::family_file::{Check, ExploreData};
+use super::family_file::Check;
 use super::ground::{About, DataFile, Ground, read_names};
 use super::runs;
 use super::template::{Template, Words};

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use toml::Spanned;
 
 use super::eval::Values;
-use super::family::{Binding, Explore, Family, Rounding, Scope};
+use super::family::{BEFORE, Binding, Explore, Family, Rounding, Scope};
 use super::guarantee::{Asked, Guarantee, WITHIN, asked};
 use super::logic::Logic;
 use super::own::{Asks, Own};
@@ -441,16 +441,18 @@ fn bind(
     let Some((_, values)) = members.get(of) else {
         return Ok(planned(run));
     };
+    let mut values = (*values).clone();
     let cycle = match &explore.cycle {
-        Some(formula) => evaluate(family, formula, values, cycle)?.max(1),
+        Some(formula) => evaluate(family, formula, &values, cycle)?.max(1),
         None => cycle,
     };
     run.cycle = cycle;
     if let Some(formula) = &explore.before {
-        run.before = evaluate(family, formula, values, cycle)?;
+        run.before = evaluate(family, formula, &values, cycle)?;
+        values.insert(BEFORE.to_owned(), vec![run.before]);
     }
     if let Some(formula) = &explore.travel {
-        run.travel = evaluate(family, formula, values, cycle)?;
+        run.travel = evaluate(family, formula, &values, cycle)?;
     }
     if !explore.note.is_empty() {
         run.abstractions.push(explore.note.clone());
@@ -459,13 +461,13 @@ fn bind(
     for binding in &explore.params {
         match binding {
             Binding::Value(name, formula) => {
-                let value = evaluate(family, formula, values, cycle)?;
+                let value = evaluate(family, formula, &values, cycle)?;
                 run.params.insert(name.clone(), vec![value]);
                 let source = formula.text.get_ref().clone();
                 run.sources.insert(name.clone(), source);
             }
             Binding::Time(name, formula, rounding) => {
-                let time = evaluate(family, formula, values, cycle)?;
+                let time = evaluate(family, formula, &values, cycle)?;
                 let source = formula.text.get_ref().clone();
                 run.sources.insert(name.clone(), source);
                 times.push(Time {

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use serde::Deserialize;
 use stillpoint_lang::diag::Result;
+use stillpoint_lang::syntax::ast::Expr;
 
 use super::data::Datum;
 use super::family::{Binding, Explore, Family};
@@ -41,12 +42,13 @@ struct Page {
 /// The files of the family are wrong.
 pub fn uses(folder: &Path, name: &str) -> Result<Uses> {
     let family = family_file::load(folder)?;
-    let reads = |names: Vec<String>| family.resolved(names).contains(name);
+    let reads = |names: Vec<String>| family.resolved(names, &read_names).contains(name);
     let rules = family.rules.iter();
     let rules = rules.filter(|r| reads(read_names(&r.when.expr)));
     let patterns = family.patterns.values().flat_map(|p| &p.explore);
     let systems = family.explore.iter().chain(patterns);
-    let systems = systems.filter(|e| reads(of_system(e)) || reads(of_wires(e).collect()));
+    let systems =
+        systems.filter(|e| reads(of_system(e, &read_names)) || reads(of_wires(e).collect()));
     let known = warnings::catalogue(folder)?.into_iter();
     let known = known.filter(|w| w.reads.iter().any(|n| n == name));
     Ok(Uses {
@@ -75,17 +77,17 @@ pub(super) fn of_wires(explore: &Explore) -> impl Iterator<Item = String> + '_ {
     explore.wires.iter().map(|wire| wire.name.clone())
 }
 
-/// The names that an explored system reads.
-pub(super) fn of_system(explore: &Explore) -> Vec<String> {
-    let mut names = read_names(&explore.when.expr);
+/// The names that an explored system reads, those of each expression by `read`.
+pub(super) fn of_system(explore: &Explore, read: &dyn Fn(&Expr) -> Vec<String>) -> Vec<String> {
+    let mut names = read(&explore.when.expr);
     let times = explore.cycle.iter().chain(&explore.before);
     let times = times.chain(&explore.scan).chain(&explore.travel);
-    names.extend(times.flat_map(|f| read_names(&f.expr)));
+    names.extend(times.flat_map(|f| read(&f.expr)));
     for binding in &explore.params {
         match binding {
             Binding::Value(_, formula)
             | Binding::Time(_, formula, _)
-            | Binding::Member(formula, _) => names.extend(read_names(&formula.expr)),
+            | Binding::Member(formula, _) => names.extend(read(&formula.expr)),
             Binding::Rank(list, _) => names.push(list.clone()),
         }
     }

@@ -1,0 +1,175 @@
+//! Reads what a family explores: entries of `[[explore]]` and of `[[pattern.NAME.explore]]`.
+
+use indexmap::IndexMap;
+use serde::Deserialize;
+use toml::Spanned;
+
+use super::family::{BEFORE, Binding, Explore, Formula, Known, Rounding, Scope, Wire};
+use super::family_file::Check;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ExploreData {
+    file: String,
+    system: String,
+    each: Scope,
+    when: Spanned<String>,
+    text: String,
+    #[serde(default)]
+    time: IndexMap<String, Spanned<String>>,
+    /// Times that no parameter gives, such as one that the manual fixes, to be rounded down.
+    #[serde(default)]
+    down: Vec<Spanned<String>>,
+    #[serde(default)]
+    param: IndexMap<String, Spanned<String>>,
+    #[serde(default)]
+    rank: IndexMap<Spanned<String>, Vec<String>>,
+    #[serde(default)]
+    member: IndexMap<Spanned<String>, Vec<String>>,
+    #[serde(default)]
+    members: usize,
+    cycle: Option<Spanned<String>>,
+    before: Option<Spanned<String>>,
+    scan: Option<Spanned<String>>,
+    travel: Option<Spanned<String>>,
+    #[serde(default)]
+    wire: IndexMap<String, Spanned<String>>,
+    #[serde(default)]
+    covers: IndexMap<Spanned<String>, Spanned<String>>,
+    #[serde(default)]
+    note: String,
+}
+
+impl Check {
+    /// What one entry of `[[explore]]` says.
+    pub fn explore(&mut self, data: ExploreData, known: &Known) -> Option<Explore> {
+        if data.each == Scope::Control {
+            let help = "write each = \"axis\", \"group\", \"door\" or \"machine\"";
+            let message = "no systems are explored for the control alone";
+            self.findings.add(data.when.span(), message, "", help);
+        }
+        if data.each == Scope::Group && data.members == 0 && !known.groups {
+            let help = "write members = 3, or declare the parameters of a group";
+            let message = "how many axes has the system?";
+            self.findings.add(data.when.span(), message, "", help);
+        }
+        let mut known = Known {
+            axis: known.of_explored(data.each, data.members).to_vec(),
+            roundings: known.roundings.clone(),
+            ..Known::default()
+        };
+        let when = self.formula(data.when, &known.axis)?;
+        let before = match data.before {
+            Some(text) => Some(self.formula(text, &known.axis)?),
+            None => None,
+        };
+        if let Some(before) = &before {
+            known.axis.push(BEFORE.to_owned());
+            let roundings = known.roundings(before);
+            known.roundings.insert(BEFORE.to_owned(), roundings);
+        }
+        let roundings = |formula: &Formula| known.roundings(formula);
+        let known = known.axis.as_slice();
+        let mut optional = |text: Option<Spanned<String>>| match text {
+            Some(text) => self.formula(text, known).map(Some),
+            None => Some(None),
+        };
+        let cycle = optional(data.cycle)?;
+        let scan = optional(data.scan)?;
+        let travel = optional(data.travel)?;
+        let mut wires = Vec::new();
+        for (port, text) in data.wire {
+            let written = text.get_ref();
+            let (written, optional) = match written.strip_suffix('?') {
+                Some(name) => (name, true),
+                None => (written.as_str(), false),
+            };
+            let (name, index) = match written.strip_suffix(']').and_then(|t| t.split_once('[')) {
+                Some((name, index)) => (name, index.parse().ok()),
+                None => (written, Some(0)),
+            };
+            match index.filter(|_| known.iter().any(|k| k == name)) {
+                Some(index) => wires.push(Wire {
+                    port,
+                    name: name.to_owned(),
+                    index,
+                    optional,
+                }),
+                None => {
+                    let help = "name a parameter that is a signal, with [0] for the first of a list, and ? where it may be none";
+                    let message = format!("'{written}' is no parameter here");
+                    self.findings.add(text.span(), message, "", help);
+                }
+            }
+        }
+        let mut covers = Vec::new();
+        for (name, text) in data.covers {
+            if !self.faults.contains(name.get_ref()) {
+                let message = format!("there is no fault '{}'", name.get_ref());
+                let help = format!("faults of this file: {}", self.faults.join(", "));
+                self.findings.add(name.span(), message, "", help);
+            }
+            covers.push((name.into_inner(), self.formula(text, known)?));
+        }
+        let mut params = Vec::new();
+        for (name, text) in data.param {
+            params.push(Binding::Value(name, self.formula(text, known)?));
+        }
+        for name in &data.down {
+            if !data.time.contains_key(name.get_ref()) {
+                let message = format!("'{}' is no time here", name.get_ref());
+                let help = "name one of the keys of time";
+                self.findings.add(name.span(), message, "", help);
+            }
+        }
+        for (name, text) in data.time {
+            let span = text.span();
+            let formula = self.formula(text, known)?;
+            let down = data.down.iter().any(|d| *d.get_ref() == name);
+            let rounding = match roundings(&formula).as_slice() {
+                [] if down => Rounding::Down,
+                [] => Rounding::Up,
+                [own] if down && *own != Rounding::Down => {
+                    let message = "the parameter has a rounding of its own";
+                    self.findings.add(span, message, "", "leave it out of down");
+                    return None;
+                }
+                [one] => *one,
+                _ => {
+                    let message = "one of these times is rounded up to whole cycles, another down";
+                    let help = "write it under param, with CYCLES(...) for up and / monitoring_cycle for down";
+                    self.findings.add(span, message, "", help);
+                    return None;
+                }
+            };
+            params.push(Binding::Time(name, formula, rounding));
+        }
+        for (list, names) in data.rank {
+            if !known.contains(list.get_ref()) {
+                let message = format!("unknown name '{}'", list.get_ref());
+                self.findings
+                    .add(list.span(), message, "", "name a list of values");
+            }
+            params.push(Binding::Rank(list.into_inner(), names));
+        }
+        for (text, names) in data.member {
+            params.push(Binding::Member(self.formula(text, known)?, names));
+        }
+        Some(Explore {
+            file: data.file,
+            system: data.system,
+            each: data.each,
+            when,
+            text: data.text,
+            note: data.note,
+            members: data.members,
+            cycle,
+            before,
+            scan,
+            travel,
+            wires,
+            covers,
+            params,
+        })
+    }
+}
