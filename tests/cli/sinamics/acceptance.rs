@@ -116,7 +116,7 @@ fn values_and_times_are_those_of_the_machine() {
     let brake = test(&json, "SBT1-Z").to_string();
     assert!(brake.contains("lasts 3 s for sequence 1, 2.5 s for sequence 2"));
     // The contact, F-CPU and bus, Table 8-4, p9551.
-    assert_eq!(trace(test(&json, "DOOR-front-X1"))[0].2, 508_000);
+    assert_eq!(trace(test(&json, "DOOR-front-X1"))[0].2, 506_000);
 }
 
 /// The mode ends by itself after p9558; each test that needs it says so.
