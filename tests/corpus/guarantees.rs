@@ -129,6 +129,17 @@ fn every_dangerous_value_breaks_a_guarantee() {
     }
 }
 
+/// Where the NCK stands still the half in the PLC has to do it.
+#[test]
+fn a_slow_plc_breaks_a_guarantee_that_is_to_hold_after_a_fault() {
+    const LATHE: &str = "spec/machines/lathe-840d.toml";
+    const CYCLE: &str = "PLC_CYCLE_MAX              = \"50 ms\"";
+    let path = root().join(LATHE);
+    let broken = |by: &str| is_violated(&path, &changed(LATHE, CYCLE, by), "slides");
+    assert!(!broken("PLC_CYCLE_MAX = \"60 ms\""));
+    assert!(broken("PLC_CYCLE_MAX = \"80 ms\""));
+}
+
 /// Where one contact is all there is, the broken guarantee names the fault that breaks it, and no other run is broken.
 #[test]
 fn the_fault_that_breaks_a_guarantee_is_named() {
