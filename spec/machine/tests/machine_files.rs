@@ -349,6 +349,32 @@ fn bad_files_are_refused_with_place_and_fix() {
     insta::assert_snapshot!("bad_input", got);
 }
 
+/// S120-SBT-002, S120-TIMING-001: the fix that a refusal names is taken.
+#[test]
+fn refused_files_are_accepted_with_their_fix() {
+    for (file, wrong, right) in [
+        (
+            "s120-brake-test-of-another-motor.toml",
+            "r0108_12 = true",
+            "r0108_12 = true\np10204 = \"linear\"",
+        ),
+        (
+            "s120-acquisition-too-fast.toml",
+            "p9511 = \"1 ms\"",
+            "p9511 = \"2 ms\"",
+        ),
+        (
+            "s120-acquisition-without-encoder.toml",
+            "p9511 = \"1 ms\"",
+            "p9511 = \"125 us\"",
+        ),
+    ] {
+        let text = fs::read_to_string(bad_input().join(file)).expect("a file of the folder");
+        assert!(text.contains(wrong), "{file}");
+        load(&text.replace(wrong, right)).unwrap_or_else(|e| panic!("{file}: {e}"));
+    }
+}
+
 #[test]
 fn what_is_no_file_is_refused() {
     let folder = refusal(&bad_input());
