@@ -22,37 +22,40 @@ pub fn given(parameter: &str) -> String {
 
 /// Calls `visit` with each name that `expr` reads, in order.
 pub fn names<'a>(expr: &'a Expr, visit: &mut dyn FnMut(&'a str)) {
-    match &expr.kind {
-        Kind::Name(name) => visit(name),
-        Kind::Index(a, b) | Kind::Binary(_, a, b) => {
-            names(a, visit);
-            names(b, visit);
-        }
-        Kind::Unary(_, a) | Kind::Member(a, _) | Kind::Quantified(_, _, _, a) => names(a, visit),
-        Kind::Call(_, args) => args.iter().for_each(|a| names(a, visit)),
-        Kind::Int(_) | Kind::Bool(_) | Kind::Time(_) | Kind::Qualified(_, _) => {}
-    }
+    walk(expr, &|_| None, visit);
 }
 
 /// Calls `visit` with each name that decides the value of `expr` with these values, in order: of `SEL` what it selects only.
 pub fn deciding<'a>(expr: &'a Expr, values: &Values, cycle: i64, visit: &mut dyn FnMut(&'a str)) {
-    let mut within = |e: &'a Expr| deciding(e, values, cycle, visit);
+    walk(expr, &|g| eval(g, values, cycle).ok(), visit);
+}
+
+/// Visits the names of an expression; of `SEL` only what it selects where `known` tells the value of its condition.
+fn walk<'a>(
+    expr: &'a Expr,
+    known: &dyn Fn(&'a Expr) -> Option<i64>,
+    visit: &mut dyn FnMut(&'a str),
+) {
+    let mut within = |e: &'a Expr| walk(e, known, visit);
     match &expr.kind {
-        Kind::Call(name, args) if name == "SEL" => {
-            if let [g, a, b] = args.as_slice() {
+        Kind::Name(name) => visit(name),
+        Kind::Call(name, args) => match (name.as_str(), args.as_slice()) {
+            ("SEL", [g, a, b]) => {
                 within(g);
-                match eval(g, values, cycle) {
-                    Ok(0) => within(a),
-                    Ok(_) => within(b),
-                    // What nobody knows here may be either.
-                    Err(_) => [a, b].into_iter().for_each(within),
+                match known(g) {
+                    Some(0) => within(a),
+                    Some(_) => within(b),
+                    None => [a, b].into_iter().for_each(within),
                 }
             }
+            _ => args.iter().for_each(within),
+        },
+        Kind::Index(a, b) | Kind::Binary(_, a, b) => {
+            within(a);
+            within(b);
         }
-        Kind::Index(a, b) | Kind::Binary(_, a, b) => [a, b].into_iter().for_each(|e| within(e)),
-        Kind::Unary(_, a) => within(a),
-        Kind::Call(_, args) => args.iter().for_each(within),
-        _ => names(expr, visit),
+        Kind::Unary(_, a) | Kind::Member(a, _) | Kind::Quantified(_, _, _, a) => within(a),
+        Kind::Int(_) | Kind::Bool(_) | Kind::Time(_) | Kind::Qualified(_, _) => {}
     }
 }
 

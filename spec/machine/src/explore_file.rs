@@ -53,28 +53,14 @@ impl Check {
             let message = "how many axes has the system?";
             self.findings.add(data.when.span(), message, "", help);
         }
-        let mut known = Known {
-            axis: known.of_explored(data.each, data.members).to_vec(),
-            roundings: known.roundings.clone(),
-            ..Known::default()
-        };
-        let when = self.formula(data.when, &known.axis)?;
-        let before = match data.before {
-            Some(text) => Some(self.formula(text, &known.axis)?),
-            None => None,
-        };
-        if let Some(before) = &before {
-            known.axis.push(BEFORE.to_owned());
-            let roundings = known.roundings(before);
-            known.roundings.insert(BEFORE.to_owned(), roundings);
-        }
         let roundings = |formula: &Formula| known.roundings(formula);
-        let known = known.axis.as_slice();
+        let known = known.of_explored(data.each, data.members);
         let mut optional = |text: Option<Spanned<String>>| match text {
             Some(text) => self.formula(text, known).map(Some),
             None => Some(None),
         };
         let cycle = optional(data.cycle)?;
+        let before = optional(data.before)?;
         let scan = optional(data.scan)?;
         let travel = optional(data.travel)?;
         let mut wires = Vec::new();
@@ -112,8 +98,12 @@ impl Check {
             covers.push((name.into_inner(), self.formula(text, known)?));
         }
         let mut params = Vec::new();
+        let of_param = match &before {
+            Some(_) => &[known, &[BEFORE.to_owned()]].concat(),
+            None => known,
+        };
         for (name, text) in data.param {
-            params.push(Binding::Value(name, self.formula(text, known)?));
+            params.push(Binding::Value(name, self.formula(text, of_param)?));
         }
         for name in &data.down {
             if !data.time.contains_key(name.get_ref()) {
@@ -159,7 +149,7 @@ impl Check {
             file: data.file,
             system: data.system,
             each: data.each,
-            when,
+            when: self.formula(data.when, known)?,
             text: data.text,
             note: data.note,
             members: data.members,

@@ -10,6 +10,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::AxisKind;
+use super::ground::read_names;
 use super::guarantee::Pattern;
 use super::signal::{self, Signals};
 use super::units::{Dimension, quoted};
@@ -95,8 +96,13 @@ impl Family {
         all.chain(&self.group).find_map(|params| params.get(name))
     }
 
-    /// The names with those that the named expressions among them read by `read`, each once; of what the family has no parameter too.
-    pub fn resolved(
+    /// The names with those that the named expressions among them read, each once; of what the family has no parameter too.
+    pub fn resolved(&self, names: Vec<String>) -> IndexSet<String> {
+        self.resolved_by(names, &read_names)
+    }
+
+    /// The same where `read` tells what an expression reads.
+    pub fn resolved_by(
         &self,
         names: Vec<String>,
         read: &dyn Fn(&Expr) -> Vec<String>,
@@ -396,7 +402,7 @@ pub(super) struct Rule {
     pub fix: String,
 }
 
-/// The name under which the expressions of an explored system read the time that passes beside it.
+/// The name under which the parameters of an explored system read the time that passes beside it.
 pub(super) const BEFORE: &str = "before";
 
 /// A system to explore for an axis, a group of axes, a door or the machine.
@@ -413,7 +419,7 @@ pub(super) struct Explore {
     pub members: usize,
     /// The length of a cycle of the system, where it is not the monitoring cycle.
     pub cycle: Option<Formula>,
-    /// A time that passes beside what is explored, and that a bound found there does not have. The other expressions read it as `before`.
+    /// A time that passes beside what is explored, and that a bound found there does not have. The expressions under `param` read it as `before`.
     pub before: Option<Formula>,
     /// The greatest speed at which the axis may be monitored before, in base units a minute: a bound at this speed is a way.
     pub travel: Option<Formula>,

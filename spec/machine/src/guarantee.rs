@@ -14,7 +14,7 @@ use super::eval::Values;
 use super::explore_file::ExploreData;
 use super::family::{Explore, Family, Formula, Known, Param, Quantity, Rule};
 use super::family_file::{Check, ParamData, RuleData};
-use super::ground::{About as Subjects, DataFile, grounds, read_names, read_with};
+use super::ground::{About as Subjects, DataFile, grounds, read_with};
 use super::own::Own;
 use super::plausible::{Judged, evaluate, insert};
 use super::runs::Parts;
@@ -364,9 +364,9 @@ impl Machine {
         // What a group has from its axes depends on each of them.
         let (whole, own): (Vec<String>, Vec<String>) = (names.into_iter())
             .partition(|name| family.group_lets.iter().any(|(known, _)| known == name));
-        let of_group = family.resolved(whole, &read_names).into_iter();
+        let of_group = family.resolved(whole).into_iter();
         let of_group = of_group.filter_map(|name| Some((name.clone(), group?.shown(&name, 0)?)));
-        let own = family.resolved(own, &read).into_iter().filter_map(value);
+        let own = family.resolved_by(own, &read).into_iter().filter_map(value);
         own.chain(of_group).collect()
     }
 }

@@ -1,5 +1,6 @@
 //! From the values of the axes, groups and doors to the explorations that cover the machine.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -441,7 +442,7 @@ fn bind(
     let Some((_, values)) = members.get(of) else {
         return Ok(planned(run));
     };
-    let mut values = (*values).clone();
+    let mut values = Cow::Borrowed(*values);
     let cycle = match &explore.cycle {
         Some(formula) => evaluate(family, formula, &values, cycle)?.max(1),
         None => cycle,
@@ -449,7 +450,8 @@ fn bind(
     run.cycle = cycle;
     if let Some(formula) = &explore.before {
         run.before = evaluate(family, formula, &values, cycle)?;
-        values.insert(BEFORE.to_owned(), vec![run.before]);
+        let before = vec![run.before];
+        values.to_mut().insert(BEFORE.to_owned(), before);
     }
     if let Some(formula) = &explore.travel {
         run.travel = evaluate(family, formula, &values, cycle)?;

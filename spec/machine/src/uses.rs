@@ -42,7 +42,7 @@ struct Page {
 /// The files of the family are wrong.
 pub fn uses(folder: &Path, name: &str) -> Result<Uses> {
     let family = family_file::load(folder)?;
-    let reads = |names: Vec<String>| family.resolved(names, &read_names).contains(name);
+    let reads = |names: Vec<String>| family.resolved(names).contains(name);
     let rules = family.rules.iter();
     let rules = rules.filter(|r| reads(read_names(&r.when.expr)));
     let patterns = family.patterns.values().flat_map(|p| &p.explore);

@@ -14,7 +14,7 @@ use toml::Spanned;
 use super::Machine;
 use super::family::Family;
 use super::family_file::Check;
-use super::ground::{DataFile, read_names};
+use super::ground::DataFile;
 use plan::{Plan, TestData, plan};
 use stillpoint_lang::diag::Result;
 
@@ -185,7 +185,7 @@ fn complete(
     plans: &[Plan],
     untested: &IndexMap<Spanned<String>, String>,
 ) {
-    let read = family.resolved(plans.iter().flat_map(Plan::reads).collect(), &read_names);
+    let read = family.resolved(plans.iter().flat_map(Plan::reads).collect());
     let all = [&family.control, &family.axis, &family.door];
     let all = all.into_iter().chain(&family.group);
     let all: Vec<&String> = all.flat_map(IndexMap::keys).collect();

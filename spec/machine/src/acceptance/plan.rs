@@ -345,7 +345,7 @@ impl Plan {
         for text in self.templates() {
             found.extend(text.values(ground));
         }
-        for name in family.resolved(self.reads(), &read_names) {
+        for name in family.resolved(self.reads()) {
             if let Some(formula) = family.named(&name) {
                 found.extend(ground.reads(&formula.expr));
             }

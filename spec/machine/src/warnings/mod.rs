@@ -281,7 +281,7 @@ impl Rule {
             better,
             source: self.source,
             req: self.req,
-            reads: family.resolved(reads, &read_names).into_iter().collect(),
+            reads: family.resolved(reads).into_iter().collect(),
         }
     }
 }
