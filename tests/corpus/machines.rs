@@ -84,6 +84,22 @@ fn the_milling_machine_keeps_every_property() {
     assert!(properties >= 30, "{properties}");
 }
 
+#[test]
+fn the_pages_show_the_numbers_of_the_milling_machine() {
+    let reports = || MILLING.1.iter().map(|c| &c.outcome.report);
+    let states: u64 = reports().map(|r| r.states).sum();
+    let transitions: u128 = reports().map(|r| r.transitions).sum();
+    let properties = format!("{}properties", summarise(&MILLING.0, &MILLING.1).len());
+    let numbers = format!("{states}states,{transitions}transitions");
+    for page in ["README.md", "docs/src/tutorial.md"] {
+        let text = std::fs::read_to_string(root().join(page)).expect("a page");
+        let text: String = text.chars().filter(|c| !c.is_whitespace()).collect();
+        let shown = text.matches(&properties).count();
+        assert!(shown > 0, "{page} shows no check of the milling machine");
+        assert_eq!(text.matches(&numbers).count(), shown, "{page}: {numbers}");
+    }
+}
+
 /// The axes of the machining centre.
 const CENTRE: [&str; 5] = ["X", "Y", "Z", "S", "M"];
 
