@@ -88,14 +88,15 @@ fn decided_by<'a>(
     }
 }
 
-/// How far an axis of a run goes in a time, in microseconds, at the speed of the run.
+/// How far an axis of a run goes in a time, in microseconds, at the speed of the run, and what its monitor lets it move.
 fn way(subject: &Subject, task: &Task, bound: u64) -> Option<(String, String)> {
     const MINUTE: i128 = 60_000_000;
     let first = task.axes.first()?;
     let mut axes = subject.machine.iter().flat_map(|m| &m.axes);
     let dimensions = axes.find(|a| a.name == *first)?.kind.dimensions();
     let way = i128::from(task.travel) * i128::from(bound);
-    let way = i64::try_from(way / MINUTE + i128::from(way % MINUTE != 0)).ok()?;
+    let way = way / MINUTE + i128::from(way % MINUTE != 0) + i128::from(task.window);
+    let way = i64::try_from(way).ok()?;
     (task.travel > 0).then(|| (dimensions.way.show(way), dimensions.speed.show(task.travel)))
 }
 

@@ -186,6 +186,7 @@ fn task(spec: &Spec, bound: Bound, title: String) -> Task {
         guarantee: None,
         faults: Vec::new(),
         travel: 0,
+        window: 0,
         before: 0,
         abstractions: Vec::new(),
         bound,

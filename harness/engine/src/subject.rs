@@ -29,6 +29,8 @@ pub struct Task {
     pub before: u64,
     /// The speed, in base units a minute, at which a bound is told as a way too; 0: at none.
     pub travel: i64,
+    /// A way in base units that is added to the one at that speed.
+    pub window: i64,
     /// Where it is coarser than the machine.
     pub abstractions: Vec<String>,
     /// The system with its parameter values.
@@ -103,6 +105,7 @@ fn of_spec(path: &Path, text: Arc<str>, readings: &Readings) -> Result<Subject> 
                 faults: Vec::new(),
                 before: 0,
                 travel: 0,
+                window: 0,
                 abstractions: Vec::new(),
                 bound,
                 analysis,
@@ -172,6 +175,7 @@ pub fn of_runs(
             faults: run.faults.clone(),
             before: u64::try_from(run.before).unwrap_or(0),
             travel: run.travel,
+            window: run.window,
             abstractions: run.abstractions.clone(),
             bound,
             analysis,

@@ -32,6 +32,7 @@ pub(super) struct ExploreData {
     before: Option<Spanned<String>>,
     scan: Option<Spanned<String>>,
     travel: Option<Spanned<String>>,
+    window: Option<Spanned<String>>,
     #[serde(default)]
     wire: IndexMap<String, Spanned<String>>,
     #[serde(default)]
@@ -63,6 +64,7 @@ impl Check {
         let before = optional(data.before)?;
         let scan = optional(data.scan)?;
         let travel = optional(data.travel)?;
+        let window = optional(data.window)?;
         let mut wires = Vec::new();
         for (port, text) in data.wire {
             let written = text.get_ref();
@@ -157,6 +159,7 @@ impl Check {
             before,
             scan,
             travel,
+            window,
             wires,
             covers,
             params,

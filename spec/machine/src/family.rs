@@ -423,6 +423,8 @@ pub(super) struct Explore {
     pub before: Option<Formula>,
     /// The greatest speed at which the axis may be monitored before, in base units a minute: a bound at this speed is a way.
     pub travel: Option<Formula>,
+    /// A way that is added to that one: what the axis may move before its monitor minds.
+    pub window: Option<Formula>,
     /// The time from one scan of a program in it to the next, where that is not its cycle.
     pub scan: Option<Formula>,
     /// The ports of the program that takes a machine's place, each with what names its signal.

@@ -205,6 +205,8 @@ pub struct Run {
     pub before: i64,
     /// The speed, in base units a minute, at which a bound is told as a way too; 0: at none.
     pub travel: i64,
+    /// A way in base units that is added to the one at that speed.
+    pub window: i64,
     /// The signals that a program of the machine file has at the ports of the machine it stands for, `OUTSI[3]` or `NOT INSE[1]`.
     pub wiring: Wiring,
     /// Values of the system's parameters; one cell for a scalar. Times in cycles, or in steps.

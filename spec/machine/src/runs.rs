@@ -428,6 +428,7 @@ fn bind(
         cycle,
         before: 0,
         travel: 0,
+        window: 0,
         wiring: Wiring::new(),
         params: BTreeMap::new(),
         sources: BTreeMap::new(),
@@ -455,6 +456,9 @@ fn bind(
     }
     if let Some(formula) = &explore.travel {
         run.travel = evaluate(family, formula, &values, cycle)?;
+    }
+    if let Some(formula) = &explore.window {
+        run.window = evaluate(family, formula, &values, cycle)?;
     }
     if !explore.note.is_empty() {
         run.abstractions.push(explore.note.clone());
@@ -568,7 +572,7 @@ fn merge(list: &mut Vec<Planned>, new: Planned) {
         let (a, b) = (&known.run, &new.run);
         (&a.file, &a.system, a.cycle, a.before, &a.params, &a.wiring)
             == (&b.file, &b.system, b.cycle, b.before, &b.params, &b.wiring)
-            && (&a.asks, a.travel) == (&b.asks, b.travel)
+            && (&a.asks, a.travel, a.window) == (&b.asks, b.travel, b.window)
             && a.guarantee == b.guarantee
             && (known.each, known.of_member) == (new.each, new.of_member)
             && (!new.of_member || known.names == new.names)

@@ -81,7 +81,8 @@ pub(super) fn of_wires(explore: &Explore) -> impl Iterator<Item = String> + '_ {
 pub(super) fn of_system(explore: &Explore, read: &dyn Fn(&Expr) -> Vec<String>) -> Vec<String> {
     let mut names = read(&explore.when.expr);
     let times = explore.cycle.iter().chain(&explore.before);
-    let times = times.chain(&explore.scan).chain(&explore.travel);
+    let ways = explore.travel.iter().chain(&explore.window);
+    let times = times.chain(&explore.scan).chain(ways);
     names.extend(times.flat_map(|f| read(&f.expr)));
     for binding in &explore.params {
         match binding {
