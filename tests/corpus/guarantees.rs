@@ -42,13 +42,13 @@ fn verdicts(subject: &Subject, checked: &[Checked]) -> BTreeMap<String, (Verdict
 #[test]
 fn guarantees_of_the_milling_machine_hold_with_their_bounds() {
     let found = verdicts(&machines::MILLING.0, &machines::MILLING.1);
-    // The signal and the discrepancy of the contacts, the change-over to SG1, 4 cycles until SG asks for its stop, STOP C, 3 cycles until SBH does, STOP B, the shutdown path. What
+    // The signal and the discrepancy of the contacts, the change-over to SG1, 4 cycles until SG asks for its stop, STOP C, 3 cycles until SBH does, STOP B, the shutdown path, two cycles of the PLC. What
     // takes a monitor's cycle is little more; the contact opens at any moment of a cycle.
     for (name, times) in [
-        ("table", &[100, 200, 48, 300, 36, 300, 100][..]),
-        ("tool", &[100, 1500, 48, 2000, 36, 2000, 100]),
-        ("emergency_stop", &[40, 300, 36, 300, 100]),
-        ("emergency_stop_tool", &[40, 2000, 36, 2000, 100]),
+        ("table", &[100, 200, 48, 300, 36, 300, 100, 84][..]),
+        ("tool", &[100, 1500, 48, 2000, 36, 2000, 100, 84]),
+        ("emergency_stop", &[40, 300, 36, 300, 100, 84]),
+        ("emergency_stop_tool", &[40, 2000, 36, 2000, 100, 84]),
     ] {
         let (verdict, bound) = found[name];
         assert_eq!(verdict, Verdict::Holds, "{name}");
