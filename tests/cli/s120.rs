@@ -213,7 +213,7 @@ fn what_is_no_signal_or_function_of_the_gantry_is_refused() {
     let machine = gantry(&folder);
     let (machine, _) = machine.split_once("[door.front]").expect("it has doors");
     let machine = format!("{machine}\n[logic.f_cpu]\nsource = \"gantry-s120.st\"\n");
-    let bare = "p9610  = 104\np9506 = \"no encoder, SAM\"\np9563 = [\"STOP A\", \"STOP A\", \"STOP A\", \"STOP A\"]";
+    let bare = "p9610  = 104\np9506 = \"no encoder, SAM\"\np9511 = \"125 us\"\np9563 = [\"STOP A\", \"STOP A\", \"STOP A\", \"STOP A\"]";
     let machine = folder.write("bare.toml", &machine.replacen("p9610  = 104", bare, 1));
     let file = folder.write("short.toml", "duration = \"1 s\"\n");
     let output = simulate(&machine, &file, &[]);
