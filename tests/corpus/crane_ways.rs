@@ -120,3 +120,22 @@ fn a_crane_stops_where_its_values_say_and_is_as_fast_as_they_say() {
     assert!(!with(least + 150.0), "{least} mm/min and 150");
     assert!(with(least - 150.0), "{least} mm/min less 150");
 }
+
+/// Behind the end of its range, where SLP finds it, an axis may be as fast as V_MAX.
+#[test]
+fn an_axis_with_slp_stops_where_its_values_say() {
+    let text = "family = \"srm-fblocks\"\n[axis.X]\nkind = \"linear\"\nfunctions = [\"safe position\", \"SLP\", \"ramp\"]\n\
+                V_MAX = \"30000 mm/min\"\nSBR_V_MAX = \"30000 mm/min\"\nSBR_T_RAMP = \"1 s\"\nSBR_MAXTOL_V = \"3000 mm/min\"\n\
+                SBR_MAXTOL_POS = \"100 mm\"\nX_NEGATIVE = \"1000 mm\"\nX_POSITIVE = \"99000 mm\"\n\
+                [guarantee.stops]\npattern = \"stops_in_time\"\naxes = [\"X\"]\nbeyond = \"900 mm\"\ndelay = \"100 ms\"\n";
+    let (way, off) = (500.0 * DEAD + 250.0, 100.0 + 110.0);
+    let with = |mm: f64| {
+        let beyond = format!("beyond = \"{mm} mm\"");
+        violated(text, "beyond = \"900 mm\"", beyond, "stops")
+    };
+    assert!(!with((way + off).ceil()));
+    assert!(with((way + off).ceil() - 1.0));
+    // A buffer behind the last position that is permitted is no way to stop on.
+    let near = text.replace("X_NEGATIVE = \"1000 mm\"", "X_NEGATIVE = \"400 mm\"");
+    assert!(violated(&near, "900 mm", "900 mm".into(), "stops"));
+}
