@@ -133,8 +133,8 @@ fn an_axis_with_slp_stops_where_its_values_say() {
         let beyond = format!("beyond = \"{mm} mm\"");
         violated(text, "beyond = \"900 mm\"", beyond, "stops")
     };
-    assert!(!with((way + off).ceil()));
-    assert!(with((way + off).ceil() - 1.0));
+    assert!(!with((way + off).round() + 1.0));
+    assert!(with((way + off).round() - 1.0));
     // A buffer behind the last position that is permitted is no way to stop on.
     let near = text.replace("X_NEGATIVE = \"1000 mm\"", "X_NEGATIVE = \"400 mm\"");
     assert!(violated(&near, "900 mm", "900 mm".into(), "stops"));
