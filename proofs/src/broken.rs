@@ -17,7 +17,7 @@ macro_rules! broken {
             if let Some((before, config, inputs)) = crate::draw::step::<Monitor, _>(&mut source, &[]) {
                 let wrong = stillpoint_monitors::$family::mutant::$monitor()[$place];
                 let (after, outputs) = (wrong.next)(before, &config, &inputs);
-                assert_clauses(Step { before, config, inputs, after, outputs }, $part, $parts);
+                assert_clauses(Step { before, config, inputs, after, outputs }, &[$part], $parts);
             }
         }
     )+};

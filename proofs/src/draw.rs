@@ -23,17 +23,17 @@ pub type Few = &'static [(&'static str, i64, i64)];
 struct Any<'a, S> {
     source: &'a mut S,
     few: Few,
-    // Numbers of a list have the name of the list.
-    list: &'static str,
+    // Numbers of a list have the name of the list: what there are few of is looked up once for all of them.
+    of_list: Option<(i64, i64)>,
 }
 
 impl<S: Source> Visitor for Any<'_, S> {
     fn open(&mut self, name: &'static str) {
-        self.list = name;
+        self.of_list = named(self.few, name);
     }
 
     fn close(&mut self) {
-        self.list = "";
+        self.of_list = None;
     }
 
     fn number(&mut self, name: &'static str, kind: Kind, _: i64) -> i64 {
@@ -41,15 +41,46 @@ impl<S: Source> Visitor for Any<'_, S> {
             Kind::Truth => i64::from(self.source.any_bool()),
             Kind::Choice(variants) => self.source.any_choice(variants),
             Kind::Whole(low, high) => {
-                for (few, least, greatest) in self.few {
-                    if *few == name || *few == self.list {
-                        return self.source.any_few(low, high, *least, *greatest);
-                    }
+                let few = match self.of_list {
+                    None => named(self.few, name),
+                    few => few,
+                };
+                match few {
+                    Some((least, greatest)) => self.source.any_few(low, high, least, greatest),
+                    None => self.source.any_whole(low, high),
                 }
-                self.source.any_whole(low, high)
             }
         }
     }
+}
+
+/// The least and the greatest of the numbers of this name, where there are few.
+fn named(few: Few, name: &str) -> Option<(i64, i64)> {
+    let mut place = 0;
+    while place < few.len() {
+        let (of, least, greatest) = few[place];
+        if same(of, name) {
+            return Some((least, greatest));
+        }
+        place += 1;
+    }
+    None
+}
+
+/// Whether two names are the same. By places: Kani executes a hundred steps for `==`, and most names differ in their length.
+fn same(one: &str, other: &str) -> bool {
+    let (one, other) = (one.as_bytes(), other.as_bytes());
+    if one.len() != other.len() {
+        return false;
+    }
+    let mut place = 0;
+    while place < one.len() {
+        if one[place] != other[place] {
+            return false;
+        }
+        place += 1;
+    }
+    true
 }
 
 /// Any value of a type.
@@ -59,8 +90,15 @@ pub fn any<T: Fields, S: Source>(source: &mut S) -> T {
 
 fn any_but<T: Fields, S: Source>(source: &mut S, few: Few) -> T {
     let mut value = T::ANY;
-    let list = "";
-    value.visit("", &mut Any { source, few, list });
+    let of_list = None;
+    value.visit(
+        "",
+        &mut Any {
+            source,
+            few,
+            of_list,
+        },
+    );
     value
 }
 

@@ -6,6 +6,13 @@ use stillpoint_monitors::units::ModuloRange;
 
 use crate::source::{Source, Verdict};
 
+// The ends of the types. As constants and by `as`, here and in what is called for each number: a call of `from` is executed.
+const BYTE: i64 = u8::MAX as i64;
+const WORD: i64 = u16::MAX as i64;
+const LONG: i64 = u32::MAX as i64;
+const LEAST: i64 = i32::MIN as i64;
+const GREATEST: i64 = i32::MAX as i64;
+
 /// Kani's nondeterminism as a source; keeps the covers met for the harness to hand to Kani.
 #[derive(Default)]
 pub(crate) struct Symbolic {
@@ -37,7 +44,12 @@ impl Source for Symbolic {
         } else {
             kani::any()
         };
-        kani::assume(low <= value && value <= high);
+        // The mask leaves out nothing that is in the range, and where it is all that the range asks for nothing is assumed.
+        let mask = u32::MAX >> high.leading_zeros().min(31);
+        let value = value & mask;
+        if low > 0 || high < mask {
+            kani::assume(low <= value && value <= high);
+        }
         value
     }
 
@@ -73,24 +85,22 @@ impl Source for Symbolic {
 
     fn any_whole(&mut self, low: i64, high: i64) -> i64 {
         // As few bits as the type has, and no assumption where it has them all.
-        if low == 0 && high == i64::from(u8::MAX) {
-            i64::from(kani::any::<u8>())
-        } else if low == 0 && high == i64::from(u16::MAX) {
-            i64::from(kani::any::<u16>())
-        } else if low == 0 && high == i64::from(u32::MAX) {
-            i64::from(kani::any::<u32>())
-        } else if low == i64::from(i32::MIN) && high == i64::from(i32::MAX) {
-            i64::from(kani::any::<i32>())
-        } else if low == 0 && high < i64::from(u32::MAX) {
-            i64::from(self.any_in(0, high as u32))
-        } else {
-            let value = kani::any();
-            kani::assume(low <= value && value <= high);
-            value
+        match (low, high) {
+            (0, BYTE) => kani::any::<u8>() as i64,
+            (0, WORD) => kani::any::<u16>() as i64,
+            (0, LONG) => kani::any::<u32>() as i64,
+            (LEAST, GREATEST) => kani::any::<i32>() as i64,
+            (0, _) if high < LONG => self.any_in(0, high as u32) as i64,
+            _ => {
+                let value = kani::any();
+                kani::assume(low <= value && value <= high);
+                value
+            }
         }
     }
 
-    fn any_few(&mut self, _: i64, _: i64, least: i64, greatest: i64) -> i64 {
+    fn any_few(&mut self, low: i64, high: i64, least: i64, greatest: i64) -> i64 {
+        let (least, greatest) = (least.max(low), greatest.min(high));
         least + i64::from(self.any_in(0, (greatest - least) as u32))
     }
 

@@ -171,7 +171,7 @@ fn few_in(entry: &Entry) -> String {
     if entry.few_in.is_empty() {
         return String::new();
     }
-    let parts = crate::results::parts(entry) as usize;
+    let parts = crate::results::shares(entry) as usize;
     let clauses = (entry.clauses)().into_iter().enumerate();
     let names = clauses
         .filter(|(place, _)| entry.few_in.contains(&((place % parts + 1) as u32)))

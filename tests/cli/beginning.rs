@@ -183,8 +183,8 @@ fn a_gantry_from_nothing_to_a_clean_verdict() {
         "front_axes",
         |folder, _, text| {
             let text = text.replacen(
-            "functions = [\"motion monitoring\", \"SDI\"]",
-            "functions = [\"motion monitoring\", \"SDI\", \"SBC\", \"SBT\"]\np1215 = true\np10202 = [\"motor holding brake\", \"none\"]",
+            "functions = [\"motion monitoring\"]",
+            "functions = [\"motion monitoring\", \"SBC\", \"SBT\"]\np1215 = true\np10202 = [\"motor holding brake\", \"none\"]\np10203 = \"test stop\"",
             1,
         );
             // With the closing time of the brake the times of SS1 are too short for it.

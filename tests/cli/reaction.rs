@@ -62,16 +62,18 @@ fn figures_of_a_speed_limit() {
     let sg = chain(&json, "X", "SG1");
     let steps = sg["steps"].as_array().expect("steps");
     let times: Vec<i64> = steps.iter().filter_map(|s| s["time_us"].as_i64()).collect();
-    let expected = [18_000, 6_000, 12_000, 18_000, 0, 300_000, 12_000, 300_000];
+    let expected = [
+        18_000, 6_000, 12_000, 18_000, 0, 300_000, 12_000, 300_000, 24_000, 100_000,
+    ];
     assert_eq!(times, expected);
     let ends = sg["outcomes"].as_array().expect("outcomes");
     assert_eq!(ends[0]["time_us"], 354_000);
     // 54 ms at 2000 mm/min are 1.8 mm, half of 300 ms 5 mm.
     assert_eq!(ends[0]["over_travel"], "6.8 mm");
     assert_eq!(ends[0]["rest_to_be_measured"], false);
-    assert_eq!(ends[1]["time_us"], 666_000);
-    // 1.8 mm + 11.5 mm + 0.4 mm + 0.5 mm + 11.5 mm.
-    assert_eq!(ends[1]["over_travel"], "25.7 mm");
+    assert_eq!(ends[1]["time_us"], 790_000);
+    // 1.8 mm + 312 ms at 2300 mm/min + 0.5 mm + 424 ms at 2600 mm/min.
+    assert_eq!(ends[1]["over_travel"], "32.634 mm");
     assert_eq!(ends[1]["rest_to_be_measured"], true);
 }
 

@@ -63,6 +63,7 @@ p9560 = \"50 mm/min\"
 p9531 = [\"2000 mm/min\", \"5000 mm/min\", \"9000 mm/min\", \"9000 mm/min\"]";
 const ENCODERLESS: &str = "\
 p9506 = \"no encoder, SAM\"
+p9511 = \"125 us\"
 p9586 = \"170 ms\"
 p9587 = \"190 ms\"
 p9563 = [\"STOP B\", \"STOP B\", \"STOP B\", \"STOP B\"]";

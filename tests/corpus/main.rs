@@ -6,6 +6,7 @@ mod blocks;
 mod book;
 mod claimed_times;
 mod conversion;
+mod crane_ways;
 mod db18;
 mod fuzz;
 mod guarantees;

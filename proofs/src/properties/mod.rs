@@ -6,12 +6,16 @@ use crate::draw::Case;
 use crate::inventory::ClauseText;
 use crate::source::{Source, Verdict};
 
-/// Makes, from the list of the monitors of a family, the step functions under test (`Subject`).
+/// Makes, from the list of the monitors of a family, the step functions under test (`Subject`), each a field and a method.
+///
+/// Kani checks the production monitors only, and has no fields: a list of function pointers brings every monitor of the family into each
+/// harness that calls one of them, and it takes seconds to read them all.
 macro_rules! subject {
     ($family:ident [] $($monitor:ident)+) => {
         /// The step functions under test: the production ones, or some replaced by mutants.
         #[derive(Clone, Copy, Debug)]
         pub struct Subject {$(
+            #[cfg(not(kani))]
             #[doc = concat!("Of [`", stringify!($monitor), "`](stillpoint_monitors::", stringify!($family), "::", stringify!($monitor), ").")]
             pub $monitor: stillpoint_monitors::$family::$monitor::Next,
         )+}
@@ -19,8 +23,33 @@ macro_rules! subject {
         impl Subject {
             /// The production monitors.
             pub const PRODUCTION: Self = Self {$(
+                #[cfg(not(kani))]
                 $monitor: stillpoint_monitors::$family::$monitor::next,
             )+};
+
+            $(
+                #[doc = concat!("One step of [`", stringify!($monitor), "`](stillpoint_monitors::", stringify!($family), "::", stringify!($monitor), ").")]
+                #[cfg(not(kani))]
+                pub fn $monitor(
+                    &self,
+                    state: stillpoint_monitors::$family::$monitor::State,
+                    config: &stillpoint_monitors::$family::$monitor::Config,
+                    inputs: &stillpoint_monitors::$family::$monitor::Inputs,
+                ) -> (stillpoint_monitors::$family::$monitor::State, stillpoint_monitors::$family::$monitor::Outputs) {
+                    (self.$monitor)(state, config, inputs)
+                }
+
+                #[cfg(kani)]
+                #[allow(missing_docs)]
+                pub fn $monitor(
+                    &self,
+                    state: stillpoint_monitors::$family::$monitor::State,
+                    config: &stillpoint_monitors::$family::$monitor::Config,
+                    inputs: &stillpoint_monitors::$family::$monitor::Inputs,
+                ) -> (stillpoint_monitors::$family::$monitor::State, stillpoint_monitors::$family::$monitor::Outputs) {
+                    stillpoint_monitors::$family::$monitor::next(state, config, inputs)
+                }
+            )+
         }
     };
 }

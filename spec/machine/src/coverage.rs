@@ -2,20 +2,22 @@
 
 use super::family::{Explore, Family, Scope};
 use super::guarantee::Guarantee;
-use super::runs::Parts;
+use super::runs::{Parts, Plan};
 use super::{Axis, Door, Machine};
 
 /// What the file describes and no run contains, in words: functions, doors, axes without functions, groups.
 pub(super) fn not_explored(
     family: &Family,
     parts: Parts<'_>,
-    coupled: &[Vec<String>],
+    plan: &Plan,
     guarantees: &[Guarantee],
 ) -> Vec<String> {
     let (axes, doors) = (parts.axes, parts.doors);
     let mut list = Vec::new();
     let enables = !family.functions.is_empty();
-    for axis in axes.iter().filter(|a| enables && a.functions.is_empty()) {
+    // An axis without one of these functions may have others all the same, such as STO over terminals: then runs are about it.
+    let bare = |axis: &&Axis| axis.functions.is_empty() && !plan.about.contains(&axis.name);
+    for axis in axes.iter().filter(|a| enables && bare(a)) {
         list.push(format!("axis {}: no safety function is enabled", axis.name));
     }
     let grouped = |axis: &Axis| parts.groups.iter().any(|g| g.has(&axis.name));
@@ -47,7 +49,7 @@ pub(super) fn not_explored(
         .filter(|n| *n > 0)
         .collect();
     let unfit = |group: &&Vec<String>| !declares && !sizes.contains(&group.len());
-    for group in coupled.iter().filter(unfit) {
+    for group in plan.groups.iter().filter(unfit) {
         list.push(format!(
             "group {}: its axes are explored one by one; there is no system for {} together",
             group.join(", "),

@@ -76,6 +76,13 @@ const GUARANTEES: &str = "guarantees";
 const ASKED: &str = "asked";
 /// As a number in how many values an axis differs from the one that moves the same thing, as a text in which ones.
 const DIFFERS: &str = "differs";
+/// How many other axes move the same thing.
+const PAIRED: &str = "paired";
+
+/// The name under which formulas read how many guarantees of one pattern ask about the axis, or about it behind the door.
+fn asked_by(pattern: &str) -> String {
+    format!("{ASKED}_{pattern}")
+}
 
 /// What an entry of the data is about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
@@ -99,6 +106,7 @@ impl About {
         let mut known: Vec<String> = ["monitoring_cycle", "k", "n"].map(str::to_owned).to_vec();
         if self != Self::Door {
             known.extend([DOORS, GROUPS, GUARANTEES, ASKED].map(str::to_owned));
+            known.extend(family.patterns.keys().map(|name| asked_by(name)));
         }
         known.extend(family.control.keys().cloned());
         known.extend(family.functions.iter().map(|f| f.variable.clone()));
@@ -106,7 +114,7 @@ impl About {
         known.push("enabled_any".to_owned());
         if matches!(self, Self::Axis | Self::DoorAxis) {
             known.extend(["kind", "spindle", "LINEAR", "ROTARY", PATH, OTHERS].map(str::to_owned));
-            known.push(DIFFERS.to_owned());
+            known.extend([DIFFERS, PAIRED].map(str::to_owned));
             known.extend(family.axis.keys().cloned());
         }
         if matches!(self, Self::Group | Self::Machine) {
@@ -167,6 +175,8 @@ pub(super) fn grounds<'a>(machine: &'a Machine, about: About) -> Vec<Ground<'a>>
         ground.set(OTHERS, i64::try_from(others).unwrap_or(i64::MAX));
         let differs = machine.differences(axis).len();
         ground.set(DIFFERS, i64::try_from(differs).unwrap_or(i64::MAX));
+        let paired = machine.paired(axis);
+        ground.set(PAIRED, i64::try_from(paired).unwrap_or(i64::MAX));
         ground
     };
     let mut list = Vec::new();
@@ -237,8 +247,22 @@ impl<'a> Ground<'a> {
             .flatten()
             .map(|(name, setting)| (given(name), setting.is_given()))
             .collect();
-        let asked = self.machine.guarantees.iter().filter(|g| self.is_asked(g));
-        let asked = asked.count();
+        let asked: Vec<&Guarantee> = self
+            .machine
+            .guarantees
+            .iter()
+            .filter(|g| self.is_asked(g))
+            .collect();
+        let patterns = self.machine.basis.family.patterns.keys();
+        let by_pattern: Vec<(String, usize)> = patterns
+            .map(|name| {
+                (
+                    asked_by(name),
+                    asked.iter().filter(|g| g.pattern == *name).count(),
+                )
+            })
+            .collect();
+        let asked = asked.len();
         let guarantees = self.machine.guarantees.len();
         for (name, n) in [
             (DOORS, doors),
@@ -247,6 +271,9 @@ impl<'a> Ground<'a> {
             (ASKED, asked),
         ] {
             self.set(name, i64::try_from(n).unwrap_or(i64::MAX));
+        }
+        for (name, n) in by_pattern {
+            self.set(&name, i64::try_from(n).unwrap_or(i64::MAX));
         }
         for (name, given) in given {
             self.set(&name, i64::from(given));

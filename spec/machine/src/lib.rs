@@ -464,7 +464,7 @@ fn read_source(path: &Path, source: &Arc<str>, families: &Path) -> Result<Machin
         family: name,
         family_title: family.title.clone(),
         monitoring_cycle: judged.cycle,
-        not_explored: coverage::not_explored(&family, parts, &plan.groups, &draft.guarantees),
+        not_explored: coverage::not_explored(&family, parts, &plan, &draft.guarantees),
         groups: plan.groups,
         runs: plan.runs,
         basis: Arc::new(Basis {

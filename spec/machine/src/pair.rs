@@ -3,6 +3,13 @@
 use super::{Axis, Machine};
 
 impl Machine {
+    /// How many other axes move what an axis moves, whichever of them says so.
+    pub(super) fn paired(&self, axis: &Axis) -> usize {
+        let names = |a: &Axis, b: &Axis| a.pair.as_ref().is_some_and(|p| *p.get_ref() == b.name);
+        let others = self.axes.iter().filter(|other| other.name != axis.name);
+        others.filter(|o| names(axis, o) || names(o, axis)).count()
+    }
+
     /// In what an axis differs from the one that moves the same thing: parameters, `functions`, `doors`, `kind`. Parameters that each drive
     /// has of its own, such as an address, do not count. Empty for an axis that is no pair.
     pub(super) fn differences<'a>(&self, axis: &'a Axis) -> Vec<&'a str> {

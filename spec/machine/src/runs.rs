@@ -1,7 +1,7 @@
 //! From the values of the axes, groups and doors to the explorations that cover the machine.
 
 use std::borrow::Cow;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use toml::Spanned;
@@ -32,6 +32,8 @@ pub(super) struct Parts<'a> {
 pub(super) struct Plan {
     pub groups: Vec<Vec<String>>,
     pub runs: Vec<Run>,
+    /// The axes that a run is about, by themselves or in their group.
+    pub about: BTreeSet<String>,
 }
 
 /// Plans the runs of a machine.
@@ -48,9 +50,13 @@ pub(super) fn plan(
     let coupled = coupled(family, parts.axes, judged)?;
     let mut planned: Vec<Planned> = Vec::new();
     let mut files = BTreeMap::new();
+    let mut about = BTreeSet::new();
     for explore in explored {
         let system = declared(family, explore, &mut files, logic)?;
         for subject in subjects(family, explore, parts, &coupled, judged)? {
+            if matches!(explore.each, Scope::Axis | Scope::Group) {
+                about.extend(subject.axes.iter().cloned());
+            }
             // A group whose members differ is explored with the values of each.
             for of in 0..subject.members.len() {
                 let run = bind(family, explore, &system, judged.cycle, &subject, of)?;
@@ -67,6 +73,7 @@ pub(super) fn plan(
             None => coupled.iter().map(names).collect(),
         },
         runs: planned.into_iter().map(Planned::titled).collect(),
+        about,
     })
 }
 

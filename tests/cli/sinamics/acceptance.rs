@@ -159,7 +159,7 @@ fn the_configuration_decides_what_is_seen() {
     let other = "p9563  = [\"STOP A\", \"STOP D\", \"STOP E\", \"STOP B delayed\"]\np9553 = \"700 ms\"\np9554 = \"800 ms\"\np9507_3 = true";
     let blind = "p9531  = [\"5 rev/min\", \"10 rev/min\", \"20 rev/min\", \"40 rev/min\"]";
     let no_encoder = format!(
-        "p9506 = \"no encoder, SBR\"\np9509_8 = true\np9582 = \"20 ms\"\np9563 = [\"STOP A\", \"STOP B\", \"STOP B\", \"STOP B\"]\n{blind}"
+        "p9506 = \"no encoder, SBR\"\np9511 = \"125 us\"\np9509_8 = true\np9582 = \"20 ms\"\np9563 = [\"STOP A\", \"STOP B\", \"STOP B\", \"STOP B\"]\n{blind}"
     );
     let last = "[\"motion monitoring\"]";
     let machine = gantry(

@@ -28,7 +28,7 @@ fn jump(s: &Step) -> bool {
     let way = (i64::from(s.inputs.pos1) - i64::from(s.before.last1)).abs();
     s.before.seen1
         && s.inputs.pos1_valid
-        && way * 30_000 > i64::from(s.config.v_max) * i64::from(s.config.t_sample)
+        && way * 30_000 > i64::from(s.config.t_sample) * i64::from(s.config.v_max)
 }
 
 /// An encoder that is needed is invalid, or POS1 has jumped.

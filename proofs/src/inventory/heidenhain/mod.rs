@@ -10,6 +10,7 @@ mod service;
 mod watching;
 
 /// The lists of this family.
+#[cfg(not(kani))]
 pub(super) static ENTRIES: [&[super::Entry]; 8] = [
     interface::ENTRIES,
     groups::ENTRIES,

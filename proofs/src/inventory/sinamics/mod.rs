@@ -9,6 +9,7 @@ mod telegram;
 mod testing;
 
 /// The lists of this family.
+#[cfg(not(kani))]
 pub(super) static ENTRIES: [&[super::Entry]; 7] = [
     stops::ENTRIES,
     braking::ENTRIES,

@@ -26,7 +26,7 @@ pub fn margin_is_exact<S: Source>(source: &mut S, subject: &Subject) -> Verdict 
         speed: Speed(actual),
         ..speed::Inputs::default()
     };
-    let (_, outputs) = (subject.speed)(speed::State::INITIAL, &config, &inputs);
+    let (_, outputs) = subject.speed(speed::State::INITIAL, &config, &inputs);
     // Numbers of 32 and 7 bits.
     let beyond = u64::from(actual) * 100 > u64::from(limit) * 105;
     source.cover(0, actual > limit && !beyond);

@@ -50,7 +50,7 @@ pub fn ss1_by_ramp_ends<S: Source>(source: &mut S, subject: &Subject) -> Verdict
             braking: true,
             speed,
         };
-        let (watched, seen) = (subject.sbr)(watch, &ramp, &braking);
+        let (watched, seen) = subject.sbr(watch, &ramp, &braking);
         let inputs = ss1::Inputs {
             selected: true,
             drive_on: true,
@@ -58,7 +58,7 @@ pub fn ss1_by_ramp_ends<S: Source>(source: &mut S, subject: &Subject) -> Verdict
             speed,
             ..ss1::Inputs::default()
         };
-        let (after, outputs) = (subject.ss1)(state, &stop, &inputs);
+        let (after, outputs) = subject.ss1(state, &stop, &inputs);
         if outputs.sto {
             source.cover(0, !outputs.violated);
             source.cover(1, outputs.violated);

@@ -52,6 +52,6 @@ fn taken(value: i16, highest: Speed, subject: &Subject) -> Option<Speed> {
         telegram: value,
         ..sls::Inputs::default()
     };
-    let (_, outputs) = (subject.sls)(sls::State::INITIAL, &made.ok()?, &inputs);
+    let (_, outputs) = subject.sls(sls::State::INITIAL, &made.ok()?, &inputs);
     outputs.active.then_some(outputs.limit)
 }

@@ -54,7 +54,7 @@ fn step(
     let mut shown = [reference::Outputs::default(); 2];
     for (channel, other) in [(0, 1), (1, 0)] {
         let (gear, gear_shown) =
-            (subject.gear)(axis.gear[channel], &parameters.gear, &cycle.gear[channel]);
+            subject.gear(axis.gear[channel], &parameters.gear, &cycle.gear[channel]);
         let inputs = agreement::Inputs {
             axis_ref: axis.reference[channel].axis == AxisState::Ref,
             compare_due: axis.reference[channel].fresh,
@@ -63,14 +63,14 @@ fn step(
             ..cycle.agreement[channel]
         };
         let (agreement, _) =
-            (subject.agreement)(axis.agreement[channel], &parameters.agreement, &inputs);
+            subject.agreement(axis.agreement[channel], &parameters.agreement, &inputs);
         let inputs = reference::Inputs {
             agreed_1: agreement.agreed,
             agreed_2: axis.confirmed[other],
             ..cycle.reference[channel]
         };
         let (reference, out) =
-            (subject.reference)(axis.reference[channel], &parameters.reference, &inputs);
+            subject.reference(axis.reference[channel], &parameters.reference, &inputs);
         after.gear[channel] = gear;
         after.agreement[channel] = agreement;
         after.reference[channel] = reference;

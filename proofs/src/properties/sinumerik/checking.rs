@@ -30,7 +30,7 @@ fn test_step(
     inputs: &path_test::Inputs,
 ) -> Tested {
     if external {
-        let (state, outputs) = (subject.shutdown_test)(state, config, inputs);
+        let (state, outputs) = subject.shutdown_test(state, config, inputs);
         Tested {
             state,
             demand: outputs.demand,
@@ -38,7 +38,7 @@ fn test_step(
             passed: outputs.passed,
         }
     } else {
-        let (state, outputs) = (subject.test_stop)(state, config, inputs);
+        let (state, outputs) = subject.test_stop(state, config, inputs);
         Tested {
             state,
             demand: outputs.demand,
@@ -137,7 +137,7 @@ pub fn failed_cancellation_falls_back<S: Source>(source: &mut S, subject: &Subje
         run_up: true,
         ..pulses::Inputs::default()
     };
-    let (mut state, _) = (subject.pulses)(pulses::State::INITIAL, &config, &enabled);
+    let (mut state, _) = subject.pulses(pulses::State::INITIAL, &config, &enabled);
     let (mut reported, mut lost) = (false, false);
     for cycle in 0..=t_chk {
         let inputs = pulses::Inputs {
@@ -145,7 +145,7 @@ pub fn failed_cancellation_falls_back<S: Source>(source: &mut S, subject: &Subje
             feedback: cycle > 0 && source.any_bool(),
             ..enabled
         };
-        let (after, outputs) = (subject.pulses)(state, &config, &inputs);
+        let (after, outputs) = subject.pulses(state, &config, &inputs);
         state = after;
         lost |= reported && !inputs.feedback;
         reported |= inputs.feedback;
@@ -187,7 +187,7 @@ pub fn lasting_difference_is_found<S: Source>(source: &mut S, subject: &Subject)
             differs: due == item || source.any_bool(),
             ..compare::Inputs::default()
         };
-        let (after, outputs) = (subject.compare)(state, &config, &inputs);
+        let (after, outputs) = subject.compare(state, &config, &inputs);
         state = after;
         if outputs.code == item.code() {
             found = Some(cycle);
@@ -229,7 +229,7 @@ pub fn endless_changes_are_found<S: Source>(source: &mut S, subject: &Subject) -
             other_changing: told,
             ..compare::Inputs::default()
         };
-        let (after, outputs) = (subject.compare)(checking, &config, &other);
+        let (after, outputs) = subject.compare(checking, &config, &other);
         checking = after;
         // The first told cycle starts the checking timer; each later one counts.
         let found = outputs.code == Code::TOO_MANY_CHANGES;
@@ -237,7 +237,7 @@ pub fn endless_changes_are_found<S: Source>(source: &mut S, subject: &Subject) -
             return Verdict::Broken("code_1000_after_ten_change_timers");
         }
         cycles = if told { cycles + 1 } else { 0 };
-        let (after, outputs) = (subject.compare)(changing, &config, &own);
+        let (after, outputs) = subject.compare(changing, &config, &own);
         changing = after;
         told = outputs.changing;
         source.cover(0, found);
@@ -245,7 +245,7 @@ pub fn endless_changes_are_found<S: Source>(source: &mut S, subject: &Subject) -
             // The end of the change timer ends the run of the other channel too, without finding.
             source.cover(1, true);
             let ended = compare::Inputs::default();
-            let (after, outputs) = (subject.compare)(checking, &config, &ended);
+            let (after, outputs) = subject.compare(checking, &config, &ended);
             return if outputs.discrepancy || after.checking {
                 Verdict::Broken("end_of_the_changes_ends_the_checking")
             } else {
@@ -332,7 +332,7 @@ pub fn synchronised_channels_meet<S: Source>(source: &mut S, subject: &Subject) 
                 ..slip::Inputs::default()
             };
             let outputs;
-            (states[channel], outputs) = (subject.slip)(states[channel], &config, &inputs);
+            (states[channel], outputs) = subject.slip(states[channel], &config, &inputs);
             shown[channel] = outputs.position;
         }
         let after = apart(shown);
@@ -385,14 +385,14 @@ pub fn moved_while_off_is_seen<S: Source>(source: &mut S, subject: &Subject) -> 
         position: standstill,
         ..history::Inputs::default()
     };
-    let (state, _) = (subject.history)(history::State::INITIAL, &config, &save);
+    let (state, _) = subject.history(history::State::INITIAL, &config, &save);
     let on = history::Inputs {
         power_on: true,
         save: source.any_bool(),
         position: arbitrary::position_near(source, 1),
         ..history::Inputs::default()
     };
-    let (state, _) = (subject.history)(state, &config, &on);
+    let (state, _) = subject.history(state, &config, &on);
     let reached = history::Inputs {
         reached: true,
         refpos: Position(refpos),
@@ -401,13 +401,13 @@ pub fn moved_while_off_is_seen<S: Source>(source: &mut S, subject: &Subject) -> 
         save: source.any_bool(),
         ..history::Inputs::default()
     };
-    let (state, _) = (subject.history)(state, &config, &reached);
+    let (state, _) = subject.history(state, &config, &reached);
     // The comparison is due one cycle after the axis has been referenced.
     let due = history::Inputs {
         reached: false,
         ..reached
     };
-    let (_, outputs) = (subject.history)(state, &config, &due);
+    let (_, outputs) = subject.history(state, &config, &due);
     source.cover(0, moved != 0 && moved.unsigned_abs() == tol.0);
     source.cover(1, moved.unsigned_abs().checked_sub(tol.0) == Some(1));
     if outputs.history_ok == (moved.unsigned_abs() <= tol.0) {
@@ -430,7 +430,7 @@ pub fn test_becomes_due<S: Source>(source: &mut S, subject: &Subject) -> Verdict
     let mut ages: [Option<u32>; 2] = [None; 2];
     for _ in 0..4 {
         let inputs: forced_check::Inputs = draw::any(source);
-        let (after, outputs) = (subject.forced_check)(state, &config, &inputs);
+        let (after, outputs) = subject.forced_check(state, &config, &inputs);
         state = after;
         for (age, passed) in ages
             .iter_mut()

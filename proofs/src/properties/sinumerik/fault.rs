@@ -21,7 +21,7 @@ pub fn delay_leads_to_stop_b<S: Source>(source: &mut S, subject: &Subject) -> Ve
         monitoring: true,
         ..Inputs::default()
     };
-    let (mut state, mut outputs) = (subject.fault)(State::INITIAL, &config, &found);
+    let (mut state, mut outputs) = subject.fault(State::INITIAL, &config, &found);
     let mut cycles = 0;
     let mut reset = false;
     while !outputs.stop_b {
@@ -34,7 +34,7 @@ pub fn delay_leads_to_stop_b<S: Source>(source: &mut S, subject: &Subject) -> Ve
             ..draw::any(source)
         };
         reset |= inputs.reset;
-        (state, outputs) = (subject.fault)(state, &config, &inputs);
+        (state, outputs) = subject.fault(state, &config, &inputs);
     }
     source.cover(0, t_f > 1);
     source.cover(1, reset);

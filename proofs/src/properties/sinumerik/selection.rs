@@ -27,7 +27,7 @@ pub fn old_limit_for_exactly_the_delay<S: Source>(source: &mut S, subject: &Subj
         sg_select: stage,
         ..Inputs::default()
     };
-    let (mut state, outputs) = (subject.selection)(State::INITIAL, &config, &select(old));
+    let (mut state, outputs) = subject.selection(State::INITIAL, &config, &select(old));
     if outputs.limit != config.limit(old) {
         return Verdict::Broken("first_selection_acts_at_once");
     }
@@ -38,7 +38,7 @@ pub fn old_limit_for_exactly_the_delay<S: Source>(source: &mut S, subject: &Subj
             position,
             ..select(new)
         };
-        let (after, outputs) = (subject.selection)(state, &config, &wanted);
+        let (after, outputs) = subject.selection(state, &config, &wanted);
         state = after;
         let waits = cycle < t_vel;
         let as_it_should = if waits {
@@ -82,8 +82,8 @@ pub fn forced_standstill_does_not_depend_on_signals<S: Source>(
     if !first.sbh_internal {
         return Verdict::Discarded;
     }
-    let (after_first, shown_first) = (subject.selection)(state, &config, &first);
-    let (after_second, shown_second) = (subject.selection)(state, &config, &second);
+    let (after_first, shown_first) = subject.selection(state, &config, &first);
+    let (after_second, shown_second) = subject.selection(state, &config, &second);
     source.cover(
         0,
         first.sge_sbh_sg != second.sge_sbh_sg && after_first.mode == Mode::SbhForced,
@@ -110,13 +110,13 @@ pub fn reference_does_not_creep<S: Source>(source: &mut S, subject: &Subject) ->
         ..Inputs::default()
     };
     let start = source.any_position();
-    let (mut state, _) = (subject.selection)(State::INITIAL, &config, &at(start, true));
+    let (mut state, _) = subject.selection(State::INITIAL, &config, &at(start, true));
     let mut moved = false;
     for _ in 0..3 {
         let position = source.any_position();
         moved |= position != start;
         // Acknowledged into the selected operating stop.
-        let (after, outputs) = (subject.selection)(state, &config, &at(position, false));
+        let (after, outputs) = subject.selection(state, &config, &at(position, false));
         state = after;
         if outputs.reference != start || outputs.monitored != Monitored::Standstill {
             return Verdict::Broken("reference_does_not_creep");

@@ -31,7 +31,7 @@ pub fn b_ends_with_pulses_cancelled<S: Source>(source: &mut S, subject: &Subject
         demand: InternalStop::B,
         ..Inputs::default()
     };
-    let (mut state, mut outputs) = (subject.stop)(State::INITIAL, &config, &request);
+    let (mut state, mut outputs) = subject.stop(State::INITIAL, &config, &request);
     let mut stood_still = false;
     let mut cycles = 0;
     while !outputs.cancel_pulses {
@@ -48,7 +48,7 @@ pub fn b_ends_with_pulses_cancelled<S: Source>(source: &mut S, subject: &Subject
             ..Inputs::default()
         };
         stood_still |= inputs.standstill;
-        (state, outputs) = (subject.stop)(state, &config, &inputs);
+        (state, outputs) = subject.stop(state, &config, &inputs);
     }
     source.cover(0, cycles == t_b && t_b > 0 && !stood_still);
     source.cover(1, cycles < t_b && stood_still);
@@ -80,7 +80,7 @@ pub fn braking_ends_in_standstill<S: Source>(source: &mut S, subject: &Subject) 
         demand: first,
         ..Inputs::default()
     };
-    let (mut state, mut outputs) = (subject.stop)(State::INITIAL, &config, &request);
+    let (mut state, mut outputs) = subject.stop(State::INITIAL, &config, &request);
     let mut cycles = 0;
     while outputs.phase == Phase::Braking {
         if cycles == bound {
@@ -93,7 +93,7 @@ pub fn braking_ends_in_standstill<S: Source>(source: &mut S, subject: &Subject) 
             external: source.any_of(&[ExternalStop::None, ExternalStop::C]),
             ..Inputs::default()
         };
-        (state, outputs) = (subject.stop)(state, &config, &inputs);
+        (state, outputs) = subject.stop(state, &config, &inputs);
     }
     source.cover(0, cycles == bound && bound > 0);
     source.cover(1, cycles < bound);
@@ -122,14 +122,14 @@ pub fn queued_stop_acts_after_withdrawal<S: Source>(source: &mut S, subject: &Su
         external: ExternalStop::A,
         ..Inputs::default()
     };
-    let (state, _) = (subject.stop)(State::INITIAL, &config, &held);
+    let (state, _) = subject.stop(State::INITIAL, &config, &held);
     let idle = Inputs {
         external: ExternalStop::A,
         reset: source.any_bool(),
         ..Inputs::default()
     };
-    let (state, beneath) = (subject.stop)(state, &config, &idle);
-    let (state, outputs) = (subject.stop)(state, &config, &Inputs::default());
+    let (state, beneath) = subject.stop(state, &config, &idle);
+    let (state, outputs) = subject.stop(state, &config, &Inputs::default());
     source.cover(
         0,
         queued < InternalStop::B && outputs.phase == Phase::Braking,
@@ -182,7 +182,7 @@ pub fn channels_do_not_hold_each_other<S: Source>(source: &mut S, subject: &Subj
                 reset,
                 ..Inputs::default()
             };
-            (pair[channel], _) = (subject.stop)(pair[channel], &config, &inputs);
+            (pair[channel], _) = subject.stop(pair[channel], &config, &inputs);
         }
         let highest = demands[0].max(demands[1]);
         if (1..5).contains(&cycle) && pair.iter().any(|state| state.internal != highest) {

@@ -257,7 +257,7 @@ fn movement_of_axis_is_compared_exactly<S: Source>(
         position: Position(to),
         ..motion::Inputs::default()
     };
-    let (_, actual) = (subject.motion)(state, &motion::Config, &inputs);
+    let (_, actual) = subject.motion(state, &motion::Config, &inputs);
     let inputs = speed::Inputs {
         monitored: Monitored::Speed,
         speed: actual.speed,
@@ -265,7 +265,7 @@ fn movement_of_axis_is_compared_exactly<S: Source>(
         stage: Stage::Sg1,
         encoder_speed: Speed(0),
     };
-    let (_, outputs) = (subject.speed)(speed::State, &config, &inputs);
+    let (_, outputs) = subject.speed(speed::State, &config, &inputs);
     // Numbers of 26, 15 and 2 bits, and of 32 and 26.
     let permitted = u64::from(per_minute) * 1_000 * (u64::from(cycle_us.get()) * numerator);
     let beyond = u64::from(from.0.abs_diff(to)) * denominator > permitted;

@@ -65,12 +65,12 @@ pub fn braking_ramp<S: Source>(source: &mut S, subject: &Subject) -> Verdict {
         speed: start,
         ..ramp::Inputs::default()
     };
-    let (mut state, shown) = (subject.ramp)(ramp::State::INITIAL, &config, &off);
+    let (mut state, shown) = subject.ramp(ramp::State::INITIAL, &config, &off);
     let demanded = stop::Inputs {
         demand: first,
         ..stop::Inputs::default()
     };
-    let (mut stopping, mut stopped) = (subject.stop)(stop::State::INITIAL, &times, &demanded);
+    let (mut stopping, mut stopped) = subject.stop(stop::State::INITIAL, &times, &demanded);
     let mut limit = shown.limit;
     if limit.0 != start.0.max(velo_x.0).saturating_add(tol.0) {
         return Verdict::Broken("ramp_starts_at_the_speed");
@@ -78,47 +78,89 @@ pub fn braking_ramp<S: Source>(source: &mut S, subject: &Subject) -> Verdict {
     let lowest = Speed(velo_x.0.saturating_add(tol.0));
     let mut frozen = 0;
     for cycle in 0..4 {
-        if !stopped.sbr_on {
-            return Verdict::Broken("ramp_is_on_while_braking");
-        }
         let actual = Speed(source.any_u32(4, u32::MAX));
-        let inputs = ramp::Inputs {
-            on: stopped.sbr_on,
-            speed: actual,
-            ..ramp::Inputs::default()
-        };
-        let (after, shown) = (subject.ramp)(state, &config, &inputs);
-        state = after;
         let to_b = if cycle == becomes_b {
             InternalStop::B
         } else {
             InternalStop::None
         };
-        let demanded = stop::Inputs {
-            demand: shown.demand.max(to_b),
-            ..stop::Inputs::default()
+        let before = Braking {
+            state,
+            stopping,
+            on: stopped.sbr_on,
+            limit,
         };
-        (stopping, stopped) = (subject.stop)(stopping, &times, &demanded);
-        if actual > limit {
-            source.cover(0, true);
-            return if stopped.level == Level::A && stopped.cancel_pulses {
-                Verdict::Held
-            } else {
-                Verdict::Broken("faster_than_the_ramp_cancels_the_pulses")
-            };
+        match before.cycle(subject, (&config, &times, lowest), actual, to_b) {
+            Ok(after) => {
+                (state, stopping, stopped.sbr_on) = (after.state, after.stopping, after.on);
+                frozen += u32::from(limit == lowest);
+                limit = after.limit;
+            }
+            Err(verdict) => {
+                source.cover(0, verdict == Verdict::Held);
+                return verdict;
+            }
         }
-        if stopped.level == Level::A {
-            return Verdict::Broken("stop_a_needs_a_violation");
-        }
-        if shown.limit > limit || (limit == lowest && shown.limit != lowest) {
-            return Verdict::Broken("limit_never_rises_and_stays_frozen");
-        }
-        frozen += u32::from(limit == lowest);
-        limit = shown.limit;
     }
     source.cover(1, frozen > 1);
     source.cover(2, first == InternalStop::C && becomes_b < 4);
     Verdict::Held
+}
+
+/// A braking between two cycles.
+struct Braking {
+    state: ramp::State,
+    stopping: stop::State,
+    /// The ramp is on in the next cycle.
+    on: bool,
+    /// Its limit then.
+    limit: Speed,
+}
+
+impl Braking {
+    /// One cycle, in which STOP B may be demanded: the braking after it, or the verdict where it ends there. A function of its own, so that
+    /// a symbolic checker does not carry what the cycle calculates through every later one.
+    fn cycle(
+        self,
+        subject: &Subject,
+        (config, times, lowest): (&ramp::Config, &stop::Config, Speed),
+        actual: Speed,
+        to_b: InternalStop,
+    ) -> Result<Self, Verdict> {
+        if !self.on {
+            return Err(Verdict::Broken("ramp_is_on_while_braking"));
+        }
+        let inputs = ramp::Inputs {
+            on: self.on,
+            speed: actual,
+            ..ramp::Inputs::default()
+        };
+        let (state, shown) = subject.ramp(self.state, config, &inputs);
+        let demanded = stop::Inputs {
+            demand: shown.demand.max(to_b),
+            ..stop::Inputs::default()
+        };
+        let (stopping, stopped) = subject.stop(self.stopping, times, &demanded);
+        if actual > self.limit {
+            return Err(if stopped.level == Level::A && stopped.cancel_pulses {
+                Verdict::Held
+            } else {
+                Verdict::Broken("faster_than_the_ramp_cancels_the_pulses")
+            });
+        }
+        if stopped.level == Level::A {
+            return Err(Verdict::Broken("stop_a_needs_a_violation"));
+        }
+        if shown.limit > self.limit || (self.limit == lowest && shown.limit != lowest) {
+            return Err(Verdict::Broken("limit_never_rises_and_stays_frozen"));
+        }
+        Ok(Self {
+            state,
+            stopping,
+            on: stopped.sbr_on,
+            limit: shown.limit,
+        })
+    }
 }
 
 /// One synchronised cam in two channels at rest, each at its own position: two cycles later both show the same, the own
@@ -147,7 +189,7 @@ pub fn synchronised_cams_agree<S: Source>(source: &mut S, subject: &Subject) -> 
                 position: positions[channel],
                 other: told[other],
             };
-            let (after, outputs) = (subject.cam)(states[channel], &config, &inputs);
+            let (after, outputs) = subject.cam(states[channel], &config, &inputs);
             states[channel] = after;
             shown[channel] = outputs.sga;
         }
@@ -198,7 +240,7 @@ pub fn hysteresis_does_not_flicker<S: Source>(source: &mut S, subject: &Subject)
             position: Position(inside),
             other: true,
         };
-        let (after, outputs) = (subject.cam)(state, &config, &inputs);
+        let (after, outputs) = subject.cam(state, &config, &inputs);
         state = after;
         moved |= last.is_some_and(|last| last != inside);
         last = Some(inside);
@@ -232,7 +274,7 @@ pub fn override_means_nothing_in_sg1_and_sg3<S: Source>(
     let exists = config.choice(Stage::Sg2, second.over).factor != FactorIndex::NONE
         || config.choice(Stage::Sg2, first.over).factor != FactorIndex::NONE;
     source.cover(0, differ && exists);
-    if (subject.selection)(state, &config, &first) == (subject.selection)(state, &config, &second) {
+    if subject.selection(state, &config, &first) == subject.selection(state, &config, &second) {
         Verdict::Held
     } else {
         Verdict::Broken("override_means_nothing_in_sg1_and_sg3")
@@ -287,13 +329,13 @@ pub fn violation_stops_in_the_same_cycle<S: Source>(source: &mut S, subject: &Su
         ..motion::Inputs::default()
     };
     // One cycle to begin with, without a violation, perhaps with a stop of another cause.
-    let (motion, _) = (subject.motion)(motion::State::INITIAL, &motion::Config, &moved(at));
-    let (selected, _) = (subject.selection)(selection::State::INITIAL, &stages, &chosen(at));
-    let (stopping, _) = (subject.stop)(stop::State::INITIAL, &times, &demanded(latched));
+    let (motion, _) = subject.motion(motion::State::INITIAL, &motion::Config, &moved(at));
+    let (selected, _) = subject.selection(selection::State::INITIAL, &stages, &chosen(at));
+    let (stopping, _) = subject.stop(stop::State::INITIAL, &times, &demanded(latched));
 
-    let (_, actual) = (subject.motion)(motion, &motion::Config, &moved(to));
-    let (_, wanted) = (subject.selection)(selected, &stages, &chosen(actual.position));
-    let (_, window) = (subject.standstill)(
+    let (_, actual) = subject.motion(motion, &motion::Config, &moved(to));
+    let (_, wanted) = subject.selection(selected, &stages, &chosen(actual.position));
+    let (_, window) = subject.standstill(
         standstill::State,
         &window,
         &standstill::Inputs {
@@ -302,7 +344,7 @@ pub fn violation_stops_in_the_same_cycle<S: Source>(source: &mut S, subject: &Su
             reference: wanted.reference,
         },
     );
-    let (_, limit) = (subject.speed)(
+    let (_, limit) = subject.speed(
         speed::State,
         &stops,
         &speed::Inputs {
@@ -313,7 +355,7 @@ pub fn violation_stops_in_the_same_cycle<S: Source>(source: &mut S, subject: &Su
             encoder_speed: Speed(0),
         },
     );
-    let (_, end) = (subject.limit_switch)(
+    let (_, end) = subject.limit_switch(
         limit_switch::State,
         &ends,
         &limit_switch::Inputs {
@@ -323,7 +365,7 @@ pub fn violation_stops_in_the_same_cycle<S: Source>(source: &mut S, subject: &Su
         },
     );
     let demand = window.demand.max(limit.demand).max(end.demand);
-    let (_, effective) = (subject.stop)(stopping, &times, &demanded(demand));
+    let (_, effective) = subject.stop(stopping, &times, &demanded(demand));
 
     let distance = to.distance(at).0;
     let left = wanted.monitored == Monitored::Standstill && distance > 1;
