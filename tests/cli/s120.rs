@@ -35,7 +35,7 @@ fn the_scenarios_hold_and_their_recordings_are_replayed() {
     let run = STACKER.hold_and_are_replayed();
     assert!(run >= 12, "{run}");
     let run = FEEDER.hold_and_are_replayed();
-    assert!(run >= 3, "{run}");
+    assert!(run >= 4, "{run}");
 }
 
 /// Each thing that a scenario depends on: with another one, it fails.
@@ -363,6 +363,20 @@ fn a_scenario_of_the_feeder_can_fail() {
             "at     = \"0.6 s\"",
             "at     = \"0.6 s\"\nuntil  = \"120.6 s\"",
             "F.ch1.C01711 and F.ch2.C01711 = 1015",
+        ],
+        // The least share that is one.
+        [
+            "limit-by-telegram.toml",
+            "value  = 0\n",
+            "value  = 1\n",
+            "F.ch1.C01711 and F.ch2.C01711 = 1041",
+        ],
+        // At another level the word has no effect.
+        [
+            "limit-by-telegram.toml",
+            "function = \"SLS1\"",
+            "function = \"SLS2\"",
+            "alarm C01711 in F.ch1.alarms",
         ],
         // It stops where it fits.
         [

@@ -132,7 +132,7 @@ impl Channel {
             },
             received: match running {
                 true => *read,
-                false => Read::default(),
+                false => Read::default().number(Number::Limit, i16::MAX.into()),
             },
             valid: running,
             torque: running,
@@ -170,19 +170,27 @@ impl Channel {
         self.valid = said.valid;
         let bits = match said.valid {
             true => read.with_bits_of(&self.received),
-            false => read.with_bits_of(&Read::default()),
+            // No limit of SLS is transferred: the last one stays (the manual has no substitute value for it).
+            false => {
+                let limit = self.received.of(Number::Limit);
+                read.with_bits_of(&Read::default().number(Number::Limit, limit))
+            }
         };
         (bits, said.request)
+    }
+
+    /// POWER ON: what the other channel hears of it is new, too.
+    fn power(&mut self, values: &Values, read: &Read) {
+        if read.is(Flag::PowerOn) {
+            let kept = self.functions.as_ref().map(Functions::again);
+            *self = Self::new(values, false, self.second, read);
+            self.functions = kept;
+        }
     }
 
     /// One cycle.
     fn step(&mut self, values: &Values, read: &Read, other: &Shared) -> Said {
         let power_on = read.is(Flag::PowerOn);
-        if power_on {
-            let kept = self.functions.as_ref().map(Functions::again);
-            *self = Self::new(values, false, self.second, read);
-            self.functions = kept;
-        }
         let position = Position(read.of(Number::Position));
         let Distance(speed) = self
             .before
@@ -456,6 +464,9 @@ impl Pair {
 
     /// One cycle.
     pub(super) fn step(&mut self, read: &[Read; 2]) -> [Said; 2] {
+        for (channel, read) in self.channels.iter_mut().zip(read) {
+            channel.power(&self.values, read);
+        }
         let [first, second] = [0, 1].map(|side| self.channels[side].shared);
         let others = [second, first];
         [0, 1].map(|side| {

@@ -323,11 +323,10 @@ impl Functions {
             true => 0,
             false => (self.differ + 1).min(APART),
         };
-        let wide = told.transferred.too_wide && self.config.short;
         let defects = [
             (self.differ >= APART || apart.exceeded, Defect::Channels),
             (told.gear.too_long, Defect::Gear),
-            (wide, Defect::Wide),
+            (told.transferred.too_wide, Defect::Wide),
             (seen.wrong, Defect::Value),
         ];
         let defect = defects.iter().find(|(found, _)| *found);
@@ -346,7 +345,13 @@ impl Functions {
             (level(told.sos.demand), "outside the window of SOS"),
             (level(told.slp.demand), "outside the range of SLP"),
             (level(sdi), "against the direction of SDI"),
-            (level(told.sls.demand), "faster than SLS allows"),
+            (
+                level(told.sls.demand),
+                match told.sls.wrong_value && !told.sls.violated {
+                    true => "the limit of SLS by telegram is none",
+                    false => "faster than SLS allows",
+                },
+            ),
         ];
         let highest = raised.iter().rev().max_by_key(|(stop, _)| *stop);
         let (request, cause) = *highest.unwrap_or(&(Stop::None, ""));
@@ -428,7 +433,12 @@ impl Functions {
         told.messages = raised
             .messages
             .with(Message::A, initiated(Stop::A))
-            .with(Message::B, initiated(Stop::B))
+            // Where the axis stands, STOP B ends in A in the cycle in which it begins.
+            .with(
+                Message::B,
+                initiated(Stop::B)
+                    || initiated(Stop::A) && raised.request < Stop::A && before < Stop::B,
+            )
             .with(Message::C, initiated(Stop::C))
             .with(Message::D, initiated(Stop::D))
             .with(Message::E, initiated(Stop::E));

@@ -68,8 +68,6 @@ pub(super) struct Extended {
     pub reference: Option<reference::Config>,
     pub gear: Option<gear::Config>,
     pub position: Option<safe_position::Config>,
-    /// The position is transferred in 16 bits: telegram 901.
-    pub short: bool,
     /// Without encoder.
     /// The last: a function without selection is monitored.
     pub bare: Option<(start_phase::Config, encoderless::Config, bool)>,
@@ -390,7 +388,6 @@ impl Reader<'_> {
                 true => Some(self.transferred()?),
                 false => None,
             },
-            short: self.cell("p60022") == 901,
             bare: match encoder {
                 true => None,
                 false => Some(self.bare(unselected)?),

@@ -24,9 +24,14 @@ impl Reader<'_> {
     }
 
     pub(super) fn transferred(&self) -> Fit<safe_position::Config> {
-        let scale = u16::try_from(self.cell("p9574")).unwrap_or(u16::MAX);
+        // A scale that the monitor does not have is refused by it, as 0 is.
+        let scale = u16::try_from(self.cell("p9574")).unwrap_or(0);
+        let short = self.cell("p60022") == 901;
         let absolute = self.axis.has("absolute position");
-        fit("p9574", safe_position::Config::new(true, absolute, scale))
+        fit(
+            "p9574",
+            safe_position::Config::new(true, absolute, short, scale),
+        )
     }
 
     pub(super) fn bare(
