@@ -24,6 +24,7 @@ mod s120;
 mod scenarios;
 mod simulate;
 mod sinamics;
+mod stacker;
 mod structured_text;
 mod survival;
 mod terminal;

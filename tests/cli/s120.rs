@@ -1,6 +1,6 @@
 //! Simulations of the gantry with SINAMICS S120 and their replay, as their user meets them.
 
-use crate::common::{Folder, messages, root, status, stderr, stdout, stillpoint};
+use crate::common::{Folder, root, status, stderr, stdout, stillpoint};
 use crate::scenarios::{Scenarios, simulate};
 
 const GANTRY: &str = "spec/machines/gantry-s120.toml";
@@ -208,18 +208,6 @@ fn what_is_no_signal_or_function_of_the_gantry_is_refused() {
             "\"C01777\" is no alarm of the monitors",
         ),
     ]);
-    let folder = Folder::new("s120-others");
-    // A drive without encoder is not simulated.
-    let machine = gantry(&folder);
-    let (machine, _) = machine.split_once("[door.front]").expect("it has doors");
-    let machine = format!("{machine}\n[logic.f_cpu]\nsource = \"gantry-s120.st\"\n");
-    let bare = "p9610  = 104\np9506 = \"no encoder, SAM\"\np9511 = \"125 us\"\np9563 = [\"STOP A\", \"STOP A\", \"STOP A\", \"STOP A\"]";
-    let machine = folder.write("bare.toml", &machine.replacen("p9610  = 104", bare, 1));
-    let file = folder.write("short.toml", "duration = \"1 s\"\n");
-    let output = simulate(&machine, &file, &[]);
-    assert_eq!(status(&output), 2, "{}", stdout(&output));
-    let message = "axis B: a drive without encoder (p9506) is not simulated";
-    assert!(messages(&output).contains(message), "{}", stderr(&output));
 }
 
 /// The whole text, with the diagram.

@@ -46,7 +46,9 @@ impl Scenarios {
     /// Each thing that a scenario depends on, as the name of the scenario, what stands there, what takes its place, and the
     /// expectation that then fails.
     pub fn can_fail(&self, cases: &[[&str; 4]]) {
-        let folder = Folder::new(&format!("{}-fails", self.family));
+        // Several tests of a family run at once.
+        let first = cases.first().map_or("", |case| case[0]);
+        let folder = Folder::new(&format!("{}-fails-{first}", self.family));
         for [name, from, to, fails] in cases {
             let text = std::fs::read_to_string(self.path(name)).expect("readable");
             assert!(text.contains(from), "{name}: {from}");

@@ -11,23 +11,30 @@ config! {
     pub struct Config {
         enabled: bool,
         absolute: bool,
+        short: bool,
         scale: u16,
     }
 }
 
 impl Config {
-    /// `enabled`: p9501.25. `absolute`: p9501.2, the position counts only while the axis is safely referenced. `scale`: p9574, at
-    /// least 1.
+    /// `enabled`: p9501.25. `absolute`: p9501.2, the position counts only while the axis is safely referenced. `short`: the
+    /// telegram is 901, the one with S_XIST16. `scale`: p9574, at least 1.
     ///
     /// # Errors
     /// [`ConfigError::FactorOutOfRange`] for a scale of 0.
-    pub const fn new(enabled: bool, absolute: bool, scale: u16) -> Result<Self, ConfigError> {
+    pub const fn new(
+        enabled: bool,
+        absolute: bool,
+        short: bool,
+        scale: u16,
+    ) -> Result<Self, ConfigError> {
         if scale == 0 {
             return Err(ConfigError::FactorOutOfRange);
         }
         Ok(Self {
             enabled,
             absolute,
+            short,
             scale,
         })
     }
@@ -91,13 +98,13 @@ fields! {
     pub struct Outputs {
         /// The transferred words are valid.
         pub valid: bool,
-        /// S_XIST16: the mean in units of p9574, toward zero; 0 where it does not fit.
+        /// S_XIST16: the mean in units of p9574, toward zero; 0 where it does not fit, or is not sent.
         pub short: i16,
         /// S_XIST32: the mean, toward zero.
         pub long: i32,
         /// S_CYCLE_COUNT.
         pub cycle: u16,
-        /// The position does not fit 16 bits: C01711 with value 7001, STOP F.
+        /// The position does not fit the 16 bits in which it is sent: C01711 with value 7001, STOP F.
         pub too_wide: bool,
     }
 }
@@ -110,7 +117,7 @@ fn sum(inputs: &Inputs) -> i64 {
 monitor! { sinamics::safe_position;
     /// The short word is the mean divided by p9574, toward zero.
     short_word_is_the_scaled_mean ["S120-SP-005"]:
-        when |s| s.config.enabled && !s.outputs.too_wide
+        when |s| s.config.enabled && s.config.short && !s.outputs.too_wide
             => {
                 let scaled = i64::from(s.outputs.short) * 2 * i64::from(s.config.scale);
                 let rest = sum(&s.inputs) - scaled;
@@ -119,13 +126,19 @@ monitor! { sinamics::safe_position;
 
     /// Beyond 32767 to either side it is STOP F, and no wrapped word.
     wide_position_is_stop_f ["S120-SP-005"]:
-        when |s| s.config.enabled && sum(&s.inputs).abs() >= 32_768 * 2 * i64::from(s.config.scale)
+        when |s| s.config.enabled && s.config.short
+            && sum(&s.inputs).abs() >= 32_768 * 2 * i64::from(s.config.scale)
             => s.outputs.too_wide && s.outputs.short == 0;
 
     /// Within them it is none.
     fitting_position_is_no_stop ["S120-SP-005"]:
         when |s| sum(&s.inputs).abs() < 32_768 * 2 * i64::from(s.config.scale)
             => !s.outputs.too_wide;
+
+    /// A telegram without the short word transfers none, and no position is too wide for it.
+    no_short_word_is_never_too_wide ["S120-SP-005"]:
+        when |s| !s.config.short
+            => !s.outputs.too_wide && s.outputs.short == 0;
 
     /// The long word is the mean itself, between both positions.
     long_word_is_the_mean ["S120-SP-004"]:
@@ -162,7 +175,11 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
         return (after, Outputs::default());
     }
     let sum = sum(inputs);
-    let short = sum / (2 * i64::from(config.scale.max(1)));
+    let short = if config.short {
+        sum / (2 * i64::from(config.scale.max(1)))
+    } else {
+        0
+    };
     let too_wide = short.abs() > i64::from(i16::MAX);
     let outputs = Outputs {
         valid: inputs.valid && (!config.absolute || inputs.referenced),
@@ -180,7 +197,11 @@ mod tests {
     use super::*;
 
     fn position(first: i32, second: i32, scale: u16) -> Outputs {
-        let mut monitor = Monitor::new(Config::new(true, false, scale).expect("accepted"));
+        sent(true, first, second, scale)
+    }
+
+    fn sent(short: bool, first: i32, second: i32, scale: u16) -> Outputs {
+        let mut monitor = Monitor::new(Config::new(true, false, short, scale).expect("accepted"));
         monitor.step(&Inputs {
             first: Position(first),
             second: Position(second),
@@ -194,6 +215,8 @@ mod tests {
         assert_eq!(position(-29_999, -29_999, 1000).short, -29);
         assert_eq!(position(32_767_999, 32_767_999, 1000).short, 32_767);
         assert!(position(32_768_000, 32_768_000, 1000).too_wide);
+        // Lines 3616 and 3627: the range of 16 bits is a matter of telegram 901 alone.
+        assert!(!sent(false, 32_768_000, 32_768_000, 1000).too_wide);
         for end in [737_280_000, -737_280_000] {
             assert_eq!(position(end, end, 1000).long, end);
         }

@@ -1,83 +1,45 @@
 //! One channel of a drive: the Basic Functions in their cycle, the Extended ones in theirs, acknowledgement, and what the drive may do. And the
 //! pair of them.
 
-use stillpoint_monitors::kernel::{Cycles, Distance, Position, Speed};
-use stillpoint_monitors::sinamics::basic_stop::{self, Latched};
+use stillpoint_monitors::kernel::{Distance, Position, Speed};
+use stillpoint_monitors::sinamics::basic_stop::Latched;
 use stillpoint_monitors::sinamics::level::{Function, Stop};
 use stillpoint_monitors::sinamics::{
-    acknowledgement, acknowledgement_edge, basic_selection, communication, restart, sbc, ss1_basic,
-    sto, terminal_pair,
+    acknowledgement, acknowledgement_edge, communication, restart, sbc, sto,
 };
 
+use super::bare::{self, Bare};
+use super::basic::Basic;
 use super::functions::{Functions, Results, Seen};
 use super::messages::{Message, Messages};
+use super::said::Said;
+use super::service::{self, Service};
 use super::signals::{Flag, Number, Read};
 use super::values::Values;
 
-/// What a channel tells in a cycle.
-#[derive(Clone, Copy, Default)]
-pub(super) struct Said {
-    pub position: i32,
-    pub speed: Speed,
-    pub stop: Stop,
-    pub stop_f: bool,
-    pub cause: &'static str,
-    pub messages: Messages,
-    pub sto: bool,
-    pub ss1: bool,
-    pub ss2: bool,
-    pub sos: bool,
-    pub sos_violated: bool,
-    pub sos_reference: i32,
-    pub sls: bool,
-    pub sls_level: u8,
-    pub sls_limit: Speed,
-    pub sls_violated: bool,
-    pub sdi: [bool; 2],
-    pub slp: bool,
-    pub slp_second: bool,
-    pub ssm: bool,
-    pub braking_limit: Speed,
-    pub function: Function,
-    pub pulses_off: bool,
-    /// The drive brakes along OFF3.
-    pub off3: bool,
-    /// The control is to brake, or to hold the axis: SOS, SS1E, SS2E, STOP D and E.
-    pub control_brakes: bool,
-    /// The setpoint has no effect.
-    pub inhibited: bool,
-    pub torque: bool,
-    /// r9733\[2\], and both directions.
-    pub setpoint: Speed,
-    pub directions: Option<[Speed; 2]>,
-    pub brake_open: bool,
-    /// What the safety telegram says counts.
-    pub valid: bool,
-    pub event: bool,
-}
-
 /// What a channel hears of the other one, a cycle later.
 #[derive(Clone, Copy, Default)]
-struct Shared {
+pub(super) struct Shared {
     position: Position,
-    terminal: bool,
+    pub terminal: bool,
     /// STO or SS1 of the Basic Functions is selected.
-    selected: bool,
+    pub selected: bool,
     results: Results,
     brake_on: bool,
-}
-
-struct Basic {
-    selection: basic_selection::Monitor,
-    terminals: Option<terminal_pair::Monitor>,
-    ss1: ss1_basic::Monitor,
-    stop: basic_stop::Monitor,
+    /// The user agreement.
+    agrees: bool,
+    /// Its switch-off path has suppressed the pulses.
+    path_off: bool,
 }
 
 /// A channel.
 struct Channel {
+    /// This is channel 2.
+    second: bool,
     basic: Basic,
     functions: Option<Functions>,
+    bare: Option<Bare>,
+    service: Service,
     communication: Option<communication::Monitor>,
     edge: acknowledgement_edge::Monitor,
     reselection: acknowledgement_edge::Monitor,
@@ -93,6 +55,8 @@ struct Channel {
     held: bool,
     brake_defect: bool,
     messages: Messages,
+    /// The value of C01711.
+    value: u16,
     /// None before the first cycle.
     before: Option<Position>,
     shared: Shared,
@@ -107,7 +71,8 @@ macro_rules! resumed {
 
 impl Channel {
     /// At POWER ON, or as after many cycles in which nothing happened and the drive was on.
-    fn new(values: &Values, running: bool, read: &Read) -> Self {
+    fn new(values: &Values, running: bool, second: bool, read: &Read) -> Self {
+        let position = Position(read.of(Number::Position));
         let edge = || match running {
             true => resumed!(
                 acknowledgement_edge,
@@ -131,20 +96,14 @@ impl Channel {
             false => communication::Monitor::new(config),
         };
         Self {
-            basic: Basic {
-                selection: basic_selection::Monitor::new(values.selection),
-                terminals: values.terminals.map(terminal_pair::Monitor::new),
-                ss1: ss1_basic::Monitor::new(values.ss1_basic),
-                stop: resumed!(
-                    basic_stop,
-                    values.basic_stop,
-                    basic_stop::State {
-                        selected: !running,
-                        ..basic_stop::State::INITIAL
-                    }
-                ),
-            },
-            functions: values.extended.as_ref().map(Functions::new),
+            second,
+            basic: Basic::new(values, running),
+            functions: (values.extended.as_ref())
+                .map(|config| Functions::new(config, running.then_some(position))),
+            bare: (values.extended.as_ref())
+                .and_then(|config| config.bare)
+                .map(|config| Bare::new(config, running, position)),
+            service: Service::new(values, running),
             communication: values.communication.map(communication),
             edge: edge(),
             reselection: edge(),
@@ -173,16 +132,17 @@ impl Channel {
             },
             received: match running {
                 true => *read,
-                false => Read::default(),
+                false => Read::default().number(Number::Limit, i16::MAX.into()),
             },
             valid: running,
             torque: running,
             held: false,
             brake_defect: false,
             messages: Messages::default(),
+            value: 0,
             before: None,
             shared: Shared {
-                position: Position(read.of(Number::Position)),
+                position,
                 terminal: read.is(Flag::Terminal),
                 brake_on: running && values.sbc.is_some(),
                 ..Shared::default()
@@ -210,16 +170,27 @@ impl Channel {
         self.valid = said.valid;
         let bits = match said.valid {
             true => read.with_bits_of(&self.received),
-            false => read.with_bits_of(&Read::default()),
+            // No limit of SLS is transferred: the last one stays (the manual has no substitute value for it).
+            false => {
+                let limit = self.received.of(Number::Limit);
+                read.with_bits_of(&Read::default().number(Number::Limit, limit))
+            }
         };
         (bits, said.request)
     }
 
+    /// POWER ON: what the other channel hears of it is new, too.
+    fn power(&mut self, values: &Values, read: &Read) {
+        if read.is(Flag::PowerOn) {
+            let kept = self.functions.as_ref().map(Functions::again);
+            *self = Self::new(values, false, self.second, read);
+            self.functions = kept;
+        }
+    }
+
     /// One cycle.
     fn step(&mut self, values: &Values, read: &Read, other: &Shared) -> Said {
-        if read.is(Flag::PowerOn) {
-            *self = Self::new(values, false, read);
-        }
+        let power_on = read.is(Flag::PowerOn);
         let position = Position(read.of(Number::Position));
         let Distance(speed) = self
             .before
@@ -238,7 +209,9 @@ impl Channel {
         });
         let edge = edge.acknowledge;
         let (bits, communication) = self.bits(read, edge);
-        let (selection, ss1, basic, terminals_differ) = self.basic(values, &bits, other, edge);
+        let (held, defect) = (self.held, self.brake_defect);
+        let (selection, ss1, basic, terminals_differ) =
+            (self.basic).step(values, &bits, other, edge, [held, defect]);
         let ss1_selected = values.extended.is_some() && !bits.is(Flag::Ss1);
         let any = selection.sto || selection.ss1 || ss1_selected;
         let reselected = self.reselection.step(&acknowledgement_edge::Inputs {
@@ -247,6 +220,24 @@ impl Channel {
             stable: true,
             level: any,
         });
+        let switches = matches!(
+            self.restart.state().phase,
+            restart::Phase::Ready | restart::Phase::Run
+        );
+        let (bare, position, speed) = match (&mut self.bare, &values.extended) {
+            (Some(bare), Some(extended)) => bare.step(
+                &bits,
+                &bare::Seen {
+                    position,
+                    sto: selection.sto || ss1.sto,
+                    pulses: self.torque,
+                    // An ON of a drive that is inhibited from switching on is none (4.1.1).
+                    on: read.is(Flag::On) && switches,
+                    shutdown: extended.shutdown,
+                },
+            ),
+            _ => (bare::Told::default(), position, speed),
+        };
         let seen = Seen {
             position,
             speed,
@@ -258,10 +249,14 @@ impl Channel {
             communication,
             positions: [self.shared.position, other.position],
             results: [self.shared.results, other.results],
+            other_agrees: other.agrees,
+            second: self.second,
+            wrong: bare.wrong,
         };
         let mut messages = Messages::default()
             .with(Message::BasicF, terminals_differ)
-            .with(Message::Brake, self.brake_defect);
+            .with(Message::Brake, self.brake_defect)
+            .with(Message::Crosscheck, bare.no_current);
         let raised = self.functions.as_mut().map(|f| f.watch(&bits, &seen));
         let cause = raised.is_some_and(|r| r.request != Stop::None || r.difference);
         let acknowledged = self.acknowledgement.step(&acknowledgement::Inputs {
@@ -269,7 +264,7 @@ impl Channel {
             input_edge: false,
             profisafe_edge: edge,
             reselected: reselected.acknowledge,
-            message: cause,
+            message: cause || bare.no_current || raised.is_some_and(|r| r.notice),
             cause,
             module_cause: false,
             standard: read.is(Flag::General),
@@ -285,19 +280,49 @@ impl Channel {
             .and(told.messages)
             .with(Message::BasicA, basic.stop >= Latched::A);
         let stop_a = arbiter.stop >= Stop::A || basic.pulses_off;
+        let ss1_ended = ss1.sto || told.ss1.sto;
+        let off = selection.sto || ss1_ended || stop_a;
+        let functions = matches!(
+            told.function,
+            Function::Ss1 | Function::Ss2 | Function::Ss2e | Function::Sos
+        );
+        let service = self.service.step(
+            values,
+            read,
+            &service::Seen {
+                power_on,
+                position,
+                speed,
+                selected: any,
+                off: off || bare.internal,
+                stops: arbiter.stop != Stop::None || ss1.active || functions || basic.entered,
+                held: self.held,
+                pulses: self.torque,
+                paths_off: [self.shared.path_off, other.path_off],
+                valid: self.valid,
+            },
+        );
+        messages = messages.with(Message::BrakeTestInterrupted, service.brake.interrupted);
         let sto = self.sto.step(&sto::Inputs {
             powered_up: read.is(Flag::PoweredUp),
             selected: selection.sto,
-            ss1_ended: ss1.sto || told.ss1.sto,
+            ss1_ended,
             stop_a,
+            test_stop: service.tests,
+            internal: bare.internal,
             ..Default::default()
         });
-        let brake = self.brake(read, &sto, other);
+        let brake = self.brake(read, &sto, other, !service.brake.close_motor);
+        // Without selection ON itself ends the suppression (4.2.9.3): it inhibits nothing from switching on.
+        let unselected = self.bare.as_ref().is_some_and(Bare::unselected);
+        let inhibits = off || service.tests || bare.internal && !unselected;
+        // OFF1 brakes: the pulses go off when the axis stands.
+        let off1 = self.torque && !read.is(Flag::On) && speed != Speed(0);
         let restart = self.restart.step(&restart::Inputs {
             power_on: false,
-            sto: sto.pulses_off,
+            sto: inhibits || !self.sto.state().started,
             latched: arbiter.blocks_run || basic.entered,
-            on: read.is(Flag::On),
+            on: read.is(Flag::On) || off1,
             enabled: read.is(Flag::PoweredUp),
         });
         self.torque = restart.torque && !sto.pulses_off;
@@ -310,13 +335,31 @@ impl Channel {
         if basic.entered {
             kept = kept.and(self.messages.of(true));
         }
-        self.messages = kept.and(messages);
+        // Those of the brake test too, once it is deselected.
+        if !edge || read.is(Flag::BrakeTest) {
+            kept = kept.and(self.messages.of_brake_test());
+        }
+        self.messages = kept
+            .and(messages)
+            .with(Message::TestStop, service.due)
+            .with(Message::PathTest, service.path_due);
+        let value = match bare.no_current {
+            true => 1_041,
+            false => raised.map_or(0, |r| r.value),
+        };
+        self.value = match self.messages.has(Message::Crosscheck) {
+            true if value == 0 => self.value,
+            true => value,
+            false => 0,
+        };
         self.shared = Shared {
             position,
             terminal: read.is(Flag::Terminal),
             selected: selection.sto || selection.ss1,
             results: told.results,
             brake_on: brake.on,
+            agrees: read.is(Flag::Agrees),
+            path_off: sto.pulses_off && !read.is(Flag::PathFault),
         };
         let basic_stop = match basic.stop {
             Latched::None | Latched::F => Stop::None,
@@ -348,17 +391,23 @@ impl Channel {
             sdi: told.sdi.map(|s| s.active),
             slp: told.slp.active,
             slp_second: told.slp_second,
+            slp_kept: told.slp_kept,
+            reference: told.reference,
+            gear: told.gear,
+            transferred: told.transferred,
             ssm: told.ssm.below,
             braking_limit: told.braking_limit,
             function: told.function,
-            pulses_off: sto.pulses_off,
+            pulses_off: self.shared.path_off,
             off3: arbiter.off3 || told.ss1.off3 || told.ss2.off3 || ss1.off3,
             control_brakes: told.sos.selected
                 || arbiter.sos
                 || told.ss2.ss2e_active
                 || matches!(arbiter.stop, Stop::D | Stop::E)
                 || told.ss1.active
-                || ss1.active,
+                || ss1.active
+                || off1
+                || service.brake.own_setpoint,
             inhibited: arbiter.setpoint_zero || told.ss2.inhibited,
             torque: self.torque,
             setpoint: told.setpoint.map_or(Speed(u32::MAX), |s| s.absolute),
@@ -366,74 +415,30 @@ impl Channel {
             brake_open: brake.open,
             valid: self.valid,
             event: acknowledged.event,
+            value: self.value,
+            bare,
+            service,
         }
     }
 
-    /// The Basic Functions, in their own cycle.
-    fn basic(
+    /// The brake: open while there is torque and no test closes it, and both channels say so.
+    fn brake(
         &mut self,
-        values: &Values,
-        bits: &Read,
+        read: &Read,
+        sto: &sto::Outputs,
         other: &Shared,
-        edge: bool,
-    ) -> (
-        basic_selection::Outputs,
-        ss1_basic::Outputs,
-        basic_stop::Outputs,
-        bool,
-    ) {
-        let basic = &mut self.basic;
-        let immediate = values.ss1_basic.time == Cycles::ZERO;
-        let general = bits.is(Flag::General);
-        let mut said = Default::default();
-        for _ in 0..values.basic_cycles {
-            let selection = basic.selection.step(&basic_selection::Inputs {
-                terminal: bits.is(Flag::Terminal),
-                sto: bits.is(Flag::Sto),
-                // SS1 of the Extended Functions is another one, and without p9652 there is none.
-                ss1: bits.is(Flag::Ss1) || values.extended.is_some() || immediate,
-            });
-            let ss1 = basic.ss1.step(&ss1_basic::Inputs {
-                selected: selection.ss1,
-                sto: selection.sto || basic.stop.state().stop >= Latched::A,
-            });
-            let own = bits.is(Flag::Terminal);
-            let differ = basic.terminals.as_mut().is_some_and(|terminals| {
-                let said = terminals.step(&terminal_pair::Inputs {
-                    power_on: false,
-                    own,
-                    other: other.terminal,
-                    held: self.held,
-                    acknowledge: general || edge,
-                });
-                // Terminals that agree again are no cause any more.
-                said.fault && own != other.terminal
-            });
-            let stop = basic.stop.step(&basic_stop::Inputs {
-                power_on: false,
-                difference: differ,
-                fault: self.brake_defect,
-                locking: false,
-                selected: selection.sto || selection.ss1 || other.selected,
-                acknowledge: general,
-                internal_event_ack: edge,
-            });
-            said = (selection, ss1, stop, differ);
-        }
-        said
-    }
-
-    /// The brake: open while there is torque, and both channels say so.
-    fn brake(&mut self, read: &Read, sto: &sto::Outputs, other: &Shared) -> sbc::Outputs {
+        open: bool,
+    ) -> sbc::Outputs {
         let Some(sbc) = &mut self.sbc else {
             return sbc::Outputs::default();
         };
-        let on = !sto.pulses_off && self.torque;
+        let open = open && self.torque;
+        let on = !sto.pulses_off && open;
         let said = sbc.step(&sbc::Inputs {
             sto: sto.pulses_off,
             fault: false,
             other_fault: false,
-            open: self.torque,
+            open,
             other_on: other.brake_on,
             feedback: on != read.is(Flag::BrakeFault),
         });
@@ -452,13 +457,16 @@ impl Pair {
     /// At POWER ON, or running.
     pub(super) fn new(values: &Values, running: bool, read: &[Read; 2]) -> Self {
         Self {
-            channels: [0, 1].map(|side| Channel::new(values, running, &read[side])),
+            channels: [0, 1].map(|side| Channel::new(values, running, side == 1, &read[side])),
             values: values.clone(),
         }
     }
 
     /// One cycle.
     pub(super) fn step(&mut self, read: &[Read; 2]) -> [Said; 2] {
+        for (channel, read) in self.channels.iter_mut().zip(read) {
+            channel.power(&self.values, read);
+        }
         let [first, second] = [0, 1].map(|side| self.channels[side].shared);
         let others = [second, first];
         [0, 1].map(|side| {

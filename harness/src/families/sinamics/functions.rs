@@ -3,32 +3,25 @@
 //! The functions run by their selections; what is latched is carried out by the arbiter, which also says when SAM or SBR watch and when the
 //! operating stop holds.
 
+mod told;
+
 use stillpoint_monitors::kernel::{Position, Speed};
 use stillpoint_monitors::sinamics::level::{Function, Stop};
 use stillpoint_monitors::sinamics::sls::Level;
 use stillpoint_monitors::sinamics::types::Stop as Demand;
 use stillpoint_monitors::sinamics::{
-    actual_value, sam, sbr, sdi, setpoint_limit, slp, sls, sos, ss1, ss2, ssm, stop_arbiter,
+    actual_value, gear, reference, safe_position, sam, sbr, sdi, setpoint_limit, slp, sls,
+    sls_ramp, sos, ss1, ss2, ssm, stop_arbiter,
 };
 
+use self::told::Defect;
+pub(super) use self::told::{Raised, Results, Told};
 use super::messages::{Message, Messages};
 use super::signals::{Flag, Number, Read};
 use super::values::{BrakingMonitor, Extended};
 
 /// For so many cycles the results of the channels may differ: one hears of the other a cycle later.
 const APART: u32 = 3;
-
-/// What the channels compare with each other.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Results {
-    stop: Stop,
-    function: Function,
-    sos: bool,
-    sls: bool,
-    sls_level: u8,
-    sdi: [bool; 2],
-    slp: bool,
-}
 
 /// What the functions of an axis read beside the bits.
 #[derive(Clone, Copy)]
@@ -48,41 +41,12 @@ pub(super) struct Seen {
     /// Position and results of both channels, this one first, in the cycle before.
     pub positions: [Position; 2],
     pub results: [Results; 2],
-}
-
-/// What raises stops in a cycle.
-#[derive(Clone, Copy)]
-pub(super) struct Raised {
-    pub request: Stop,
-    pub difference: bool,
-    pub messages: Messages,
-    cause: &'static str,
-    monitored: bool,
-}
-
-/// What the functions tell.
-#[derive(Clone, Copy, Default)]
-pub(super) struct Told {
-    pub ss1: ss1::Outputs,
-    pub ss2: ss2::Outputs,
-    pub sos: sos::Outputs,
-    pub sos_reference: Position,
-    pub sls: sls::Outputs,
-    pub sdi: [sdi::Outputs; 2],
-    pub slp: slp::Outputs,
-    pub slp_second: bool,
-    pub ssm: ssm::Outputs,
-    /// What SAM or SBR compares the speed with.
-    pub braking_limit: Speed,
-    pub arbiter: stop_arbiter::Outputs,
-    pub function: Function,
-    pub setpoint: Option<setpoint_limit::Outputs>,
-    pub results: Results,
-    /// Of what is latched.
-    pub cause: &'static str,
-    pub messages: Messages,
-    /// A function is active whose stop does not wait for ESR.
-    pub undelayed: bool,
+    /// The user agreement of the other channel in the cycle before.
+    pub other_agrees: bool,
+    /// This is channel 2.
+    pub second: bool,
+    /// Without encoder: its actual value is not plausible.
+    pub wrong: bool,
 }
 
 enum Ramp {
@@ -90,16 +54,24 @@ enum Ramp {
     Sbr(sbr::Monitor),
 }
 
+enum Limit {
+    Delayed(sls::Monitor),
+    Ramp(sls_ramp::Monitor),
+}
+
 /// The monitors.
 pub(super) struct Functions {
     config: Extended,
     arbiter: stop_arbiter::Monitor,
     ss1: ss1::Monitor,
-    ss2: ss2::Monitor,
+    ss2: Option<ss2::Monitor>,
     sos: sos::Monitor,
-    sls: sls::Monitor,
+    sls: Limit,
     sdi: Option<[sdi::Monitor; 2]>,
     slp: Option<slp::Monitor>,
+    reference: Option<reference::Monitor>,
+    gear: Option<gear::Monitor>,
+    transferred: Option<safe_position::Monitor>,
     ssm: ssm::Monitor,
     ramp: Ramp,
     actual: actual_value::Monitor,
@@ -108,6 +80,8 @@ pub(super) struct Functions {
     differ: u32,
     /// SAM or SBR was violated in the cycle before.
     violated: bool,
+    /// Why STOP F came last.
+    defect: Defect,
     told: Told,
 }
 
@@ -131,16 +105,31 @@ const fn stop_a(raised: bool) -> Stop {
 }
 
 impl Functions {
-    /// At POWER ON.
-    pub(super) fn new(config: &Extended) -> Self {
+    /// At POWER ON, never referenced; or running, safely referenced at a position.
+    pub(super) fn new(config: &Extended, running: Option<Position>) -> Self {
+        let referenced = |config: reference::Config| {
+            let state = running.map_or(reference::State::INITIAL, |stored| reference::State {
+                phase: reference::Phase::Safe,
+                agreed: true,
+                stored,
+                ..reference::State::INITIAL
+            });
+            reference::Monitor::resume(config, state).unwrap_or(reference::Monitor::new(config))
+        };
         Self {
             arbiter: stop_arbiter::Monitor::new(config.arbiter),
             ss1: ss1::Monitor::new(config.ss1),
-            ss2: ss2::Monitor::new(config.ss2),
+            ss2: config.ss2.map(ss2::Monitor::new),
             sos: sos::Monitor::new(config.sos),
-            sls: sls::Monitor::new(config.sls),
+            sls: match config.sls_ramp {
+                Some(ramp) => Limit::Ramp(sls_ramp::Monitor::new(ramp)),
+                None => Limit::Delayed(sls::Monitor::new(config.sls)),
+            },
             sdi: config.sdi.map(|both| both.map(sdi::Monitor::new)),
             slp: config.slp.map(slp::Monitor::new),
+            reference: config.reference.map(referenced),
+            gear: config.gear.map(gear::Monitor::new),
+            transferred: config.position.map(safe_position::Monitor::new),
             ssm: ssm::Monitor::new(config.ssm),
             ramp: match config.braking {
                 BrakingMonitor::Sam(config) => Ramp::Sam(sam::Monitor::new(config)),
@@ -150,9 +139,17 @@ impl Functions {
             setpoint: config.setpoint.map(setpoint_limit::Monitor::new),
             differ: 0,
             violated: false,
+            defect: Defect::default(),
             told: Told::default(),
             config: config.clone(),
         }
+    }
+
+    /// At POWER ON: what is not volatile is that of the user agreement.
+    pub(super) fn again(&self) -> Self {
+        let mut functions = Self::new(&self.config, None);
+        functions.reference = self.reference;
+        functions
     }
 
     /// What they told in the cycle before.
@@ -174,18 +171,20 @@ impl Functions {
             ramp_violated: self.violated,
             speed,
         });
-        told.ss2 = self.ss2.step(&ss2::Inputs {
-            ss2: selected(Flag::Ss2),
-            ss2e: selected(Flag::Ss2e),
-            // Only what it gives way to; the arbiter carries out the others.
-            stop: match before.stop >= Stop::B {
-                true => Demand::B,
-                false => Demand::None,
-            },
-            ss1_or_sto: seen.sto || seen.ss1 || seen.basic_ss1 || seen.basic_sto,
-            sos_active: false,
-            ramp_violated: self.violated,
-        });
+        if let Some(ss2) = &mut self.ss2 {
+            told.ss2 = ss2.step(&ss2::Inputs {
+                ss2: selected(Flag::Ss2),
+                ss2e: selected(Flag::Ss2e),
+                // Only what it gives way to; the arbiter carries out the others.
+                stop: match before.stop >= Stop::B {
+                    true => Demand::B,
+                    false => Demand::None,
+                },
+                ss1_or_sto: seen.sto || seen.ss1 || seen.basic_ss1 || seen.basic_sto,
+                sos_active: false,
+                ramp_violated: self.violated,
+            });
+        }
         told.sos = self.sos.step(&sos::Inputs {
             selected: selected(Flag::Sos),
             held: told.ss2.sos || before.sos,
@@ -194,23 +193,47 @@ impl Functions {
         });
         told.sos_reference = self.sos.state().reference;
         let bit = |k: u32| bits.of(Number::Level) >> k & 1 == 1;
-        told.sls = self.sls.step(&sls::Inputs {
-            selected: selected(Flag::Sls),
-            level: Level::from_bits(bit(1), bit(0)),
-            telegram: i16::try_from(bits.of(Number::Limit)).unwrap_or(0),
-            drive_on: seen.drive_on,
-            sos_after_stop: before.sos,
-            speed,
-        });
+        let level_of = Level::from_bits(bit(1), bit(0));
+        let mut sls_braking = false;
+        told.sls = match &mut self.sls {
+            Limit::Delayed(sls) => sls.step(&sls::Inputs {
+                selected: selected(Flag::Sls),
+                level: level_of,
+                telegram: i16::try_from(bits.of(Number::Limit)).unwrap_or(0),
+                drive_on: seen.drive_on,
+                sos_after_stop: before.sos,
+                speed,
+            }),
+            Limit::Ramp(sls) => {
+                let said = sls.step(&sls_ramp::Inputs {
+                    selected: selected(Flag::Sls),
+                    level: level_of,
+                    speed,
+                });
+                sls_braking = said.ramp_violated;
+                sls::Outputs {
+                    active: said.active,
+                    level: said.level,
+                    limit: said.limit,
+                    violated: said.violated,
+                    wrong_value: false,
+                    demand: said.demand,
+                }
+            }
+        };
+        self.refer(bits, seen);
+        let told = &mut self.told;
         told.slp_second = bits.is(Flag::SlpRange);
         if let Some(slp) = &mut self.slp {
             told.slp = slp.step(&slp::Inputs {
                 selected: selected(Flag::Slp),
                 second: told.slp_second,
-                safe: bits.is(Flag::Referenced),
+                safe: told.reference.safe,
                 position: seen.position,
                 retract: bits.is(Flag::Retract),
             });
+            told.slp_kept =
+                [told.slp.above, told.slp.below].map(|beyond| told.slp.active && !beyond);
         }
         let retracts = [told.slp.sdi_positive, told.slp.sdi_negative];
         let flags = [Flag::SdiPositive, Flag::SdiNegative];
@@ -245,23 +268,72 @@ impl Functions {
             }
         };
         self.violated = violated;
-        self.raised(seen, violated, ramp)
+        let ramp = ramp.max(stop_a(sls_braking));
+        self.raised(seen, violated || sls_braking, ramp)
+    }
+
+    /// Gear stage and reference.
+    fn refer(&mut self, bits: &Read, seen: &Seen) {
+        let told = &mut self.told;
+        if let Some(gear) = &mut self.gear {
+            let bit = |k: u32| bits.of(Number::Stage) >> k & 1 == 1;
+            told.gear = gear.step(&gear::Inputs {
+                stage: gear::Stage::from_bits(bit(2), bit(1), bit(0)),
+                raise: bits.is(Flag::GearTolerance),
+            });
+        }
+        if let Some(reference) = &mut self.reference {
+            told.reference = reference.step(&reference::Inputs {
+                power_on: bits.is(Flag::PowerOn),
+                parking: false,
+                gear_change: told.gear.changed,
+                declared: bits.is(Flag::Declared),
+                epos: false,
+                standstill: seen.speed == Speed(0),
+                agrees: bits.is(Flag::Agrees),
+                other_agrees: seen.other_agrees,
+                position: seen.position,
+            });
+        }
     }
 
     fn raised(&mut self, seen: &Seen, violated: bool, ramp: Stop) -> Raised {
-        let told = &self.told;
         let [own, other] = seen.positions;
         let apart = self.actual.step(&actual_value::Inputs {
             own,
             other,
-            raised: false,
-            synchronise: false,
+            raised: self.told.gear.raised,
+            synchronise: self.told.gear.synchronise,
         });
+        if let Some(transferred) = &mut self.transferred {
+            // r9708[0] and r9708[1].
+            let [first, second] = match seen.second {
+                false => [own, other],
+                true => [other, own],
+            };
+            self.told.transferred = transferred.step(&safe_position::Inputs {
+                first,
+                second,
+                valid: !apart.exceeded,
+                referenced: self.told.reference.safe,
+            });
+        }
+        let told = &self.told;
         self.differ = match seen.results[0] == seen.results[1] {
             true => 0,
             false => (self.differ + 1).min(APART),
         };
-        let difference = self.differ >= APART || apart.exceeded;
+        let defects = [
+            (self.differ >= APART || apart.exceeded, Defect::Channels),
+            (told.gear.too_long, Defect::Gear),
+            (told.transferred.too_wide, Defect::Wide),
+            (seen.wrong, Defect::Value),
+        ];
+        let defect = defects.iter().find(|(found, _)| *found);
+        let difference = defect.is_some();
+        if let Some((_, defect)) = defect {
+            self.defect = *defect;
+        }
         let sdi = told.sdi[0].demand.max(told.sdi[1].demand);
         // The end of STOP B is the arbiter's: SS1 raises none of its own.
         let raised = [
@@ -273,7 +345,13 @@ impl Functions {
             (level(told.sos.demand), "outside the window of SOS"),
             (level(told.slp.demand), "outside the range of SLP"),
             (level(sdi), "against the direction of SDI"),
-            (level(told.sls.demand), "faster than SLS allows"),
+            (
+                level(told.sls.demand),
+                match told.sls.wrong_value && !told.sls.violated {
+                    true => "the limit of SLS by telegram is none",
+                    false => "faster than SLS allows",
+                },
+            ),
         ];
         let highest = raised.iter().rev().max_by_key(|(stop, _)| *stop);
         let (request, cause) = *highest.unwrap_or(&(Stop::None, ""));
@@ -281,18 +359,28 @@ impl Functions {
         Raised {
             request,
             difference,
+            notice: told.reference.missed,
+            value: match difference {
+                true => self.defect.value(),
+                false if told.reference.missed => 1_002,
+                false if told.sls.wrong_value => 1_041,
+                false => 0,
+            },
             cause: match (request, difference) {
-                (Stop::None, true) => "the channels differ",
+                (Stop::None, true) => self.defect.texts()[0],
                 (Stop::None, false) => "",
                 _ => cause,
             },
             messages: Messages::default()
                 .with(Message::Ramp, violated)
                 .with(Message::Sos, told.sos.violated)
-                .with(Message::Sls, told.sls.violated || told.sls.wrong_value)
+                .with(Message::Sls, told.sls.violated)
                 .with(Message::Slp, told.slp.below || told.slp.above)
                 .with(Message::Sdi, told.sdi.iter().any(|s| s.violated))
-                .with(Message::Crosscheck, difference),
+                .with(
+                    Message::Crosscheck,
+                    difference || told.reference.missed || told.sls.wrong_value,
+                ),
             monitored: watching,
         }
     }
@@ -338,14 +426,19 @@ impl Functions {
             (Stop::None, Stop::None) if told.cause.is_empty() => raised.cause,
             (Stop::None, _) => told.cause,
             (Stop::A, request) if request < Stop::A && before == Stop::B => "STOP B has ended",
-            (Stop::B, request) if request < Stop::B => "STOP F: the channels differ",
+            (Stop::B, request) if request < Stop::B => self.defect.texts()[1],
             _ => raised.cause,
         };
         let initiated = |stop| arbiter.initiated == stop;
         told.messages = raised
             .messages
             .with(Message::A, initiated(Stop::A))
-            .with(Message::B, initiated(Stop::B))
+            // Where the axis stands, STOP B ends in A in the cycle in which it begins.
+            .with(
+                Message::B,
+                initiated(Stop::B)
+                    || initiated(Stop::A) && raised.request < Stop::A && before < Stop::B,
+            )
             .with(Message::C, initiated(Stop::C))
             .with(Message::D, initiated(Stop::D))
             .with(Message::E, initiated(Stop::E));
@@ -358,6 +451,7 @@ impl Functions {
             sls_level: told.sls.level.index(),
             sdi: [told.sdi[0].active, told.sdi[1].active],
             slp: told.slp.active,
+            stage: told.gear.stage.get(),
         };
         let low = |code: i64| code < 10;
         let level = usize::from(told.sls.level.index());

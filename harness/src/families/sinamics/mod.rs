@@ -1,18 +1,23 @@
 //! SINAMICS S120: its monitors, and what a machine with them is to a simulation, a recording and a replay. Each axis is a drive in two channels;
 //! what they do together is said by its F-CPU.
 
+mod bare;
+mod basic;
 mod channel;
 mod functions;
 mod messages;
+mod outputs;
 mod peer;
 mod rig;
+mod said;
+mod service;
 mod signals;
 mod simulated;
 mod values;
 
 use stillpoint_machine::{Axis as MachineAxis, Machine};
 
-use self::channel::Said as Told;
+use self::said::Said as Told;
 use super::values::{cell, nearest};
 use super::{Drive, Family, Monitors, Owner, Rig, Said, Start, Windows, Words};
 use crate::plant::Axis;
@@ -38,7 +43,7 @@ const WORDS: Words = Words {
     brakes: Some(values::SBC),
     load: None,
     resolution: 1,
-    stops: &signals::STOPS,
+    stops: &outputs::STOPS,
     stops_listed: &["A", "B", "C", "D", "E", "F", "LOCKED", "NONE"],
     stop: "STOP ",
     selections: (&simulated::SELECTIONS, Some(values::MOTION)),
@@ -61,8 +66,16 @@ const WORDS: Words = Words {
         "Safety.SLS.ActivationState",
         "SDI_positive_active",
         "SDI_negative_active",
+        "SLP_active",
+        "safely_referenced",
+        "gear_tolerance_active",
+        "test_stop_active",
+        "SBT_active",
+        "SBT_torque",
+        "internal_STO",
+        "start_window",
         "internal_event",
-        signals::TORQUE,
+        outputs::TORQUE,
         "brake_open",
     ],
     curves: ["SLS limit", "SLS backwards", "SOS", "SLP"],
@@ -80,7 +93,7 @@ impl Drive for Sinamics {
     fn owners(&self, machine: &Machine) -> Vec<Owner> {
         let owner = |axis: &MachineAxis| {
             let inputs = signals::inputs(axis).into_iter();
-            let outputs = signals::outputs(axis, 0, &Told::default()).into_iter();
+            let outputs = outputs::outputs(axis, 0, &Told::default()).into_iter();
             let inputs = inputs.map(|input| input.port()).collect();
             Owner::of_axis(axis, inputs, outputs.map(|(port, _)| port).collect())
         };
@@ -122,7 +135,7 @@ impl Drive for Sinamics {
     }
 
     fn reason(&self, said: &Said<'_>) -> String {
-        said.text(signals::CAUSE)
+        said.text(outputs::CAUSE)
     }
 
     fn power<'a>(

@@ -4,6 +4,7 @@
 use stillpoint_machine::Machine;
 
 use super::channel::Pair;
+use super::outputs;
 use super::signals::{self, Flag, Input, Read};
 use super::values::{self, Values};
 use crate::families::Rig;
@@ -73,7 +74,7 @@ impl Rig for Bench<'_> {
         let known = &self.machine.axes[self.axis];
         let said = self.pair.step(&self.read);
         self.told = [0, 1].map(|side| {
-            let outputs = signals::outputs(known, side, &said[side]).into_iter();
+            let outputs = outputs::outputs(known, side, &said[side]).into_iter();
             outputs.map(|(_, value)| value).collect()
         });
     }

@@ -1,16 +1,11 @@
-//! The signals of an axis in a channel: what it reads of the machine, the F-CPU and the control, and what its monitors tell.
+//! The signals of an axis in a channel: what it reads of the machine, the F-CPU and the control.
 
 use stillpoint_machine::Axis;
 use stillpoint_monitors::sinamics::control_path::ControlPath;
-use stillpoint_monitors::sinamics::level::{Function, Stop};
-use stillpoint_monitors::sinamics::setpoint_limit::UNLIMITED;
 
-use super::channel::Said;
-use super::messages;
-use super::values::{self, BY_TELEGRAM, MOTION, SBC, SDI, SLP, SS2E};
+use super::values::{self, BY_TELEGRAM, GEAR, MOTION, SBC, SBT, SDI, SLP, SS2E};
 use crate::families::Port;
-use crate::families::values::cell;
-use crate::recording::vocabulary::{ALARMS, POSITION, STOP, Unit, VELOCITY};
+use crate::recording::vocabulary::Unit;
 use crate::recording::{Allowed, Value};
 
 /// An input that is true or false. Selections are bits of the safety telegram, 0 selects.
@@ -38,8 +33,12 @@ pub(super) enum Flag {
     Retract,
     /// Internal Event ACK.
     Ack,
-    /// The axis is safely referenced.
-    Referenced,
+    /// The increased tolerance of the gear: bit 27 of S_STW2.
+    GearTolerance,
+    /// The control declares the position: p9573 = 89.
+    Declared,
+    /// The user agreement of this channel: p9726 or p9740 is AC hex.
+    Agrees,
     /// The general acknowledgement of faults.
     General,
     /// ON/OFF1.
@@ -48,6 +47,26 @@ pub(super) enum Flag {
     BrakeFault,
     /// The acceptance test mode is on.
     Acceptance,
+    /// The test stop is asked for: p9705 or S_STW1B.8.
+    TestStop,
+    /// The switch-off path of this channel does not suppress the pulses.
+    PathFault,
+    /// S_STW3B: the brake test is selected.
+    BrakeTest,
+    /// A sequence of it is started.
+    BrakeTestStart,
+    /// Of brake 2.
+    SecondBrake,
+    /// With negative torque.
+    NegativeTorque,
+    /// Sequence 2.
+    SecondSequence,
+    /// The external brake reports closed.
+    ExternalClosed,
+    /// Without encoder: the minimum current p9588 flows.
+    Current,
+    /// Without encoder: current and voltage agree on an actual value.
+    Plausible,
 }
 
 /// What selects a function with 0. It comes by the safety telegram.
@@ -64,7 +83,12 @@ const SELECTING: [Flag; 9] = [
 ];
 
 /// What else comes by it. All of it is 0 where no telegram is valid.
-const BESIDE: [Flag; 3] = [Flag::SlpRange, Flag::Retract, Flag::Ack];
+const BESIDE: [Flag; 4] = [
+    Flag::SlpRange,
+    Flag::Retract,
+    Flag::Ack,
+    Flag::GearTolerance,
+];
 
 /// An input that is a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -75,6 +99,8 @@ pub(super) enum Number {
     Level,
     /// S_SLS_LIMIT_A.
     Limit,
+    /// The gear stage, bits 24 to 26 of S_STW2.
+    Stage,
 }
 
 /// An input.
@@ -86,20 +112,22 @@ pub(super) enum Input {
 
 /// The position of the axis: without it nothing is replayed.
 pub(super) const PLACE: &str = "position";
-/// Outputs that tell how a recording begins, and why a channel stops.
-pub(super) const TORQUE: &str = "torque";
-pub(super) const CAUSE: &str = "cause";
-
-/// The latched stops, in rising order; F is beside the others and shown where there is none.
-pub(super) const STOPS: [&str; 8] = ["NONE", "F", "E", "D", "C", "B", "A", "LOCKED"];
 
 /// What an input needs: a function of the axis, or one of these.
 const TERMINALS: &str = "terminals";
 const PROFISAFE: &str = "PROFIsafe";
 const SELECTED: &str = "bits";
+/// Extended Functions that need an encoder, and what is read without one.
+const ENCODER: &str = "encoder";
+const BARE: &str = "no encoder";
+/// An F-DI brings it, no telegram.
+const RETRACTION: &str = "retraction";
+/// The position is referenced, and the axis has a second brake.
+const REFERENCED: &str = "referencing";
+const EXTERNAL: &str = "external brake";
 
 /// Every input: its name, and what it needs.
-static INPUTS: [(Input, &str, &str); 24] = {
+static INPUTS: [(Input, &str, &str); 37] = {
     use Flag::*;
     use Input::{Flag as F, Number as N};
     [
@@ -110,9 +138,9 @@ static INPUTS: [(Input, &str, &str); 24] = {
         (F(Telegram), "telegram", PROFISAFE),
         (F(Sto), "STO", SELECTED),
         (F(Ss1), "SS1", SELECTED),
-        (F(Ss2), "SS2", MOTION),
+        (F(Ss2), "SS2", ENCODER),
         (F(Ss2e), "SS2E", SS2E),
-        (F(Sos), "SOS", MOTION),
+        (F(Sos), "SOS", ENCODER),
         (F(Sls), "SLS", MOTION),
         (N(Number::Level), "SLS_level", MOTION),
         (N(Number::Limit), "S_SLS_LIMIT_A", BY_TELEGRAM),
@@ -120,13 +148,26 @@ static INPUTS: [(Input, &str, &str); 24] = {
         (F(SdiNegative), "SDI_negative", SDI),
         (F(Slp), "SLP", SLP),
         (F(SlpRange), "SLP_range_2", SLP),
-        (F(Retract), "retract", SLP),
+        (F(Retract), "retract", RETRACTION),
         (F(Ack), "internal_event_ack", SELECTED),
-        (F(Referenced), "referenced", SLP),
+        (N(Number::Stage), "gear_stage", GEAR),
+        (F(GearTolerance), "gear_tolerance", GEAR),
+        (F(Declared), "position_declared", REFERENCED),
+        (F(Agrees), "user_agreement", REFERENCED),
         (F(General), "acknowledge", ""),
         (F(On), "ON", ""),
         (F(BrakeFault), "brake_fault", SBC),
         (F(Acceptance), "acceptance_mode", MOTION),
+        (F(TestStop), "test_stop", MOTION),
+        (F(PathFault), "path_fault", ""),
+        (F(BrakeTest), "SBT_select", SBT),
+        (F(BrakeTestStart), "SBT_start", SBT),
+        (F(SecondBrake), "SBT_brake_2", EXTERNAL),
+        (F(NegativeTorque), "SBT_negative", SBT),
+        (F(SecondSequence), "SBT_sequence_2", SBT),
+        (F(ExternalClosed), "external_brake_closed", EXTERNAL),
+        (F(Current), "minimum_current", BARE),
+        (F(Plausible), "plausible", BARE),
     ]
 };
 
@@ -137,6 +178,11 @@ pub(super) fn inputs(axis: &Axis) -> Vec<Input> {
         TERMINALS => values::enables(axis, ControlPath::terminals),
         PROFISAFE => values::enables(axis, ControlPath::profisafe),
         SELECTED => values::bits(axis),
+        ENCODER => values::extended(axis) && values::encoder(axis),
+        BARE => values::extended(axis) && !values::encoder(axis),
+        RETRACTION => values::slp(axis) && values::enables(axis, ControlPath::inputs),
+        REFERENCED => values::referenced(axis),
+        EXTERNAL => values::extended(axis) && values::external_brake(axis),
         function => {
             axis.has(function) && values::extended(axis) || function == SBC && axis.has(SBC)
         }
@@ -161,6 +207,7 @@ impl Input {
             }
             Self::Number(Number::Level) => within(Unit::None, 0, 3),
             Self::Number(Number::Limit) => within(Unit::None, i16::MIN.into(), i16::MAX.into()),
+            Self::Number(Number::Stage) => within(Unit::None, 0, 7),
         }
     }
 }
@@ -168,8 +215,9 @@ impl Input {
 /// What a channel reads in a cycle.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Read {
-    flags: [bool; 21],
-    numbers: [i32; 3],
+    /// Bit by bit.
+    flags: u64,
+    numbers: [i32; 4],
 }
 
 impl Read {
@@ -179,8 +227,9 @@ impl Read {
             Flag::PoweredUp,
             Flag::Terminal,
             Flag::Telegram,
-            Flag::Referenced,
             Flag::On,
+            Flag::Current,
+            Flag::Plausible,
         ];
         Self::default()
             .flags(&there.map(|flag| (flag, true)))
@@ -191,7 +240,12 @@ impl Read {
 
     /// An input that is true or false.
     pub(super) fn is(&self, flag: Flag) -> bool {
-        self.flags[flag as usize]
+        self.flags >> flag as u32 & 1 == 1
+    }
+
+    fn put(&mut self, flag: Flag, on: bool) {
+        let bit = 1 << flag as u32;
+        self.flags = self.flags & !bit | u64::from(on) << flag as u32;
     }
 
     /// An input that is a number.
@@ -202,7 +256,7 @@ impl Read {
     /// The same with flags set or not.
     pub(super) fn flags(mut self, given: &[(Flag, bool)]) -> Self {
         for (flag, on) in given {
-            self.flags[*flag as usize] = *on;
+            self.put(*flag, *on);
         }
         self
     }
@@ -216,9 +270,9 @@ impl Read {
     /// The same with the bits of another telegram.
     pub(super) fn with_bits_of(mut self, telegram: &Self) -> Self {
         for bit in SELECTING.into_iter().chain(BESIDE) {
-            self.flags[bit as usize] = telegram.is(bit);
+            self.put(bit, telegram.is(bit));
         }
-        for number in [Number::Level, Number::Limit] {
+        for number in [Number::Level, Number::Limit, Number::Stage] {
             self.numbers[number as usize] = telegram.of(number);
         }
         self
@@ -229,7 +283,7 @@ impl Read {
         let mut only = Self::at_rest(0);
         for input in inputs {
             match *input {
-                Input::Flag(flag) => only.flags[flag as usize] = self.is(flag),
+                Input::Flag(flag) => only.put(flag, self.is(flag)),
                 Input::Number(number) => only.numbers[number as usize] = self.of(number),
             }
         }
@@ -250,7 +304,7 @@ impl Read {
             return false;
         }
         match (input, value) {
-            (Input::Flag(flag), Value::Bool(on)) => self.flags[flag as usize] = *on,
+            (Input::Flag(flag), Value::Bool(on)) => self.put(flag, *on),
             (Input::Number(number), Value::Int(n)) => {
                 self.numbers[number as usize] = i32::try_from(*n).unwrap_or(0);
             }
@@ -258,145 +312,4 @@ impl Read {
         }
         true
     }
-}
-
-/// The name of what a channel has latched.
-fn stop(said: &Said) -> &'static str {
-    STOPS[match said.stop {
-        Stop::None => usize::from(said.stop_f),
-        Stop::E => 2,
-        Stop::D => 3,
-        Stop::C => 4,
-        Stop::B => 5,
-        Stop::A => 6,
-        Stop::Locked => 7,
-    }]
-}
-
-const fn function(function: Function) -> &'static str {
-    match function {
-        Function::None => "NONE",
-        Function::Watching => "WATCHING",
-        Function::Sos => "SOS",
-        Function::Ss2e => "SS2E",
-        Function::Ss2 => "SS2",
-        Function::Ss1 => "SS1",
-        Function::Sto => "STO",
-    }
-}
-
-/// What is told of an axis, in the order of its signals.
-pub(super) fn outputs(axis: &Axis, side: usize, said: &Said) -> Vec<(Port, Value)> {
-    let on = |name, value: bool| (Port::flag(name), Value::Bool(value));
-    let int = |name, unit, value: i64| (Port::number(name, unit), Value::Int(value));
-    let name = |port, value: &'static str| (Port::text(port), Value::Text(value.into()));
-    let mut all = vec![
-        int(POSITION, Unit::Increment, said.position.into()),
-        int(VELOCITY, Unit::IncrementPerCycle, said.speed.0.into()),
-        name(STOP, stop(said)),
-        name(CAUSE, said.cause),
-        (
-            Port::text(ALARMS),
-            Value::Text(messages::text(said.messages, side).into()),
-        ),
-        on("STO_active", said.sto),
-        on("SS1_active", said.ss1),
-        on("pulses_off", said.pulses_off),
-        on("OFF3", said.off3),
-        on(TORQUE, said.torque),
-    ];
-    if values::extended(axis) {
-        let monitored = |on: bool, fault: bool, names: [&'static str; 2]| match (on, fault) {
-            (false, _) => "NONE",
-            (true, false) => names[0],
-            (true, true) => names[1],
-        };
-        all.extend([
-            on("STOP_F", said.stop_f),
-            name("function", function(said.function)),
-            on("SS2_active", said.ss2),
-            on("SOS_active", said.sos),
-            on("SLS_active", said.sls),
-            int("SLS_monitored_level", Unit::None, said.sls_level.into()),
-            on("SSM", said.ssm),
-            int(
-                "braking_limit",
-                Unit::IncrementPerCycle,
-                said.braking_limit.0.into(),
-            ),
-            name(
-                "Safety.SOS.ActivationState",
-                monitored(
-                    said.sos,
-                    said.sos_violated,
-                    ["SOS_ACTIVE", "SOS_ACTIVE_FAULTED"],
-                ),
-            ),
-            int(
-                "standstill_reference",
-                Unit::Increment,
-                said.sos_reference.into(),
-            ),
-            name(
-                "Safety.SLS.ActivationState",
-                monitored(
-                    said.sls,
-                    said.sls_violated,
-                    ["SLS_ACTIVE", "SLS_ACTIVE_FAULTED"],
-                ),
-            ),
-            int(
-                "Safety.SLS.Limit",
-                Unit::IncrementPerCycle,
-                said.sls_limit.0.into(),
-            ),
-        ]);
-    }
-    let own = |function| values::extended(axis) && axis.has(function);
-    if own(SDI) {
-        all.extend([
-            on("SDI_positive_active", said.sdi[0]),
-            on("SDI_negative_active", said.sdi[1]),
-        ]);
-    }
-    if own(SLP) {
-        all.extend([
-            on("SLP_active", said.slp),
-            name(
-                "Safety.SLP.SelectionState",
-                match (said.slp, said.slp_second) {
-                    (false, _) => "NONE",
-                    (true, false) => "SELECTED_LIMIT_1",
-                    (true, true) => "SELECTED_LIMIT_2",
-                },
-            ),
-        ]);
-    }
-    if said_limits(axis) {
-        let limit = |value: u32| {
-            if value == UNLIMITED.0 {
-                i64::from(i32::MAX)
-            } else {
-                value.into()
-            }
-        };
-        all.push(int(
-            "r9733",
-            Unit::IncrementPerCycle,
-            limit(said.setpoint.0),
-        ));
-    }
-    if axis.has(SBC) {
-        all.push(on("brake_open", said.brake_open));
-    }
-    if values::enables(axis, ControlPath::profisafe) {
-        all.push(on("telegram_valid", said.valid));
-    }
-    all.push(on("internal_event", said.event));
-    all
-}
-
-/// r9733 is used.
-fn said_limits(axis: &Axis) -> bool {
-    values::extended(axis) && cell(&axis.values, "p9533", 0) != 0
 }

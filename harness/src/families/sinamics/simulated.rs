@@ -2,7 +2,9 @@
 
 use stillpoint_machine::{Axis as MachineAxis, Door as Guard, Machine};
 
-use super::channel::{Pair, Said};
+use super::channel::Pair;
+use super::outputs;
+use super::said::Said;
 use super::signals::{self, Flag, Input, Number, Read};
 use super::values::{self, Values};
 use crate::families::values::cell;
@@ -245,7 +247,8 @@ impl<'a> Simulated<'a> {
                     (Flag::SlpRange, axis.limits == 1),
                     (Flag::Ack, acknowledges),
                     (Flag::General, general),
-                    (Flag::Referenced, axis.referenced),
+                    (Flag::Declared, pulse.reference),
+                    (Flag::ExternalClosed, axis.brakes[1].closed),
                     (Flag::On, own.on),
                     (Flag::Acceptance, !limited),
                 ]);
@@ -276,8 +279,12 @@ impl OfAxis {
     /// The drive and the control obey both channels.
     fn obeyed(&mut self, axis: &mut Axis) {
         let any = |test: fn(&Said) -> bool| self.said.iter().any(test);
+        // Both channels of the test say so.
+        let tests = self.said.iter().all(|said| said.service.brake.torque);
         let asked = if any(|s| s.pulses_off || !s.torque) {
             Actuation::Coast
+        } else if tests {
+            Actuation::BrakeTest
         } else if any(|s| s.off3 || s.control_brakes) {
             Actuation::Path
         } else {
@@ -294,12 +301,22 @@ impl OfAxis {
         let limits = limits.map(|both| both[usize::from(towards < 0)].0);
         let limit = limits.min().filter(|limit| *limit < u32::MAX);
         axis.plant.limit = limit.map(|limit| i64::from(limit) * 1_000);
+        let braking = axis.plant.braking();
+        let [done, ramp] = self.said[0].service.share.map(i64::from);
+        let torque = if tests { braking * done / ramp } else { 0 };
+        axis.plant.press = match self.said[0].service.negative {
+            true => -torque,
+            false => torque,
+        };
         if let Some(time) = self.brake {
             let open = self.said.iter().all(|said| said.brake_open);
+            let external = any(|said| said.service.brake.close_external);
             let time = if self.first { 0 } else { time };
-            let braking = axis.plant.braking();
             axis.brakes[0].ask(!open, time);
-            axis.plant.held = Some(axis.brakes[0].holds(braking));
+            // The control closes the external one when it is asked to, in the same time.
+            axis.brakes[1].ask(external, time);
+            let held = axis.brakes.iter().map(|brake| brake.holds(braking));
+            axis.plant.held = Some(held.sum());
         }
         self.first = false;
     }
@@ -329,7 +346,7 @@ impl Monitors for Simulated<'_> {
     fn told(&self, owner: usize, side: usize) -> Vec<Value> {
         let (known, own) = (&self.machine.axes[owner], &self.axes[owner]);
         let inputs = own.inputs.iter().map(|input| own.read[side].get(*input));
-        let outputs = signals::outputs(known, side, &own.said[side]).into_iter();
+        let outputs = outputs::outputs(known, side, &own.said[side]).into_iter();
         inputs.chain(outputs.map(|(_, value)| value)).collect()
     }
 }

@@ -1,5 +1,7 @@
 //! The values of a machine file in the units of the monitors, checked by them: increments, cycles, increments per cycle.
 
+mod service;
+
 use std::num::NonZeroU32;
 
 use stillpoint_machine::{Axis, Machine, Settings};
@@ -8,10 +10,13 @@ use stillpoint_monitors::sinamics::control_path::ControlPath;
 use stillpoint_monitors::sinamics::sdi::Permitted;
 use stillpoint_monitors::sinamics::types::{Braking, Stop};
 use stillpoint_monitors::sinamics::{
-    acknowledgement, actual_value, basic_selection, basic_stop, communication, sam, sbc, sbr, sdi,
-    setpoint_limit, slp, sls, sos, ss1, ss1_basic, ss2, ssm, sto, stop_arbiter, terminal_pair,
+    acknowledgement, actual_value, basic_selection, basic_stop, brake_test, communication,
+    drive_test, encoderless, gear, path_test, reference, safe_position, sam, sbc, sbr, sdi,
+    setpoint_limit, slp, sls, sls_ramp, sos, ss1, ss1_basic, ss2, ssm, start_phase, sto,
+    stop_arbiter, terminal_pair,
 };
 
+use self::service::{MEASURING_US, TOLERANT_US};
 use crate::families::values::{Fit, cell, fit, nearest};
 
 /// Functions of an axis in a machine file.
@@ -19,6 +24,9 @@ pub(super) const MOTION: &str = "motion monitoring";
 pub(super) const SLP: &str = "SLP";
 pub(super) const SDI: &str = "SDI";
 pub(super) const SBC: &str = "SBC";
+pub(super) const SBT: &str = "SBT";
+pub(super) const SP: &str = "SP";
+pub(super) const GEAR: &str = "gear";
 pub(super) const SS2E: &str = "SS2E";
 pub(super) const BY_TELEGRAM: &str = "SLS limit by telegram";
 
@@ -35,6 +43,14 @@ pub(super) struct Values {
     pub sbc: Option<sbc::Config>,
     pub communication: Option<communication::Config>,
     pub acknowledgement: acknowledgement::Config,
+    pub path_test: Option<path_test::Config>,
+    pub drive_test: Option<drive_test::Config>,
+    pub brake_test: Option<brake_test::Config>,
+    /// p10208 of both brakes, in cycles.
+    pub test_ramps: [u32; 2],
+    /// The greatest speed during the brake test, and the cycles in which the load is measured.
+    pub slow: Speed,
+    pub measuring: u32,
     pub extended: Option<Extended>,
 }
 
@@ -43,9 +59,18 @@ pub(super) struct Values {
 pub(super) struct Extended {
     pub arbiter: stop_arbiter::Config,
     pub ss1: ss1::Config,
-    pub ss2: ss2::Config,
+    /// None without encoder.
+    pub ss2: Option<ss2::Config>,
     pub sos: sos::Config,
     pub sls: sls::Config,
+    /// In its place where a ramp leads to a limit.
+    pub sls_ramp: Option<sls_ramp::Config>,
+    pub reference: Option<reference::Config>,
+    pub gear: Option<gear::Config>,
+    pub position: Option<safe_position::Config>,
+    /// Without encoder.
+    /// The last: a function without selection is monitored.
+    pub bare: Option<(start_phase::Config, encoderless::Config, bool)>,
     /// p9563 by level: its code.
     pub sls_codes: [i64; 4],
     /// Positive and negative.
@@ -87,6 +112,38 @@ pub(super) fn enables(axis: &Axis, path: fn(ControlPath) -> bool) -> bool {
 /// Its Extended Functions are enabled.
 pub(super) fn extended(axis: &Axis) -> bool {
     enables(axis, ControlPath::extended) && axis.has(MOTION)
+}
+
+/// It has an encoder: p9506 is even.
+pub(super) fn encoder(axis: &Axis) -> bool {
+    cell(&axis.values, "p9506", 0) % 2 == 0
+}
+
+/// SLP is enabled.
+pub(super) fn slp(axis: &Axis) -> bool {
+    extended(axis) && axis.has(SLP)
+}
+
+/// Something asks for the reference: SLP, or the transfer of an absolute position.
+pub(super) fn referenced(axis: &Axis) -> bool {
+    slp(axis) || extended(axis) && axis.has(SP) && axis.has("absolute position")
+}
+
+/// The kind of a brake: p10202.
+fn brake(axis: &Axis, place: usize) -> brake_test::Kind {
+    match cell(&axis.values, "p10202", place) {
+        1 => brake_test::Kind::Motor,
+        2 => brake_test::Kind::External,
+        _ => brake_test::Kind::None,
+    }
+}
+
+/// One of its brakes is an external one that is tested.
+pub(super) fn external_brake(axis: &Axis) -> bool {
+    axis.has(SBT)
+        && [0, 1]
+            .iter()
+            .any(|k| brake(axis, *k) == brake_test::Kind::External)
 }
 
 /// Something selects its functions bit by bit: PROFIsafe or F-DIs.
@@ -149,9 +206,18 @@ impl Reader<'_> {
         Self::cycles(self.cell(name), cycle_us(self.machine))
     }
 
+    fn cycles_of(&self, name: &str, place: usize) -> Cycles {
+        let us = cell(&self.axis.values, name, place);
+        Self::cycles(us, cycle_us(self.machine))
+    }
+
     /// A speed in increments per cycle, rounded down.
     fn speed(&self, name: &str, place: usize) -> Speed {
-        let per_minute = i128::from(cell(&self.axis.values, name, place));
+        self.speed_of(cell(&self.axis.values, name, place))
+    }
+
+    fn speed_of(&self, per_minute: i64) -> Speed {
+        let per_minute = i128::from(per_minute);
         let product = per_minute * i128::from(cycle_us(self.machine)) / 60_000_000;
         Speed(u32::try_from(product).unwrap_or(u32::MAX))
     }
@@ -214,6 +280,19 @@ impl Reader<'_> {
                 false => None,
             },
             acknowledgement: acknowledgement::Config::new(false, bits, self.is("p9507_0")),
+            path_test: path_test::Config::new(self.time("p9659")).ok(),
+            drive_test: match extended {
+                true => Some(self.drive_test()?),
+                false => None,
+            },
+            brake_test: match extended && self.axis.has(SBT) {
+                true => Some(self.brake_test()?),
+                false => None,
+            },
+            test_ramps: [0, 1].map(|k| self.cycles_of("p10208", k).count()),
+            // 1 % of p1082, for which the fastest limit stands.
+            slow: Speed(self.speed_of(fastest(self.axis)).0 / 100),
+            measuring: Self::cycles(MEASURING_US, p9500).count(),
             extended: match extended {
                 true => Some(self.extended()?),
                 false => None,
@@ -225,9 +304,11 @@ impl Reader<'_> {
         let has = |function| self.axis.has(function);
         let kind = match self.cell("p9506") {
             0 => Braking::EncoderSam,
+            1 => Braking::BareSbr,
             2 => Braking::EncoderSbr,
-            _ => return Err("a drive without encoder (p9506) is not simulated".to_owned()),
+            _ => Braking::BareSam,
         };
+        let encoder = kind.encoder();
         let external = self.is("p9507_3");
         let hysteresis = has("SSM hysteresis");
         let [b, c, d, e, f] =
@@ -242,7 +323,7 @@ impl Reader<'_> {
             limits,
             responses,
             self.time("p9551"),
-            true,
+            encoder,
             has(BY_TELEGRAM),
             unselected && self.is("p9512_4"),
             Default::default(),
@@ -255,12 +336,15 @@ impl Reader<'_> {
         let synchronised = has("actual value synchronisation");
         let factor = u16::try_from(self.cell("p9543")).unwrap_or(u16::MAX);
         let p9542 = self.distance("p9542");
-        let actual = actual_value::Config::new(p9542, slip, synchronised, factor);
+        let actual = match has(SLP) || has(SP) {
+            true => actual_value::Config::with_position(p9542, slip, synchronised, factor),
+            false => actual_value::Config::new(p9542, slip, synchronised, factor),
+        };
         let arbiter = stop_arbiter::Config::new(b, c, d, e, f, external, hysteresis);
         let ssm = ssm::Config::new(
             self.speed("p9546", 0),
             hysteresis.then(|| self.speed("p9547", 0)),
-            true,
+            encoder,
             !self.is("p9509_0"),
         );
         let codes = |name, k| cell(&self.axis.values, name, k);
@@ -270,15 +354,44 @@ impl Reader<'_> {
                 "p9556 and p9560",
                 ss1::Config::new(b, shutdown, kind, external, Default::default()),
             )?,
-            ss2: fit(
-                "p9552 to p9554",
-                ss2::Config::new(c, d, e, kind, Default::default()),
-            )?,
+            ss2: match encoder {
+                true => {
+                    let config = ss2::Config::new(c, d, e, kind, Default::default());
+                    Some(fit("p9552 to p9554", config)?)
+                }
+                false => None,
+            },
             sos: sos::Config {
                 delay: self.time("p9551"),
                 tolerance: self.distance("p9530"),
             },
             sls: fit("p9531 and p9563", sls)?,
+            sls_ramp: match kind == Braking::BareSbr && !unselected {
+                true => {
+                    let ramp = sls_ramp::Config::new(limits, responses, self.ramp()?);
+                    Some(fit("p9531 and p9563", ramp)?)
+                }
+                false => None,
+            },
+            reference: match referenced(self.axis) {
+                true => Some(self.reference()?),
+                false => None,
+            },
+            gear: match has(GEAR) {
+                true => Some(fit(
+                    "the 2 min",
+                    gear::Config::new(self.within(TOLERANT_US)),
+                )?),
+                false => None,
+            },
+            position: match has(SP) {
+                true => Some(self.transferred()?),
+                false => None,
+            },
+            bare: match encoder {
+                true => None,
+                false => Some(self.bare(unselected)?),
+            },
             sls_codes: [0, 1, 2, 3].map(|k| codes("p9563", k)),
             sdi: match has(SDI) {
                 true => Some([
@@ -311,7 +424,7 @@ impl Reader<'_> {
             self.time("p9565"),
             self.distance("p9564"),
             self.stop("p9566", 0)?,
-            true,
+            encoder(self.axis),
             unselected,
             self.is("p9509_8"),
             Default::default(),
@@ -333,17 +446,26 @@ impl Reader<'_> {
         )
     }
 
+    fn ramp(&self) -> Fit<sbr::Config> {
+        let config = sbr::Config::new(
+            self.speed("p9581", 0),
+            self.time("p9583"),
+            self.time("p9582"),
+            Speed(1),
+            Default::default(),
+            Default::default(),
+        );
+        fit("p9583", config)
+    }
+
+    /// A time that must not be exceeded, in cycles: rounded down.
+    fn within(&self, us: u32) -> Cycles {
+        Cycles::new(us / cycle_us(self.machine))
+    }
+
     fn braking(&self, kind: Braking) -> Fit<BrakingMonitor> {
         if kind.ramp() {
-            let config = sbr::Config::new(
-                self.speed("p9581", 0),
-                self.time("p9583"),
-                self.time("p9582"),
-                Speed(1),
-                Default::default(),
-                Default::default(),
-            );
-            return Ok(BrakingMonitor::Sbr(fit("p9583", config)?));
+            return Ok(BrakingMonitor::Sbr(self.ramp()?));
         }
         // p9511 = 0: 1 ms, there is no isochronous bus here.
         let acquisition = u32::try_from(self.cell("p9511")).unwrap_or(0);

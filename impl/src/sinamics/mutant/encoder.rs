@@ -70,6 +70,13 @@ variants! { sinamics::safe_position:
         safe_position::transition(state, config, &inputs)
     }
 
+    /// A position that is sent in 32 bits is too wide, too.
+    "safe-position-too-wide-for-32-bits" |state, config, inputs| {
+        let (after, mut outputs) = safe_position::transition(state, config, inputs);
+        outputs.too_wide |= outputs.long > 32_767_000;
+        (after, outputs)
+    }
+
     /// A wide position wraps.
     "safe-position-wraps" |state, config, inputs| {
         let (after, mut outputs) = safe_position::transition(state, config, inputs);

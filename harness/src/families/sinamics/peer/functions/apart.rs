@@ -260,7 +260,8 @@ fn brake_test(p: &Params, mutant: Option<Mutant>) -> Refusable {
 /// The counter of the table has any period: its last value is the last one of the monitor's.
 fn safe_position(p: &Params, mutant: Option<Mutant>) -> Refusable {
     let scale = u16::try_from(p.value("scale")).map_err(|_| ConfigError::FactorOutOfRange)?;
-    let config = safe_position::Config::new(p.is("enabled"), p.is("absolute"), scale)?;
+    let config =
+        safe_position::Config::new(p.is("enabled"), p.is("absolute"), p.is("short"), scale)?;
     let last = p.value("period") - 1;
     let next = chosen::<safe_position::Monitor>(mutant);
     let step = move |cells: &mut [i32], i: &[i32], o: &mut Vec<i64>| {

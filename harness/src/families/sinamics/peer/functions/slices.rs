@@ -58,6 +58,17 @@ pub(super) const SLICES: &[Slice] = &[
         &[("low", -40_000), ("top", 40_000), ("scale", 1)],
         &["pos_1", "pos_2", "found", "safe"],
     ),
+    // Beyond them where they are not sent.
+    whole(
+        "sp",
+        &[
+            ("low", -40_000),
+            ("top", 40_000),
+            ("scale", 1),
+            ("short", 0),
+        ],
+        &["pos_1", "pos_2", "found", "safe"],
+    ),
     // All of the composed one at once.
     whole("ramped_channel", &[], &["selected", "second", "n"]),
 ];

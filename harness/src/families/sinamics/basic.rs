@@ -1,0 +1,92 @@
+//! The Basic Functions of a channel, in their own cycle: selection, the pair of terminals, SS1, and their stops.
+
+use stillpoint_monitors::kernel::Cycles;
+use stillpoint_monitors::sinamics::basic_stop::{self, Latched};
+use stillpoint_monitors::sinamics::{basic_selection, ss1_basic, terminal_pair};
+
+use super::channel::Shared;
+use super::signals::{Flag, Read};
+use super::values::Values;
+
+/// The monitors.
+pub(super) struct Basic {
+    selection: basic_selection::Monitor,
+    terminals: Option<terminal_pair::Monitor>,
+    ss1: ss1_basic::Monitor,
+    stop: basic_stop::Monitor,
+}
+
+/// What they tell: what is selected, SS1, the stop, and whether the terminals differ.
+pub(super) type Told = (
+    basic_selection::Outputs,
+    ss1_basic::Outputs,
+    basic_stop::Outputs,
+    bool,
+);
+
+impl Basic {
+    /// At POWER ON, or running.
+    pub(super) fn new(values: &Values, running: bool) -> Self {
+        let stop = basic_stop::State {
+            selected: !running,
+            ..basic_stop::State::INITIAL
+        };
+        Self {
+            selection: basic_selection::Monitor::new(values.selection),
+            terminals: values.terminals.map(terminal_pair::Monitor::new),
+            ss1: ss1_basic::Monitor::new(values.ss1_basic),
+            // It fits every configuration.
+            stop: basic_stop::Monitor::resume(values.basic_stop, stop)
+                .unwrap_or(basic_stop::Monitor::new(values.basic_stop)),
+        }
+    }
+
+    /// The cycles of the Basic Functions in one of the Extended ones; whether these keep the pulses off, and whether the brake is defective.
+    pub(super) fn step(
+        &mut self,
+        values: &Values,
+        bits: &Read,
+        other: &Shared,
+        edge: bool,
+        [held, defect]: [bool; 2],
+    ) -> Told {
+        let immediate = values.ss1_basic.time == Cycles::ZERO;
+        let general = bits.is(Flag::General);
+        let mut said = Default::default();
+        for _ in 0..values.basic_cycles {
+            let selection = self.selection.step(&basic_selection::Inputs {
+                terminal: bits.is(Flag::Terminal),
+                sto: bits.is(Flag::Sto),
+                // SS1 of the Extended Functions is another one, and without p9652 there is none.
+                ss1: bits.is(Flag::Ss1) || values.extended.is_some() || immediate,
+            });
+            let ss1 = self.ss1.step(&ss1_basic::Inputs {
+                selected: selection.ss1,
+                sto: selection.sto || self.stop.state().stop >= Latched::A,
+            });
+            let own = bits.is(Flag::Terminal);
+            let differ = self.terminals.as_mut().is_some_and(|terminals| {
+                let said = terminals.step(&terminal_pair::Inputs {
+                    power_on: false,
+                    own,
+                    other: other.terminal,
+                    held,
+                    acknowledge: general || edge,
+                });
+                // Terminals that agree again are no cause any more.
+                said.fault && own != other.terminal
+            });
+            let stop = self.stop.step(&basic_stop::Inputs {
+                power_on: false,
+                difference: differ,
+                fault: defect,
+                locking: false,
+                selected: selection.sto || selection.ss1 || other.selected,
+                acknowledge: general,
+                internal_event_ack: edge,
+            });
+            said = (selection, ss1, stop, differ);
+        }
+        said
+    }
+}
