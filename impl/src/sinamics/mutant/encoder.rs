@@ -72,8 +72,9 @@ variants! { sinamics::safe_position:
 
     /// A position that is sent in 32 bits is too wide, too.
     "safe-position-too-wide-for-32-bits" |state, config, inputs| {
+        let short = safe_position::Config { short: true, ..*config };
         let (after, mut outputs) = safe_position::transition(state, config, inputs);
-        outputs.too_wide |= outputs.long > 32_767_000;
+        outputs.too_wide = safe_position::transition(state, &short, inputs).1.too_wide;
         (after, outputs)
     }
 
