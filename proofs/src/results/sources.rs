@@ -184,8 +184,8 @@ mod tests {
     #[test]
     fn a_stub_is_a_source() {
         let attributes = "kani(stub(a::b, crate :: properties::sinumerik::units::by_definition::quotient), stub(c, \
-            crate::own_clauses::srm::endzone), stub(d, crate::kani_source::folded_in_range))";
-        let files = ["src/own_clauses.rs", "src/properties/sinumerik/units.rs"];
+            crate::total::srm::endzone), stub(d, crate::kani_source::folded_in_range))";
+        let files = ["src/properties/sinumerik/units.rs", "src/total.rs"];
         assert_eq!(stubs(attributes), files.map(PathBuf::from).into());
     }
 

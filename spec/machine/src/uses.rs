@@ -217,8 +217,8 @@ mod tests {
             reads(&window.systems, "guarded (guaranteed.toml)"),
             "{window:?}"
         );
-        let window = of("sinumerik-840d", "REFP_POS_TOL");
-        assert!(window.systems.is_empty(), "{window:?}");
+        let tolerance = of("sinumerik-840d", "SLIP_VELO_TOL");
+        assert!(tolerance.systems.is_empty(), "{tolerance:?}");
         assert_eq!(of("sinumerik-840d", "NO_SUCH"), Uses::default());
     }
 }

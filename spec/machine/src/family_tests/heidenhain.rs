@@ -227,6 +227,36 @@ pub(super) fn examples() -> Vec<(&'static str, String, String)> {
         machine("", "", &door("magazine")),
         machine("", "", &door("working space")),
     ));
+    let asked = |guarantee: &str| {
+        let guarantee = format!(
+            "guarantee.asked = {{ {guarantee}, within = \"2 s\", after = \"any single fault of a channel or contact\" }}"
+        );
+        machine("", "", &format!("{}\n{guarantee}", door("working space")))
+    };
+    let stop = "pattern = \"emergency_stop\", axes = [\"X\"], contacts = 2";
+    list.push((
+        "one of the two contacts may be stuck",
+        asked(stop),
+        asked(&format!("{stop}, discrepancy = \"1 ms\"")),
+    ));
+    let device = "pattern = \"enabling\", door = \"a\", mode = \"SOM_2\", way = \"10 mm\", device_contacts = 2";
+    list.push((
+        "one of the two contacts of the device may be stuck",
+        asked(device),
+        asked(&format!("{device}, device_discrepancy = \"1 ms\"")),
+    ));
+    let limits = |kind: &str| {
+        let axis = format!("kind = \"linear\", SMP650 = \"9 mm\"{kind}");
+        let guarantee = "pattern = \"travel_limits\", axes = [\"X\"], from = \"-99 mm\", to = \"99 mm\", reaches = \"1 mm/min\", within = \"2 s\"";
+        format!(
+            "axis.X = {{ {axis} }}\ngroup.G.axes = [\"X\"]\nguarantee.asked = {{ {guarantee} }}"
+        )
+    };
+    list.push((
+        "only an NC axis has a safely limited position",
+        limits(auxiliary),
+        limits(""),
+    ));
     list
 }
 

@@ -7,14 +7,14 @@ const RULES: [(&str, &str, &str, &str, &str); 6] = [
     (
         "the contact that asks for the stop comes from an F module",
         "stop_request",
-        "stop = \"STOP A\", within = \"1 s\"",
+        "stop = \"STOP A\", within = \"1 s\", signal = \"112 ms\"",
         "contact = \"INSE[4]\"",
         "bus_timeout",
     ),
     (
         "the enabling device comes from an F module",
         "enabling",
-        "door = \"front\", within = \"1 s\"",
+        "door = \"front\", within = \"1 s\", signal = \"112 ms\"",
         "enabling = \"INSE[4]\"",
         "device_timeout",
     ),
@@ -48,6 +48,38 @@ const RULES: [(&str, &str, &str, &str, &str); 6] = [
     ),
 ];
 
+/// Rules about a value that is too small: the rule by its text, the pattern, what stands in the guarantee, what is wrong and what is right.
+const VALUES: [(&str, &str, &str, &str, &str); 4] = [
+    (
+        "the signal comes from an F module, and takes longer",
+        "stop_request",
+        "stop = \"STOP A\", within = \"1 s\", contact = \"INSE[4]\", bus_timeout = \"150 ms\"",
+        "signal = \"111 ms\"",
+        "signal = \"112 ms\"",
+    ),
+    (
+        "one of the two contacts may be stuck",
+        "stop_request",
+        "stop = \"STOP A\", within = \"1 s\", contacts = 2, after = \"any single fault of a channel or contact\"",
+        "discrepancy = \"0 ms\"",
+        "discrepancy = \"1 ms\"",
+    ),
+    (
+        "one of the two contacts of the device may be stuck",
+        "enabling",
+        "door = \"front\", within = \"1 s\", enabling = \"INSE[5]\", device_contacts = 2, after = \"any single fault of a channel or contact\"",
+        "device_discrepancy = \"0 ms\"",
+        "device_discrepancy = \"1 ms\"",
+    ),
+    (
+        "the contactors are switched by an F module, and its data alone may come later than that",
+        "contactor",
+        "feedback = \"INSE[7]\", coil = \"OUTSE[4]\", bus_timeout = \"150 ms\"",
+        "within = \"100 ms\"",
+        "within = \"1 s\"",
+    ),
+];
+
 /// A machine with a module for the first four inputs and outputs, and the guarantee.
 fn machine(pattern: &str, guarantee: &str, door: &str) -> String {
     let rest = ", 0".repeat(15);
@@ -75,5 +107,9 @@ pub(super) fn examples() -> Vec<Example> {
         };
         (*rule, bad, good)
     });
-    all.collect()
+    let values = VALUES.iter().map(|(rule, pattern, others, bad, good)| {
+        let with = |value: &str| machine(pattern, &format!("{others}, {value}"), "");
+        (*rule, with(bad), with(good))
+    });
+    all.chain(values).collect()
 }
