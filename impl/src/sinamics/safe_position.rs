@@ -9,10 +9,10 @@ config! {
     /// The parameters.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub struct Config {
-        enabled: bool,
-        absolute: bool,
-        short: bool,
-        scale: u16,
+        pub(super) enabled: bool,
+        pub(super) absolute: bool,
+        pub(super) short: bool,
+        pub(super) scale: u16,
     }
 }
 
