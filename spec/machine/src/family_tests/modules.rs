@@ -60,7 +60,7 @@ const VALUES: [(&str, &str, &str, &str, &str); 4] = [
     (
         "one of the two contacts may be stuck",
         "stop_request",
-        "stop = \"STOP A\", within = \"1 s\", contacts = 2, after = \"any single fault of a channel or contact\"",
+        "stop = \"STOP A\", within = \"1 s\", contact = \"INSE[5]\", contacts = 2, after = \"any single fault of a channel or contact\"",
         "discrepancy = \"0 ms\"",
         "discrepancy = \"1 ms\"",
     ),
