@@ -65,11 +65,8 @@ impl Bare {
             false => (start_phase::State::INITIAL, encoderless::State::INITIAL),
         };
         Self {
-            // Both states fit every configuration.
-            start: start_phase::Monitor::resume(start, first)
-                .unwrap_or(start_phase::Monitor::new(start)),
-            restart: encoderless::Monitor::resume(restart, second)
-                .unwrap_or(encoderless::Monitor::new(restart)),
+            start: resumed!(start_phase, start, first),
+            restart: resumed!(encoderless, restart, second),
             known: position,
             before: position,
             knows: running,

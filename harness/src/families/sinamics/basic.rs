@@ -35,9 +35,7 @@ impl Basic {
             selection: basic_selection::Monitor::new(values.selection),
             terminals: values.terminals.map(terminal_pair::Monitor::new),
             ss1: ss1_basic::Monitor::new(values.ss1_basic),
-            // It fits every configuration.
-            stop: basic_stop::Monitor::resume(values.basic_stop, stop)
-                .unwrap_or(basic_stop::Monitor::new(values.basic_stop)),
+            stop: resumed!(basic_stop, values.basic_stop, stop),
         }
     }
 

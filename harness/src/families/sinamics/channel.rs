@@ -62,13 +62,6 @@ struct Channel {
     shared: Shared,
 }
 
-/// A monitor in a state; that of POWER ON where it does not fit the parameters, which does not come about.
-macro_rules! resumed {
-    ($module:ident, $config:expr, $state:expr) => {
-        $module::Monitor::resume($config, $state).unwrap_or($module::Monitor::new($config))
-    };
-}
-
 impl Channel {
     /// At POWER ON, or as after many cycles in which nothing happened and the drive was on.
     fn new(values: &Values, running: bool, second: bool, read: &Read) -> Self {

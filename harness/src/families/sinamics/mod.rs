@@ -1,6 +1,13 @@
 //! SINAMICS S120: its monitors, and what a machine with them is to a simulation, a recording and a replay. Each axis is a drive in two channels;
 //! what they do together is said by its F-CPU.
 
+/// A monitor in a state; that of POWER ON where it does not fit the parameters, which does not come about.
+macro_rules! resumed {
+    ($module:ident, $config:expr, $state:expr) => {
+        $module::Monitor::resume($config, $state).unwrap_or($module::Monitor::new($config))
+    };
+}
+
 mod bare;
 mod basic;
 mod channel;

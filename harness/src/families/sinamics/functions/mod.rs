@@ -114,7 +114,7 @@ impl Functions {
                 stored,
                 ..reference::State::INITIAL
             });
-            reference::Monitor::resume(config, state).unwrap_or(reference::Monitor::new(config))
+            resumed!(reference, config, state)
         };
         Self {
             arbiter: stop_arbiter::Monitor::new(config.arbiter),
