@@ -62,7 +62,7 @@ fields! {
     /// The state between two cycles.
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
     pub struct State {
-        /// S_CYCLE_COUNT, modulo 65536.
+        /// S_CYCLE_COUNT modulo 65536; the telegram shows the same 16 bits with a sign, as -32768 to 32767.
         pub cycle: u16,
     }
 }

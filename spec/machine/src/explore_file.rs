@@ -7,9 +7,27 @@ use toml::Spanned;
 use super::family::{BEFORE, Binding, Explore, Formula, Known, Rounding, Scope, Wire};
 use super::family_file::Check;
 
+/// Bindings that several entries have in common, under a name: `[share.NAME]`.
+#[derive(Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ShareData {
+    #[serde(default)]
+    time: IndexMap<String, Spanned<String>>,
+    #[serde(default)]
+    param: IndexMap<String, Spanned<String>>,
+    #[serde(default)]
+    wire: IndexMap<String, Spanned<String>>,
+}
+
+/// The shared bindings of a file.
+pub(super) type Shares = IndexMap<Spanned<String>, ShareData>;
+
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct ExploreData {
+    /// The shared bindings that it has too. Its own ones stand before them, and those named first before the later ones.
+    #[serde(default)]
+    share: Vec<Spanned<String>>,
     file: String,
     system: String,
     each: Scope,
@@ -41,7 +59,36 @@ pub(super) struct ExploreData {
     note: String,
 }
 
+impl ExploreData {
+    /// Whether it takes what is shared under a name.
+    pub fn takes(&self, name: &str) -> bool {
+        self.share.iter().any(|taken| taken.get_ref() == name)
+    }
+}
+
 impl Check {
+    /// Binds what the entry shares with others.
+    pub fn share(&mut self, explore: &mut ExploreData, shares: &Shares) {
+        for name in std::mem::take(&mut explore.share) {
+            let Some(share) = shares.get(&name) else {
+                let known: Vec<&str> = shares.keys().map(|name| name.get_ref().as_str()).collect();
+                let message = format!("nothing is shared as '{}'", name.get_ref());
+                let help = format!("shared by this file: {}", known.join(", "));
+                self.findings.add(name.span(), message, "", help);
+                continue;
+            };
+            for (own, shared) in [
+                (&mut explore.time, &share.time),
+                (&mut explore.param, &share.param),
+                (&mut explore.wire, &share.wire),
+            ] {
+                for (name, formula) in shared {
+                    own.entry(name.clone()).or_insert_with(|| formula.clone());
+                }
+            }
+        }
+    }
+
     /// What one entry of `[[explore]]` says.
     pub fn explore(&mut self, data: ExploreData, known: &Known) -> Option<Explore> {
         if data.each == Scope::Control {

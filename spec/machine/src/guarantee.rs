@@ -11,7 +11,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::eval::Values;
-use super::explore_file::ExploreData;
+use super::explore_file::{ExploreData, Shares};
 use super::family::{Explore, Family, Formula, Known, Param, Quantity, Rule};
 use super::family_file::{Check, ParamData, RuleData};
 use super::ground::{About as Subjects, DataFile, grounds, read_with};
@@ -102,6 +102,9 @@ struct File {
     of_faults: Vec<String>,
     #[serde(default)]
     argument: IndexMap<Spanned<String>, ParamData>,
+    /// What several `explore` entries bind alike.
+    #[serde(default)]
+    share: Shares,
     #[serde(default)]
     pattern: IndexMap<String, PatternData>,
 }
@@ -162,8 +165,19 @@ pub(super) fn load(
         of_faults: &data.of_faults,
     };
     let mut patterns = IndexMap::new();
-    for (name, data) in data.pattern {
-        let pattern = context.pattern(&mut check, data);
+    let explored = || data.pattern.values().flat_map(|pattern| &pattern.explore);
+    for name in data.share.keys() {
+        if !explored().any(|explore| explore.takes(name.get_ref())) {
+            let message = format!("nothing takes what is shared as '{}'", name.get_ref());
+            let help = "name it in share = [...] of an explore, or remove it";
+            check.findings.add(name.span(), message, "", help);
+        }
+    }
+    for (name, mut entry) in data.pattern {
+        for explore in &mut entry.explore {
+            check.share(explore, &data.share);
+        }
+        let pattern = context.pattern(&mut check, entry);
         patterns.insert(name, pattern);
     }
     for (name, place) in arguments.keys().zip(places) {

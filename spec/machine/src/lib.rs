@@ -519,7 +519,7 @@ fn family_name(table: &DeTable<'_>, root: &Path, findings: &mut Findings) -> Opt
     let help = match nearest(&name, known.iter().map(String::as_str)) {
         Some(near) => format!("did you mean \"{near}\"?"),
         None if known.is_empty() => format!("no folder in {} holds a family.toml", root.display()),
-        None => format!("known families: {}", list()),
+        None => format!("known families: {} (folders in {})", list(), root.display()),
     };
     findings.add(
         value.span(),

@@ -44,7 +44,8 @@ fn an_unknown_family_lists_those_of_the_binary() {
     let output = away(&folder, &["validate", &file]);
     assert_eq!(status(&output), 2);
     assert!(
-        messages(&output).contains("known families: heidenhain-fs, sinamics-s120, sinumerik-840d"),
+        messages(&output).contains("known families: heidenhain-fs, sinamics-s120, sinumerik-840d")
+            && messages(&output).contains("(folders in "),
         "{}",
         stderr(&output)
     );
@@ -106,5 +107,24 @@ fn other_family_data_are_named_or_told() {
         messages(&nothing).contains("family.toml"),
         "{}",
         stderr(&nothing)
+    );
+}
+
+/// What guarantees have in common has a name, which must be one, and which something must take.
+#[test]
+fn what_guarantees_share_is_there_and_taken() {
+    let says = |name: &str, from: &'static str, to: &'static str| {
+        let change = [("spec/families/sinumerik-840d/guarantees.toml", from, to)];
+        let machine = "spec/machines/milling-840d.toml";
+        let copy = copied(name, machine, "spec/families/sinumerik-840d", &change);
+        let output = stillpoint(&["validate", &copy]);
+        assert_eq!(status(&output), 2, "{}", stdout(&output));
+        messages(&output)
+    };
+    let missing = says("share-missing", "[share.claim]", "[share.claims]");
+    assert!(
+        missing.contains("nothing is shared as 'claim'")
+            && missing.contains("nothing takes what is shared as 'claims'"),
+        "{missing}"
     );
 }

@@ -7,6 +7,7 @@ pub(crate) mod adapter;
 pub(crate) mod cells;
 pub(crate) mod numbers;
 pub(crate) mod same;
+mod words;
 
 use std::cell::RefCell;
 use std::collections::BTreeSet;

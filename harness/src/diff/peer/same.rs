@@ -1,28 +1,16 @@
 //! The peer of a monitor that its table describes in the same words: each number of the monitor goes to the port, state variable
 //! or parameter of its name. What is called otherwise, or is not on both sides, is said one by one.
 
-use stillpoint_lang::ir::LazyKind;
 use stillpoint_model::Domain;
 use stillpoint_monitors::contract::{Contract, Next};
-use stillpoint_monitors::fields::{Fields, Kind, get, set};
+use stillpoint_monitors::fields::{Fields, get, set};
 use stillpoint_monitors::mutant::Mutant;
 
 use super::adapter::Adapter;
-use super::cells::{Number, cell, load, numbers, stored};
+use super::cells::{Number, cell, load, stored};
+use super::words::{Feed, Make, Plan, Shape, Words};
 use super::{Params, Refusable, Refusal, chosen};
-use crate::diff::product::{Values, is};
-
-/// Where the number of an input comes from.
-#[derive(Clone, Copy)]
-enum Feed {
-    Port(usize),
-    Constant(i64),
-    /// From several ports, the first of which is this one.
-    Made(usize, Make),
-}
-
-/// A number from the values of ports.
-type Make = fn(&[i32]) -> i64;
+use crate::diff::product::Values;
 
 /// An output that the table has and the monitor does not: what it is made of.
 type Told<M> = fn(&<M as Contract>::State, &<M as Contract>::Outputs) -> i64;
@@ -34,26 +22,13 @@ type Word<M> = fn(&<M as Contract>::Outputs) -> u16;
 pub(crate) struct Same<'a, M: Contract> {
     params: &'a Params<'a>,
     next: Next<M>,
-    /// Names of the table, each with that of the monitor.
-    named: &'static [(&'static str, &'static str)],
-    constants: &'static [(&'static str, i64)],
-    hidden: &'static [&'static str],
-    unused: &'static [&'static str],
-    /// Why the table is too small.
-    lacks: Option<&'static str>,
+    words: Words,
     /// Where it is not made of the parameters by their names.
     config: Option<M::Config>,
     told: Vec<(&'static str, Told<M>)>,
     /// Outputs that are each a bit of a word.
     bits: Vec<(&'static str, Word<M>, u32)>,
-    made: Vec<(&'static str, &'static [&'static str], Make)>,
-    cells: Vec<(&'static str, Domain)>,
-    kept: Vec<(&'static str, &'static str, &'static str)>,
-    only: Vec<(&'static [&'static str], Values)>,
-    explored: Vec<(&'static [&'static str], Values)>,
     decided: Vec<(&'static str, Decide<M>)>,
-    /// Parameters that the table has as inputs, each with the port.
-    live: Vec<(&'static str, &'static str)>,
 }
 
 /// An input of the table that the parameters of the monitor decide.
@@ -65,33 +40,23 @@ impl<'a, M: Contract> Same<'a, M> {
         Self {
             params,
             next: chosen::<M>(mutant),
-            named: &[],
-            constants: &[],
-            hidden: &[],
-            unused: &[],
-            lacks: None,
+            words: Words::default(),
             config: None,
             told: Vec::new(),
             bits: Vec::new(),
-            made: Vec::new(),
-            cells: Vec::new(),
-            kept: Vec::new(),
-            only: Vec::new(),
-            explored: Vec::new(),
             decided: Vec::new(),
-            live: Vec::new(),
         }
     }
 
     /// Names of the table that are others in the monitor. A part of the monitor's name is enough that stands in no other.
     pub(crate) fn named(mut self, named: &'static [(&'static str, &'static str)]) -> Self {
-        self.named = named;
+        self.words.named = named;
         self
     }
 
     /// Parameters and inputs of the monitor that the table does not have.
     pub(crate) fn constants(mut self, constants: &'static [(&'static str, i64)]) -> Self {
-        self.constants = constants;
+        self.words.constants = constants;
         self
     }
 
@@ -103,19 +68,19 @@ impl<'a, M: Contract> Same<'a, M> {
 
     /// What the parameters of the table must be, because it is smaller than the monitor.
     pub(crate) fn needs(mut self, holds: bool, text: &'static str) -> Self {
-        self.lacks = self.lacks.or((!holds).then_some(text));
+        self.words.lacks = self.words.lacks.or((!holds).then_some(text));
         self
     }
 
     /// Outputs of the monitor that the table does not have, and states that are not to be compared.
     pub(crate) fn hidden(mut self, hidden: &'static [&'static str]) -> Self {
-        self.hidden = hidden;
+        self.words.hidden = hidden;
         self
     }
 
     /// Inputs that only the table has, for other readings than the recommended ones.
     pub(crate) fn without(mut self, unused: &'static [&'static str]) -> Self {
-        self.unused = unused;
+        self.words.unused = unused;
         self
     }
 
@@ -140,13 +105,13 @@ impl<'a, M: Contract> Same<'a, M> {
         ports: &'static [&'static str],
         make: Make,
     ) -> Self {
-        self.made.push((name, ports, make));
+        self.words.made.push((name, ports, make));
         self
     }
 
     /// The values of a state that the table does not have.
     pub(crate) fn cell(mut self, name: &'static str, domain: Domain) -> Self {
-        self.cells.push((name, domain));
+        self.words.cells.push((name, domain));
         self
     }
 
@@ -162,19 +127,19 @@ impl<'a, M: Contract> Same<'a, M> {
         variable: &'static str,
         condition: &'static str,
     ) -> Self {
-        self.kept.push((name, variable, condition));
+        self.words.kept.push((name, variable, condition));
         self
     }
 
     /// Restricts inputs to the values they have at this interface.
     pub(crate) fn only(mut self, inputs: &'static [&'static str], values: Values) -> Self {
-        self.only.push((inputs, values));
+        self.words.only.push((inputs, values));
         self
     }
 
     /// Restricts wide inputs to some of their values in an exploration; random runs have all.
     pub(crate) fn explored(mut self, inputs: &'static [&'static str], values: Values) -> Self {
-        self.explored.push((inputs, values));
+        self.words.explored.push((inputs, values));
         self
     }
 
@@ -186,50 +151,16 @@ impl<'a, M: Contract> Same<'a, M> {
 
     /// A parameter of the monitor that the table has as an input: it may change from cycle to cycle.
     pub(crate) fn live(mut self, parameter: &'static str, port: &'static str) -> Self {
-        self.live.push((parameter, port));
+        self.words.live.push((parameter, port));
         self
     }
 
-    /// What the table calls a number of the monitor.
-    fn table_name(&self, number: &Number) -> &'static str {
-        let named = (self.named.iter()).find(|(_, name)| has(&number.name, name));
-        named.map_or(number.short, |(table, _)| table)
-    }
-
-    fn constant(&self, own: &str) -> Option<i64> {
-        let found = self.constants.iter().find(|(name, _)| has(own, name));
-        found.map(|(_, value)| *value)
-    }
-
-    fn is_hidden(&self, own: &str) -> bool {
-        self.hidden.iter().any(|name| has(own, name))
-    }
-
-    /// The numbers of the configuration that inputs give, each with its port.
-    fn changing(&self) -> Vec<(usize, &'static str)> {
-        let numbers = numbers::<M::Config>("config");
-        let numbers = numbers.iter().enumerate();
-        let found = numbers.filter_map(|(k, number)| {
-            let live = self.live.iter().find(|(name, _)| has(&number.name, name));
-            live.map(|(_, port)| (k, *port))
-        });
-        found.collect()
-    }
-
     /// The configuration, from the parameters of the table.
-    fn configuration(&self) -> Result<M::Config, Refusal> {
+    fn configuration(&self, numbers: &[Number]) -> Result<M::Config, Refusal> {
         if let Some(config) = self.config {
             return Ok(config);
         }
-        let mut values = Vec::new();
-        for number in &numbers::<M::Config>("config") {
-            let live = self.live.iter().any(|(name, _)| has(&number.name, name));
-            values.push(match self.constant(&number.name) {
-                Some(value) => value,
-                None if live => 0,
-                None => i64::from(self.params.known(self.table_name(number))?),
-            });
-        }
+        let values = self.words.values(self.params, numbers)?;
         let config = set(values.iter().copied());
         // A number that the type does not have has become another one.
         let mut same = true;
@@ -242,120 +173,26 @@ impl<'a, M: Contract> Same<'a, M> {
         }
     }
 
-    /// A name given for a number that the monitor does not have.
-    fn unknown(&self) -> Option<&'static str> {
-        let parts = [
-            numbers::<M::Config>("config"),
-            numbers::<M::Inputs>("inputs"),
-            numbers::<M::Outputs>("outputs"),
-            numbers::<M::State>("state"),
-        ];
-        let all = parts.concat();
-        let named = self.named.iter().map(|(_, name)| *name);
-        let constants = self.constants.iter().map(|(name, _)| *name);
-        let made = self.made.iter().map(|(name, ..)| *name);
-        let cells = self.cells.iter().map(|(name, _)| *name);
-        let kept = self.kept.iter().map(|(name, ..)| *name);
-        let hidden = self.hidden.iter().copied();
-        let live = self.live.iter().map(|(name, _)| *name);
-        let mut given = named
-            .chain(live)
-            .chain(constants)
-            .chain(made)
-            .chain(cells)
-            .chain(kept)
-            .chain(hidden);
-        given.find(|name| !all.iter().any(|number| has(&number.name, name)))
-    }
-
-    /// Whether the table has a state variable or an output of this name.
-    fn shows(&self, name: &str) -> bool {
-        let system = &self.params.bound.system;
-        system.states.iter().any(|s| is(&s.var.name, name))
-            || (system.lazies.iter()).any(|l| l.kind == LazyKind::Output && is(&l.name, name))
-    }
-
-    /// The values of a state.
-    fn domain(&self, number: &Number) -> Result<Domain, Refusal> {
-        if let Some((_, domain)) = self.cells.iter().find(|(n, _)| has(&number.name, n)) {
-            return Ok(*domain);
-        }
-        let (low, high) = number.kind.ends();
-        if !matches!(number.kind, Kind::Whole(..)) || high.saturating_sub(low) < 256 {
-            let (lo, hi) = (low as i32, high as i32);
-            return Ok(Domain { lo, hi });
-        }
-        let bound = self.params.bound;
-        let name = self.table_name(number);
-        let found = (bound.system.states.iter()).position(|s| is(&s.var.name, name));
-        match found.map(|k| bound.states[k]) {
-            Some((lo, hi)) => Ok(Domain { lo, hi }),
-            None => Err(Refusal::Unknown(format!(
-                "the values of the state `{name}`"
-            ))),
-        }
-    }
-
     /// The peer.
     pub(crate) fn peer(self) -> Refusable {
-        if let Some(text) = self.lacks {
-            return Err(Refusal::Table(text));
-        }
-        if let Some(name) = self.unknown() {
-            return Err(Refusal::Name(name));
-        }
-        let config = self.configuration()?;
-        let mut ports = Vec::new();
-        let mut feeds = Vec::new();
-        for number in &numbers::<M::Inputs>("inputs") {
-            let made = self.made.iter().find(|(n, ..)| has(&number.name, n));
-            feeds.push(match (self.constant(&number.name), made) {
-                (Some(value), _) => Feed::Constant(value),
-                (None, Some((_, parts, make))) => {
-                    let first = ports.len();
-                    ports.extend(*parts);
-                    Feed::Made(first, *make)
-                }
-                (None, None) => {
-                    ports.push(self.table_name(number));
-                    Feed::Port(ports.len() - 1)
-                }
-            });
-        }
-        let mut live = Vec::new();
-        for (number, port) in self.changing() {
-            live.push((number, ports.len()));
-            ports.push(port);
-        }
-        // Which of the numbers are compared, outputs first.
-        let mut outputs = Vec::new();
-        let mut from_outputs = Vec::new();
-        for number in &numbers::<M::Outputs>("outputs") {
-            let compared = !self.is_hidden(&number.name);
-            from_outputs.push(compared);
-            if compared {
-                outputs.push(self.table_name(number));
-            }
-        }
-        let mut from_state = Vec::new();
-        let mut domains = Vec::new();
-        let mut kept = Vec::new();
-        for (cell, number) in numbers::<M::State>("state").iter().enumerate() {
-            domains.push(self.domain(number)?);
-            let name = self.table_name(number);
-            let known = outputs.contains(&name);
-            let compared = !known && !self.is_hidden(&number.name) && self.shows(name);
-            from_state.push(compared);
-            if compared {
-                outputs.push(name);
-            }
-            let own = self.kept.iter().find(|(n, ..)| has(&number.name, n));
-            kept.extend(own.map(|(_, variable, condition)| (cell, *variable, *condition)));
-        }
+        let shape = Shape::of::<M>();
+        self.words.check(&shape)?;
+        let config = self.configuration(&shape.config)?;
+        let mut plan = self.words.plan(self.params, &shape)?;
         let told: Vec<Told<M>> = self.told.iter().map(|(_, told)| *told).collect();
-        outputs.extend(self.told.iter().map(|(name, _)| *name));
         let bits = self.bits;
-        outputs.extend(bits.iter().map(|(name, ..)| *name));
+        plan.outputs.extend(self.told.iter().map(|(name, _)| *name));
+        plan.outputs.extend(bits.iter().map(|(name, ..)| *name));
+        let Plan {
+            ports,
+            feeds,
+            live,
+            outputs,
+            from_outputs,
+            from_state,
+            domains,
+            kept,
+        } = plan;
         let next = self.next;
         let step = move |cells: &mut [i32], ports: &[i32], said: &mut super::Numbers| {
             let state = load(cells);
@@ -384,19 +221,10 @@ impl<'a, M: Contract> Same<'a, M> {
             let bit = |(_, word, place): &(_, Word<M>, u32)| i64::from(word(&outputs) >> place & 1);
             said.extend(bits.iter().map(bit));
         };
-        let mut adapter =
-            Adapter::of(ports, outputs, domains, stored(M::INITIAL), step).without(self.unused);
-        for (inputs, values) in self.only {
-            adapter = adapter.only(inputs, values);
-        }
-        for (inputs, values) in self.explored {
-            adapter = adapter.explored(inputs, values);
-        }
+        let adapter = Adapter::of(ports, outputs, domains, stored(M::INITIAL), step);
+        let mut adapter = self.words.restricted(adapter, kept);
         for (name, decide) in self.decided {
             adapter = adapter.with(name, i32::from(decide(&config)));
-        }
-        for (cell, variable, condition) in kept {
-            adapter = adapter.kept_where(cell, variable, condition);
         }
         Ok(adapter)
     }
@@ -432,9 +260,3 @@ macro_rules! peers {
 }
 
 pub(crate) use peers;
-
-/// Whether a number, with the names of the fields it is in, is the one of this name or one of those below it.
-fn has(path: &str, name: &str) -> bool {
-    let (path, name) = (format!(".{path}."), format!(".{name}."));
-    path.contains(&name)
-}

@@ -157,7 +157,12 @@ pub(super) fn outputs(axis: &Axis, side: usize, said: &Said) -> Vec<(Port, Value
             on("SP_valid", said.transferred.valid),
             int("S_XIST16", Unit::None, said.transferred.short.into()),
             int("S_XIST32", Unit::Increment, said.transferred.long.into()),
-            int("S_CYCLE_COUNT", Unit::None, said.transferred.cycle.into()),
+            // The word of the telegram has a sign: behind 32767 comes -32768 (S120-PSAFE-518).
+            int(
+                "S_CYCLE_COUNT",
+                Unit::None,
+                (said.transferred.cycle as i16).into(),
+            ),
         ]);
     }
     if values::extended(axis) && !values::encoder(axis) {
