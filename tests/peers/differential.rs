@@ -228,7 +228,7 @@ fn no_difference(pieces: &[Pairing]) {
 
 /// The pieces that are exceptions, or all others.
 fn pieces(excepted: bool) -> Vec<Pairing> {
-    let exceptions = exceptions("differential");
+    let exceptions = exceptions("reachable pairs");
     let known = |p: &Pairing| {
         let (family, machine) = name(p);
         exceptions.contains(&format!("{family}/{machine}"))

@@ -15,6 +15,7 @@
 
 pub mod acceptance;
 pub mod begin;
+mod bind;
 mod coverage;
 pub mod data;
 mod document;

@@ -1,0 +1,180 @@
+//! The run of one subject: what an exploration binds, with the values of an axis, group or door.
+
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+
+use super::family::{BEFORE, Binding, Explore, Family, Rounding};
+use super::plausible::evaluate;
+use super::runs::{Declared, Planned, Subject};
+use super::{Run, Wiring};
+use stillpoint_lang::diag::Result;
+
+/// A scaled system has at most this many steps in its longest time.
+const STEPS: i64 = 2;
+
+/// A time bound to a parameter, before and after rounding.
+struct Time {
+    name: String,
+    exact: bool,
+    cycles: i64,
+    rounding: Rounding,
+}
+
+/// The run of `explore` for a subject, with the values of the member at `of`.
+pub(super) fn bind(
+    family: &Family,
+    explore: &Explore,
+    system: &Declared,
+    cycle: i64,
+    subject: &Subject<'_>,
+    of: usize,
+) -> Result<Planned> {
+    let members = &subject.members;
+    let mut run = Run {
+        title: explore.text.clone(),
+        axes: subject.axes.clone(),
+        guarantee: None,
+        asks: None,
+        faults: Vec::new(),
+        file: family.folder.join(&explore.file),
+        system: explore.system.clone(),
+        cycle,
+        before: 0,
+        travel: 0,
+        window: 0,
+        wiring: Wiring::new(),
+        params: BTreeMap::new(),
+        sources: BTreeMap::new(),
+        abstractions: Vec::new(),
+    };
+    let planned = |run| Planned {
+        run,
+        each: explore.each,
+        of_member: explore.members > 0,
+        names: members.iter().map(|(name, _)| (*name).to_owned()).collect(),
+    };
+    let Some((_, values)) = members.get(of) else {
+        return Ok(planned(run));
+    };
+    let mut values = Cow::Borrowed(*values);
+    let cycle = match &explore.cycle {
+        Some(formula) => evaluate(family, formula, &values, cycle)?.max(1),
+        None => cycle,
+    };
+    run.cycle = cycle;
+    if let Some(formula) = &explore.before {
+        run.before = evaluate(family, formula, &values, cycle)?;
+        let before = vec![run.before];
+        values.to_mut().insert(BEFORE.to_owned(), before);
+    }
+    if let Some(formula) = &explore.travel {
+        run.travel = evaluate(family, formula, &values, cycle)?;
+    }
+    if let Some(formula) = &explore.window {
+        run.window = evaluate(family, formula, &values, cycle)?;
+    }
+    if !explore.note.is_empty() {
+        run.abstractions.push(explore.note.clone());
+    }
+    let mut times = Vec::new();
+    for binding in &explore.params {
+        match binding {
+            Binding::Value(name, formula) => {
+                let value = evaluate(family, formula, &values, cycle)?;
+                run.params.insert(name.clone(), vec![value]);
+                let source = formula.text.get_ref().clone();
+                run.sources.insert(name.clone(), source);
+            }
+            Binding::Time(name, formula, rounding) => {
+                let time = evaluate(family, formula, &values, cycle)?;
+                let source = formula.text.get_ref().clone();
+                run.sources.insert(name.clone(), source);
+                times.push(Time {
+                    name: name.clone(),
+                    exact: time % cycle == 0,
+                    cycles: rounding.cycles(time, cycle),
+                    rounding: *rounding,
+                });
+            }
+            Binding::Rank(list, names) => {
+                let ranks = ranks(values.get(list).map_or(&[], Vec::as_slice));
+                let cells = ranks.into_iter().map(|rank| vec![rank]);
+                run.params.extend(names.iter().cloned().zip(cells));
+                let sources = names.iter().map(|name| (name.clone(), list.clone()));
+                run.sources.extend(sources);
+                let text = format!("{list} by the order of its values only");
+                run.abstractions.push(text);
+            }
+            Binding::Member(formula, names) => {
+                for (name, (_, values)) in names.iter().zip(members) {
+                    let value = evaluate(family, formula, values, cycle)?;
+                    run.params.insert(name.clone(), vec![value]);
+                    let source = formula.text.get_ref().clone();
+                    run.sources.insert(name.clone(), source);
+                }
+            }
+        }
+    }
+    let durations = system.durations.iter().map(|d| (d, cycle));
+    let scanned = system.scanned.iter().map(|(d, scan)| (d, *scan));
+    for ((name, us), cycle) in durations.chain(scanned) {
+        let time = i64::try_from(*us).unwrap_or(i64::MAX);
+        run.sources.insert(name.clone(), format!("T#{us}us"));
+        times.push(Time {
+            name: name.clone(),
+            exact: time % cycle == 0,
+            cycles: Rounding::Up.cycles(time, cycle),
+            rounding: Rounding::Up,
+        });
+    }
+    let longest = times.iter().map(|t| t.cycles).max().unwrap_or(0);
+    let step = if system.scaled {
+        up(longest, STEPS).max(1)
+    } else {
+        1
+    };
+    run.abstractions.extend(times_text(&times, step, cycle));
+    let steps = times
+        .into_iter()
+        .map(|t| (t.name, vec![up(t.cycles, step)]));
+    run.params.extend(steps);
+    Ok(planned(run))
+}
+
+/// `a / b`, rounded up; both positive or 0.
+fn up(a: i64, b: i64) -> i64 {
+    a / b + i64::from(a % b != 0)
+}
+
+/// What the times lost, by the rule of each: `None` when each is a whole number of cycles and not scaled.
+fn times_text(times: &[Time], step: i64, cycle: i64) -> Option<String> {
+    let cycle = super::units::Dimension::Time.show(cycle);
+    let list = |times: &mut dyn Iterator<Item = String>| times.collect::<Vec<_>>().join(", ");
+    if step > 1 {
+        let entry = |t: &Time| format!("{} {} cycles = {}", t.name, t.cycles, up(t.cycles, step));
+        return Some(format!(
+            "times in steps of {step} cycles of {cycle}, rounded up: {}",
+            list(&mut times.iter().map(entry))
+        ));
+    }
+    let mut texts = Vec::new();
+    for (rounding, word) in [(Rounding::Up, "up"), (Rounding::Down, "down")] {
+        let rounded = times.iter().filter(|t| !t.exact && t.rounding == rounding);
+        let text = list(&mut rounded.map(|t| format!("{} = {} cycles", t.name, t.cycles)));
+        if !text.is_empty() {
+            texts.push(format!("times rounded {word} to cycles of {cycle}: {text}"));
+        }
+    }
+    (!texts.is_empty()).then(|| texts.join("; "))
+}
+
+/// The position of each value among the different values, from 0.
+fn ranks(values: &[i64]) -> Vec<i64> {
+    let mut sorted = values.to_vec();
+    sorted.sort_unstable();
+    sorted.dedup();
+    values
+        .iter()
+        .map(|v| sorted.iter().take_while(|s| *s < v).fold(0, |n, _| n + 1))
+        .collect()
+}
