@@ -212,7 +212,8 @@ fn mutants() -> impl Iterator<Item = (Mutant, BTreeSet<Name>)> {
 
 /// Compares pieces in every reachable pair.
 fn no_difference(pieces: &[Pairing]) {
-    for one in &each(pieces, |piece| explore(piece, None)) {
+    let compared = each(pieces, |piece| explore(piece, None));
+    for one in &compared {
         assert!(
             one.divergence.is_none(),
             "{}: {}",
@@ -224,6 +225,13 @@ fn no_difference(pieces: &[Pairing]) {
             "{one:?}"
         );
     }
+    let json = to_json(&compared, None);
+    assert_eq!(json["divergences"], 0);
+    assert_eq!(json["complete"], true);
+    assert!(
+        json["pairs"].as_u64() > Some(0) && json["outputs_compared"].as_u64() > Some(0),
+        "{json}"
+    );
 }
 
 /// The pieces that are exceptions, or all others.

@@ -8,7 +8,7 @@ use super::family::{BEFORE, Binding, Explore, Formula, Known, Rounding, Scope, W
 use super::family_file::Check;
 
 /// Bindings that several entries have in common, under a name: `[share.NAME]`.
-#[derive(Clone, Deserialize)]
+#[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct ShareData {
     #[serde(default)]
