@@ -9,6 +9,7 @@ mod book;
 mod certify;
 mod commands;
 mod common;
+mod compared;
 mod crane;
 mod distributed;
 mod explore;
