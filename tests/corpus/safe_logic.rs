@@ -25,7 +25,7 @@ struct Cases {
 }
 
 /// Another program, or other values of the machine file.
-#[derive(Deserialize)]
+#[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Case {
     text: String,
@@ -35,6 +35,9 @@ struct Case {
     replace: Vec<(String, String)>,
     #[serde(default)]
     machine: Vec<(String, String)>,
+    /// Other texts in its half in the PLC; where there are none, the machine is taken without that half.
+    #[serde(default)]
+    plc: Vec<(String, String)>,
     /// The guarantee that finds it.
     breaks: Option<String>,
     /// The guarantee that still holds.
@@ -76,7 +79,14 @@ fn written(k: usize, case: &Case) -> PathBuf {
     let program = changed(text(&format!("{base}.{kind}")), &case.replace);
     std::fs::write(folder.join(format!("{stem}.{kind}")), program).expect("written");
     let path = folder.join(format!("{stem}.toml"));
-    let machine = changed(text(&format!("{base}.toml")), &case.machine);
+    let mut machine = changed(text(&format!("{base}.toml")), &case.machine);
+    if case.plc.is_empty() {
+        let lines = machine.lines().filter(|line| !line.starts_with("plc "));
+        machine = lines.map(|line| format!("{line}\n")).collect();
+    } else {
+        let half = changed(text(&format!("{base}.stl")), &case.plc);
+        std::fs::write(folder.join(format!("{stem}.stl")), half).expect("written");
+    }
     std::fs::write(&path, machine).expect("written");
     path
 }
@@ -180,11 +190,8 @@ fn an_expression_over_signals_that_are_not_there_is_an_error_with_its_place() {
     let case = Case {
         text: "a signal that the program does not have".to_owned(),
         base: Some(INTERLOCK.to_owned()),
-        replace: Vec::new(),
         machine: vec![("NOT $A_OUTSI[2]".to_owned(), "NOT OUTSI[22]".to_owned())],
-        breaks: None,
-        keeps: None,
-        line: None,
+        ..Case::default()
     };
     let path = written(98, &case);
     let machine =
@@ -204,20 +211,63 @@ fn an_expression_over_signals_that_are_not_there_is_an_error_with_its_place() {
     );
 }
 
+/// What the half in the PLC leaves alone could as well be 1: a guarantee that rests on it is refused.
+#[test]
+fn a_half_in_the_plc_that_gives_an_axis_nothing_is_an_error() {
+    let case = Case {
+        text: "no SBH".to_owned(),
+        plc: vec![
+            ("    = \"SPL\".SBH_OFF;\n".to_owned(), String::new()),
+            ("    = DB32.DBX22.1;\n".to_owned(), String::new()),
+        ],
+        ..Case::default()
+    };
+    let errors = machine::load(&written(96, &case), &root().join("spec/families"))
+        .expect_err("nothing gives SBH of Z");
+    let told = errors.to_string();
+    let told: Vec<&str> = told.split_whitespace().collect();
+    let said =
+        "gives axis Z nothing for SS_DISABLE_INPUT: no instruction writes DB32.DBX22.1 or OUTSI[3]";
+    assert!(told.join(" ").contains(said), "{told:?}");
+}
+
+/// Another number of the machine axis is another data block.
+#[test]
+fn the_data_block_of_an_axis_is_that_of_its_number() {
+    let case = Case {
+        text: "X is machine axis 3".to_owned(),
+        machine: vec![(
+            "title     = \"cross slide\"".to_owned(),
+            "machine_axis = 3".to_owned(),
+        )],
+        plc: vec![("U E 76.0".to_owned(), "U E 76.0".to_owned())],
+        ..Case::default()
+    };
+    let machine = machine::load(&written(95, &case), &root().join("spec/families"))
+        .unwrap_or_else(|e| panic!("{e}"));
+    let blocks = |axis: &str| {
+        let runs = machine
+            .runs
+            .iter()
+            .filter(|run| run.half && run.axes == [axis]);
+        let signals = runs.filter_map(|run| run.wiring.get("sge_sbh").cloned());
+        signals.collect::<std::collections::BTreeSet<_>>()
+    };
+    assert_eq!(blocks("X"), ["DB33.DBX22.1".to_owned()].into());
+    assert_eq!(blocks("Z"), ["DB32.DBX22.1".to_owned()].into());
+}
+
 /// A guarantee about the program needs one.
 #[test]
 fn a_guarantee_about_a_program_that_is_not_there_is_an_error() {
     let case = Case {
         text: "no program".to_owned(),
         base: Some(INTERLOCK.to_owned()),
-        replace: Vec::new(),
         machine: vec![(
             "[logic.spl]\nsource = \"interlock-840d.spf\"\n".to_owned(),
             String::new(),
         )],
-        breaks: None,
-        keeps: None,
-        line: None,
+        ..Case::default()
     };
     let errors = machine::load(&written(97, &case), &root().join("spec/families"))
         .expect_err("there is no program");
@@ -233,12 +283,8 @@ fn a_guarantee_about_a_program_that_is_not_there_is_an_error() {
 fn a_contact_that_the_program_does_not_know_is_an_error() {
     let case = Case {
         text: "no contact".to_owned(),
-        base: None,
-        replace: Vec::new(),
         machine: vec![("contact       = \"INSE[1]\"\n".to_owned(), String::new())],
-        breaks: None,
-        keeps: None,
-        line: None,
+        ..Case::default()
     };
     let errors = machine::load(&written(99, &case), &root().join("spec/families"))
         .expect_err("nothing tells the program of the door");

@@ -66,6 +66,7 @@ impl Subject {
                     let spec = match specs.entry((
                         &run.file,
                         &run.wiring,
+                        run.half,
                         run.asks.as_ref().map(|asks| &asks.own.name),
                     )) {
                         Entry::Occupied(known) => known.into_mut(),

@@ -158,6 +158,7 @@ pub fn of_runs(
         let spec = match specs.entry((
             &run.file,
             &run.wiring,
+            run.half,
             run.asks.as_ref().map(|asks| &asks.own.name),
         )) {
             Entry::Occupied(known) => known.into_mut(),

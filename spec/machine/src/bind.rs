@@ -42,6 +42,7 @@ pub(super) fn bind(
         before: 0,
         travel: 0,
         window: 0,
+        half: false,
         wiring: Wiring::new(),
         params: BTreeMap::new(),
         sources: BTreeMap::new(),

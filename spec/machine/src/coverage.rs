@@ -97,6 +97,12 @@ impl Machine {
             });
         }
         list.extend(self.logic_missing());
+        if let Some((text, guarantees)) = self.half_missing() {
+            let names = guarantees.join(", ");
+            list.push(format!(
+                "The file has one half of the safe logic: {text} ({names})."
+            ));
+        }
         list.extend(self.logic_notes());
         list
     }

@@ -11,7 +11,7 @@ use toml::Spanned;
 
 use super::AxisKind;
 use super::ground::read_names;
-use super::guarantee::Pattern;
+use super::guarantee::{Fault, Pattern};
 use super::signal::{self, Signals};
 use super::units::{Dimension, quoted};
 use stillpoint_lang::syntax::ast::Expr;
@@ -51,8 +51,8 @@ pub(super) struct Family {
     pub logic: IndexMap<String, Slot>,
     /// What its machine files can guarantee.
     pub patterns: IndexMap<String, Pattern>,
-    /// The classes of single faults, of which a guarantee may be asked to hold after any: name, and what fails.
-    pub faults: IndexMap<String, String>,
+    /// The classes of single faults, of which a guarantee may be asked to hold after any.
+    pub faults: IndexMap<String, Fault>,
 }
 
 impl Family {
@@ -200,10 +200,28 @@ pub(super) struct Slot {
     pub language: Language,
     /// The machine that a program of the other half takes the place of, in statement lists: the key `plc` of the logic.
     pub plc: Option<String>,
+    /// What that half has of an axis; none: it does nothing to an axis by itself.
+    pub half: Option<Half>,
     /// What it is, in a few words.
     pub text: String,
     /// What is assumed of it where the machine file has none.
     pub missing: Option<String>,
+}
+
+/// What the half of a logic in a PLC gives an axis, where the values of the machine file say it of the other half.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Half {
+    /// What a run is about that is made with this half alone.
+    pub text: String,
+    /// What is assumed of it where the machine file has none.
+    pub missing: String,
+    /// The parameter with the number of the axis; 0 is its place in the file.
+    pub number: String,
+    /// The data block before that of the first axis.
+    pub block: i64,
+    /// For each parameter that connects an input of the axis, its bit in that block: `DBX22.1`.
+    pub bits: IndexMap<String, String>,
 }
 
 /// A safety function that can be enabled for an axis.

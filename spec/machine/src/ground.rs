@@ -74,6 +74,8 @@ const GROUPS: &str = "groups";
 const GUARANTEES: &str = "guarantees";
 /// How many of them ask about the axis, or about it behind the door.
 const ASKED: &str = "asked";
+/// How many guarantees assume something of a half of the safe logic that the file has not.
+const HALF_ASSUMED: &str = "half_assumed";
 /// As a number in how many values an axis differs from the one that moves the same thing, as a text in which ones.
 const DIFFERS: &str = "differs";
 /// How many other axes move the same thing.
@@ -105,7 +107,7 @@ impl About {
     pub fn known(self, family: &Family) -> Vec<String> {
         let mut known: Vec<String> = ["monitoring_cycle", "k", "n"].map(str::to_owned).to_vec();
         if self != Self::Door {
-            known.extend([DOORS, GROUPS, GUARANTEES, ASKED].map(str::to_owned));
+            known.extend([DOORS, GROUPS, GUARANTEES, ASKED, HALF_ASSUMED].map(str::to_owned));
             known.extend(family.patterns.keys().map(|name| asked_by(name)));
         }
         known.extend(family.control.keys().cloned());
@@ -264,11 +266,16 @@ impl<'a> Ground<'a> {
             .collect();
         let asked = asked.len();
         let guarantees = self.machine.guarantees.len();
+        let assumed = self
+            .machine
+            .half_missing()
+            .map_or(0, |(_, names)| names.len());
         for (name, n) in [
             (DOORS, doors),
             (GROUPS, groups),
             (GUARANTEES, guarantees),
             (ASKED, asked),
+            (HALF_ASSUMED, assumed),
         ] {
             self.set(name, i64::try_from(n).unwrap_or(i64::MAX));
         }

@@ -37,6 +37,9 @@ pub(super) const WITHIN: &str = "within";
 /// In the expressions of patterns: whether the machine file has a program whose signals its values connect.
 const PROGRAMMED: &str = "programmed";
 
+/// In the expressions of patterns: whether the run is made with the half of the program in the PLC alone.
+pub(super) const HALF: &str = "half";
+
 /// What a machine file asks of its machine.
 #[derive(Debug, Clone)]
 pub struct Guarantee {
@@ -114,6 +117,9 @@ struct File {
 #[serde(deny_unknown_fields)]
 struct FaultData {
     text: String,
+    /// Whether it may take one half of the safe logic, so that the other one must do by itself what is guaranteed.
+    #[serde(default)]
+    takes_half: bool,
     #[serde(deserialize_with = "stillpoint_lang::catalogue::once")]
     #[allow(dead_code)] // where it comes from, for readers of the data
     id: Vec<String>,
@@ -134,8 +140,17 @@ struct PatternData {
     explore: Vec<ExploreData>,
 }
 
-/// The patterns of a family, and its classes of single faults in words.
-type Patterns = (IndexMap<String, Pattern>, IndexMap<String, String>);
+/// A class of single faults.
+#[derive(Debug, Clone)]
+pub(super) struct Fault {
+    /// What fails, in words.
+    pub text: String,
+    /// Whether it may take one half of the safe logic.
+    pub takes_half: bool,
+}
+
+/// The patterns of a family, and its classes of single faults.
+type Patterns = (IndexMap<String, Pattern>, IndexMap<String, Fault>);
 
 /// Reads the patterns of a family; a family without the file has none.
 ///
@@ -188,7 +203,13 @@ pub(super) fn load(
         }
     }
     let faults = data.fault.into_iter();
-    let faults = faults.map(|(name, fault)| (name, fault.text)).collect();
+    let faults = faults.map(|(name, fault)| {
+        let FaultData {
+            text, takes_half, ..
+        } = fault;
+        (name, Fault { text, takes_half })
+    });
+    let faults = faults.collect();
     check.findings.finish((patterns, faults))
 }
 
@@ -210,7 +231,7 @@ impl Context<'_> {
         names.extend(arguments.keys().cloned());
         let lets = self.group_lets.iter();
         names.extend(lets.flat_map(|(name, _)| [name.clone(), before(name)]));
-        names.push(PROGRAMMED.to_owned());
+        names.extend([PROGRAMMED, HALF].map(str::to_owned));
         let mut roundings = self.known.roundings.clone();
         let times = arguments
             .iter()
@@ -386,9 +407,12 @@ impl Machine {
 }
 
 /// Values of one axis for one guarantee.
+#[derive(Clone)]
 pub(super) struct Asked<'a> {
     pub guarantee: &'a Guarantee,
     pub axis: &'a str,
+    /// Its place in the file, from 1.
+    pub number: i64,
     pub values: Values,
     pub pattern: &'a Pattern,
 }
@@ -439,9 +463,13 @@ pub(super) fn asked<'a>(
             }
             insert(&mut values, &guarantee.values);
             values.insert(PROGRAMMED.to_owned(), vec![i64::from(programmed)]);
+            values.insert(HALF.to_owned(), vec![0]);
+            let number = parts.axes.iter().zip(1..);
+            let number = number.into_iter().find(|(known, _)| known.name == axis);
             list.push(Asked {
                 guarantee,
                 axis,
+                number: number.map_or(1, |(_, number)| number),
                 values,
                 pattern,
             });

@@ -208,6 +208,8 @@ pub struct Run {
     pub travel: i64,
     /// A way in base units that is added to the one at that speed.
     pub window: i64,
+    /// Whether the program is the half of the safe logic in the PLC, alone.
+    pub half: bool,
     /// The signals that a program of the machine file has at the ports of the machine it stands for, `OUTSI[3]` or `NOT INSE[1]`.
     pub wiring: Wiring,
     /// Values of the system's parameters; one cell for a scalar. Times in cycles, or in steps.

@@ -16,7 +16,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue, Deserializer};
 
 use super::document::Findings;
-use super::family::{Family, Language, Slot};
+use super::family::{Family, Half, Language, Slot};
 use super::own::Own;
 use super::wired::{Program, Times, Wired};
 use super::{Basis, Machine, Place, Run, Wiring, own};
@@ -29,6 +29,8 @@ pub(super) struct Logic {
     machines: Vec<(Spanned<String>, Definition)>,
     /// Programs whose signals each run connects.
     wired: Vec<Wired>,
+    /// The same logic after its half in the NCK is gone: that in the PLC stands in its place.
+    half: Option<Box<Logic>>,
 }
 
 /// One machine, and the file that it was written in.
@@ -112,6 +114,7 @@ impl Logic {
                 .map(|(name, machine)| (name, here(machine)))
                 .collect(),
             wired: Vec::new(),
+            half: None,
         };
         let mut findings = Findings::new(file, source);
         let known = || family.logic.keys().map(String::as_str);
@@ -143,10 +146,56 @@ impl Logic {
                 all(logic.fits(name.get_ref(), machine, &family.folder.join(&slot.file)));
             }
         }
+        logic.half = logic.halved(family).map(Box::new);
         match errors.is_empty() {
             true => Ok(logic),
             false => Err(Diagnostics(errors)),
         }
+    }
+
+    /// The programs in the PLC in the places of the others.
+    fn halved(&self, family: &Family) -> Option<Self> {
+        let place = |wired: &Wired| {
+            let mut slots = family.logic.iter();
+            let of = |slot: &Slot| {
+                slot.half.is_some() && slot.plc.as_ref() == Some(wired.name.get_ref())
+            };
+            let (name, _) = slots.find(|(_, slot)| of(slot))?;
+            let name = Spanned::new(wired.name.span(), name.clone());
+            Some(Wired {
+                name,
+                ..wired.clone()
+            })
+        };
+        let wired: Vec<Wired> = self.wired.iter().filter_map(place).collect();
+        (!wired.is_empty()).then(|| Self {
+            wired,
+            half: None,
+            ..self.clone()
+        })
+    }
+
+    /// The logic that a run is made with: as it is, or its half in the PLC alone.
+    pub fn of(&self, half: bool) -> &Self {
+        self.half.as_deref().filter(|_| half).unwrap_or(self)
+    }
+
+    /// What the half of the PLC has of an axis, where the file has such a half and these machines are those of the other one alone.
+    pub fn half<'f>(&self, family: &'f Family, machines: &[String]) -> Option<(&Self, &'f Half)> {
+        let logic = self.half.as_deref()?;
+        let mut slots = family
+            .logic
+            .iter()
+            .filter(|(name, _)| machines.contains(name));
+        let (_, slot) =
+            slots.find(|(name, _)| logic.wired.iter().any(|w| w.name.get_ref() == *name))?;
+        let both = slot.plc.as_ref().is_some_and(|plc| machines.contains(plc));
+        Some((logic, slot.half.as_ref().filter(|_| !both)?))
+    }
+
+    /// Whether a program gives this signal of it, `DB31.DBX22.1` or `OUTSI[3]`.
+    pub fn gives(&self, signal: &str) -> bool {
+        self.wired.iter().any(|wired| wired.gives(signal))
     }
 
     /// Reads a program that stands beside the machine file, and translates it where its signals are known.
@@ -420,7 +469,7 @@ impl Machine {
     /// The file cannot be read, or a program cannot be explored.
     pub fn spec(&self, run: &Run) -> Result<Spec> {
         let Basis { family, logic, .. } = &*self.basis;
-        let mut spec = logic.spec(&run.file, &run.wiring)?;
+        let mut spec = logic.of(run.half).spec(&run.file, &run.wiring)?;
         if let Some(asks) = &run.asks {
             let slots = family.logic.iter();
             let slots = slots.flat_map(|(name, slot)| [Some(name), slot.plc.as_ref()]);
@@ -461,6 +510,34 @@ impl Machine {
             let text = slot.missing.as_ref().filter(|_| !known)?;
             Some(format!("Logic {name} is not in the file: {text}."))
         })
+    }
+
+    /// Guarantees that hold after a fault that may take the program of the machine file, which has no other half: what is assumed of that,
+    /// and their names.
+    pub(super) fn half_missing(&self) -> Option<(&str, Vec<&str>)> {
+        let Basis { family, logic, .. } = &*self.basis;
+        let mut slots = family.logic.iter().filter(|_| logic.half.is_none());
+        let half = slots.find_map(|(name, slot)| {
+            let known = logic.wired.iter().any(|w| w.name.get_ref() == name);
+            slot.half.as_ref().filter(|_| known)
+        })?;
+        let taken: Vec<&str> = family
+            .faults
+            .values()
+            .filter(|fault| fault.takes_half)
+            .map(|fault| fault.text.as_str())
+            .collect();
+        let taken = |run: &Run| run.faults.iter().any(|text| taken.contains(&text.as_str()));
+        let asked = |name: &str| {
+            let mut runs = self
+                .runs
+                .iter()
+                .filter(|run| run.guarantee.as_deref() == Some(name));
+            runs.any(|run| !run.wiring.is_empty() && taken(run))
+        };
+        let names = self.guarantees.iter().map(|g| g.name.as_str());
+        let names: Vec<&str> = names.filter(|name| asked(name)).collect();
+        (!names.is_empty()).then_some((half.missing.as_str(), names))
     }
 
     /// What is worth telling of programs that are right, each with its line.

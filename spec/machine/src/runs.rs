@@ -7,8 +7,8 @@ use toml::Spanned;
 
 use super::bind::bind;
 use super::eval::Values;
-use super::family::{Explore, Family, Scope};
-use super::guarantee::{Asked, Guarantee, WITHIN, asked};
+use super::family::{Explore, Family, Half, Scope};
+use super::guarantee::{Asked, Guarantee, HALF, WITHIN, asked};
 use super::logic::Logic;
 use super::own::{Asks, Own};
 use super::plausible::{Judged, evaluate};
@@ -106,8 +106,8 @@ pub(super) fn guaranteed(
                 continue;
             }
             decided = true;
-            let mut system = declared(family, explore, &mut files, logic)?;
-            if asked.pattern.needs_program && logic.lacks_half(family, &system.machines) {
+            let declared = declared(family, explore, &mut files, logic)?;
+            if asked.pattern.needs_program && logic.lacks_half(family, &declared.machines) {
                 let message = format!(
                     "guarantee {name} is about both halves of the safe logic, and the file has none in the PLC"
                 );
@@ -117,47 +117,27 @@ pub(super) fn guaranteed(
                     "add plc = \"...\" to [logic.NAME], a statement list beside the machine file";
                 return Err(found.help(help).into());
             }
-            let subject = Subject {
-                members: vec![(asked.axis, &asked.values)],
-                axes: vec![asked.axis.to_owned()],
-            };
-            let mut connected = Wiring::new();
-            let takes = logic.takes(&system.machines);
-            if takes || asked.guarantee.own.is_some() {
-                let spec = Spec::load(&family.folder.join(&explore.file))?;
-                if takes {
-                    connected = wiring(family, explore, &asked, logic, &spec)?;
-                }
-                if let Some(own) = &asked.guarantee.own {
-                    connected = logic.shown(&spec, own, &asked.guarantee.place)?;
-                }
-                if !connected.is_empty() {
-                    let times = logic.times(&spec, &connected)?;
-                    system.durations.extend(times.running);
-                    if let Some(scan) = &explore.scan {
-                        let scan = evaluate(family, scan, &asked.values, judged.cycle)?.max(1);
-                        system.scanned = times.scanned.into_iter().map(|d| (d, scan)).collect();
-                    }
-                }
-            }
-            let mut run = bind(family, explore, &system, judged.cycle, &subject, 0)?;
-            run.run.wiring = connected;
-            run.run.guarantee = Some(asked.guarantee.name.clone());
-            if let Some(own) = &asked.guarantee.own {
-                // It is about the logic, whatever axis there is.
-                run.each = Scope::Machine;
-                run.run.axes.clear();
-                run.run.asks = Some(asks(own, &asked, run.run.cycle, logic)?);
-            }
-            for (fault, when) in &explore.covers {
+            let mut faults = Vec::new();
+            for (name, when) in &explore.covers {
                 let counts = asked.guarantee.after_fault()
                     && evaluate(family, when, &asked.values, judged.cycle)? != 0;
-                if let Some(text) = family.faults.get(fault).filter(|_| counts) {
-                    answered.push(fault);
-                    run.run.faults.push(text.clone());
+                if let Some(fault) = family.faults.get(name).filter(|_| counts) {
+                    answered.push(name);
+                    faults.push(fault);
                 }
             }
-            merge(&mut planned, run);
+            let alone =
+                faults.iter().any(|fault| fault.takes_half) && asked.guarantee.own.is_none();
+            let half = logic.half(family, &declared.machines).filter(|_| alone);
+            let mut asked_of_half = asked.clone();
+            asked_of_half.values.insert(HALF.to_owned(), vec![1]);
+            let half = half.map(|(logic, half)| (&asked_of_half, logic, Some(half)));
+            for (asked, logic, half) in [(&asked, logic, None)].into_iter().chain(half) {
+                let mut run = decided_by(family, explore, asked, &declared, judged, logic, half)?;
+                let texts = faults.iter().map(|fault| fault.text.clone());
+                run.run.faults.extend(texts);
+                merge(&mut planned, run);
+            }
         }
         let open = family.faults.keys();
         let mut open = open.filter(|fault| !answered.contains(&fault.as_str()));
@@ -188,6 +168,57 @@ pub(super) fn guaranteed(
         }
     }
     Ok(planned.into_iter().map(Planned::titled).collect())
+}
+
+/// The run of an axis by which an exploration decides a guarantee, with this logic: that of the machine, or its half in the PLC alone.
+fn decided_by(
+    family: &Family,
+    explore: &Explore,
+    asked: &Asked<'_>,
+    declared: &Declared,
+    judged: &Judged,
+    logic: &Logic,
+    half: Option<&Half>,
+) -> Result<Planned> {
+    let mut system = declared.clone();
+    let mut connected = Wiring::new();
+    let takes = logic.takes(&system.machines);
+    if takes || asked.guarantee.own.is_some() {
+        let spec = Spec::load(&family.folder.join(&explore.file))?;
+        if takes {
+            connected = wiring(family, explore, asked, logic, &spec, half)?;
+        }
+        if let Some(own) = &asked.guarantee.own {
+            connected = logic.shown(&spec, own, &asked.guarantee.place)?;
+        }
+        if !connected.is_empty() {
+            let times = logic.times(&spec, &connected)?;
+            system.durations.extend(times.running);
+            if let Some(scan) = &explore.scan {
+                let scan = evaluate(family, scan, &asked.values, judged.cycle)?.max(1);
+                system.scanned = times.scanned.into_iter().map(|d| (d, scan)).collect();
+            }
+        }
+    }
+    let subject = Subject {
+        members: vec![(asked.axis, &asked.values)],
+        axes: vec![asked.axis.to_owned()],
+    };
+    let mut planned = bind(family, explore, &system, judged.cycle, &subject, 0)?;
+    let run = &mut planned.run;
+    run.wiring = connected;
+    run.guarantee = Some(asked.guarantee.name.clone());
+    run.half = half.is_some();
+    if let Some(half) = half {
+        run.title = format!("{}, {}", run.title, half.text);
+    }
+    if let Some(own) = &asked.guarantee.own {
+        run.axes.clear();
+        run.asks = Some(asks(own, asked, run.cycle, logic)?);
+        // It is about the logic, whatever axis there is.
+        planned.each = Scope::Machine;
+    }
+    Ok(planned)
 }
 
 /// The question of a machine file, with its time in cycles: what is asked for begins at any moment between two of them.
@@ -339,6 +370,7 @@ fn coupled(family: &Family, axes: &[Axis], judged: &Judged) -> Result<Vec<Vec<us
 }
 
 /// What the specification file says about a system.
+#[derive(Clone)]
 pub(super) struct Declared {
     /// Whether its timers are scaled.
     pub scaled: bool,
@@ -409,7 +441,7 @@ fn merge(list: &mut Vec<Planned>, new: Planned) {
         let (a, b) = (&known.run, &new.run);
         (&a.file, &a.system, a.cycle, a.before, &a.params, &a.wiring)
             == (&b.file, &b.system, b.cycle, b.before, &b.params, &b.wiring)
-            && (&a.asks, a.travel, a.window) == (&b.asks, b.travel, b.window)
+            && (&a.asks, a.half, a.travel, a.window) == (&b.asks, b.half, b.travel, b.window)
             && a.guarantee == b.guarantee
             && (known.each, known.of_member) == (new.each, new.of_member)
             && (!new.of_member || known.names == new.names)

@@ -12,7 +12,7 @@ use stillpoint_logic::{spf, stl};
 use toml::Spanned;
 
 use super::Wiring;
-use super::family::{Explore, Family};
+use super::family::{Explore, Family, Half, Wire};
 use super::guarantee::Asked;
 use super::logic::Logic;
 
@@ -134,6 +134,16 @@ impl Wired {
             Program::Spf(program) => program.compile(&of_nck(&ports, signature, wiring)),
             Program::Stl(program) => program.compile(&self.of_plc(&ports, signature, wiring)?),
             Program::St(program) => program.compile(&of_named(&ports, signature, wiring)),
+        }
+    }
+
+    /// Whether an instruction writes this signal, `DB31.DBX22.1` or `OUTSI[3]`.
+    pub fn gives(&self, signal: &str) -> bool {
+        match &self.program {
+            Program::Stl(program) => signal.parse().is_ok_and(|bit| program.gives(bit)),
+            Program::Spf(_) | Program::St(_) => {
+                self.signals().get(signal).is_some_and(|(_, given)| *given)
+            }
         }
     }
 
@@ -282,13 +292,14 @@ fn of_nck(ports: &Ports, signature: Signature, wiring: &Wiring) -> spf::Interfac
 /// The signals of the program by the ports of what it replaces, from the values of the machine file.
 ///
 /// # Errors
-/// A port through which the program is told something is connected to nothing.
+/// A port through which the program is told something is connected to nothing, or the half of the PLC gives an axis nothing.
 pub(super) fn wiring(
     family: &Family,
     explore: &Explore,
     asked: &Asked<'_>,
     logic: &Logic,
     spec: &Spec,
+    half: Option<&Half>,
 ) -> Result<Wiring> {
     let mut wiring = Wiring::new();
     for wire in &explore.wires {
@@ -298,7 +309,8 @@ pub(super) fn wiring(
         if code == 0 && wire.optional {
             continue;
         }
-        if code == 0 && logic.is_told(spec, port) {
+        let told = logic.is_told(spec, port);
+        if code == 0 && told {
             let guarantee = asked.guarantee;
             let message = format!(
                 "guarantee {}: the program is not told of it: {name} names no signal",
@@ -318,7 +330,59 @@ pub(super) fn wiring(
             let found = logic.fault(place, message).label("this guarantee");
             return Err(found.help(help).into());
         }
-        wiring.insert(port.clone(), family.known.signals.show(code));
+        let mut signal = family.known.signals.show(code);
+        if let Some(half) = half.filter(|_| !told) {
+            signal = given(half, wire, asked, logic, signal)?;
+        }
+        wiring.insert(port.clone(), signal);
     }
     Ok(wiring)
+}
+
+/// The signal of the half in the PLC for one that the half in the NCK has by a parameter: the bit of the axis, where the program gives
+/// it, else the image of the same signal; what is fixed there is fixed here.
+///
+/// # Errors
+/// The program gives neither: what it holds could not be told from what it leaves alone.
+fn given(
+    half: &Half,
+    wire: &Wire,
+    asked: &Asked<'_>,
+    logic: &Logic,
+    signal: String,
+) -> Result<String> {
+    let Wire { name, index, .. } = wire;
+    let mut keys = [name.clone(), format!("{name}[{index}]")].into_iter();
+    let bit = keys.find_map(|key| half.bits.get(&key));
+    let number = asked
+        .values
+        .get(&half.number)
+        .and_then(|cells| cells.first());
+    let number = number.copied().filter(|n| *n > 0).unwrap_or(asked.number);
+    let bit = bit.map(|bit| format!("DB{}.{bit}", half.block + number));
+    let (image, _) = plain(&signal);
+    let known = |signal: &str| matches!(signal, "TRUE" | "FALSE") || logic.gives(signal);
+    match bit {
+        Some(bit) if logic.gives(&bit) => Ok(bit),
+        _ if known(image) => Ok(signal),
+        bit => {
+            let guarantee = asked.guarantee;
+            let ways: Vec<&str> = bit.iter().map(String::as_str).chain([image]).collect();
+            let message = format!(
+                "guarantee {}: the half of the safe logic in the PLC gives axis {} nothing for {name}: no instruction writes {}",
+                guarantee.name,
+                asked.axis,
+                ways.join(" or ")
+            );
+            let place = Some(guarantee.place.clone());
+            let found = logic
+                .fault(place, message)
+                .label("holds after a fault that takes the other half");
+            let help = format!(
+                "let the program write {}, or leave `after` out of the guarantee",
+                ways[0]
+            );
+            Err(found.help(help).into())
+        }
+    }
 }

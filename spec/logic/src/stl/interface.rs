@@ -109,6 +109,17 @@ impl Program {
         all.collect()
     }
 
+    /// Whether an instruction or a block writes the bit, by itself or with its byte.
+    pub fn gives(&self, bit: Bit) -> bool {
+        let uses = self.uses();
+        let mut cells = uses.cells.iter();
+        let own = uses
+            .bits
+            .get(&bit)
+            .is_some_and(|places| places.written.is_some());
+        own || cells.any(|(cell, places)| places.written.is_some() && bit.lies_in(*cell))
+    }
+
     /// Where each bit and byte is read and written first.
     pub(super) fn uses(&self) -> Uses {
         let mut uses = Uses::default();
