@@ -33,8 +33,10 @@ fn judged(path: &Path, more: &str, guarantee: &str) -> (Verdict, Vec<Found>) {
     bytes.extend_from_slice(more.as_bytes());
     let machine = machine::load_bytes(path, bytes, &root().join("spec/families"))
         .unwrap_or_else(|e| panic!("{e}"));
+    // As the command does, which tells what decides a broken one: that must come to an end too.
     let settings = Settings {
         threads: 1,
+        decisive: true,
         ..Settings::default()
     };
     let (subject, checked) = decided(path, machine, &[guarantee], &settings);

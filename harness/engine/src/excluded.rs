@@ -8,9 +8,10 @@
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
+use std::time::Duration;
 
 use stillpoint_lang::bind::Bound;
-use stillpoint_model::{Error, Form, Options, Property, Until, Verdict, explore};
+use stillpoint_model::{Error, Form, Limits, Options, Property, Until, Verdict, explore};
 
 use crate::outcome::Outcome;
 use crate::subject::Task;
@@ -18,6 +19,9 @@ use crate::table::{Generated, Interpreted, properties};
 
 /// Beyond this many states of the family's own configuration it is not asked which of the values decides.
 const SMALL: u64 = 100_000;
+
+/// So long at most one parameter is asked whether it breaks a property: with the value of the family the system may be of any size.
+const MOST: Duration = Duration::from_secs(10);
 
 /// Why a witness need not exist.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -58,7 +62,7 @@ impl Exclusion {
 }
 
 /// The parameters that alone decide that a property is broken: with the family's own value of any of them, and all others as they are,
-/// it holds. What the machine file cannot change is not among them.
+/// it holds. What the machine file cannot change is not among them, as the times of a program, nor is what does not show within [`MOST`].
 ///
 /// # Errors
 /// A system that cannot be explored.
@@ -68,17 +72,23 @@ pub fn decisive(
     options: &Options,
     interpret: bool,
 ) -> Result<Vec<Decisive>, Error> {
+    let time = options.limits.time.unwrap_or(MOST).min(MOST);
     let options = Options {
         witnesses: false,
         until: Until::Decided,
         checkpoint: None,
+        limits: Limits {
+            time: Some(time),
+            ..options.limits
+        },
         ..options.clone()
     };
     let candidates = differing(&task.bound);
     let mut found = Vec::new();
     for (n, candidate) in candidates.iter().enumerate() {
         let source = task.sources.get(&candidate.name).map_or("", String::as_str);
-        if matches!(source, "" | "TRUE" | "FALSE") {
+        let is_time = source.starts_with("T#");
+        if is_time || matches!(source, "" | "TRUE" | "FALSE") {
             continue;
         }
         let Some(other) = with(&task.bound, &candidates, &[n]) else {

@@ -74,6 +74,10 @@ const GROUPS: &str = "groups";
 const GUARANTEES: &str = "guarantees";
 /// How many of them ask about the axis, or about it behind the door.
 const ASKED: &str = "asked";
+/// How many of them hold after a fault.
+const ASKED_AFTER_FAULT: &str = "asked_after_fault";
+/// Whether the file has a program of the safe logic whose signals its values connect.
+const PROGRAMMED: &str = "programmed";
 /// How many guarantees assume something of a half of the safe logic that the file has not.
 const HALF_ASSUMED: &str = "half_assumed";
 /// As a number in how many values an axis differs from the one that moves the same thing, as a text in which ones.
@@ -107,7 +111,9 @@ impl About {
     pub fn known(self, family: &Family) -> Vec<String> {
         let mut known: Vec<String> = ["monitoring_cycle", "k", "n"].map(str::to_owned).to_vec();
         if self != Self::Door {
-            known.extend([DOORS, GROUPS, GUARANTEES, ASKED, HALF_ASSUMED].map(str::to_owned));
+            let counts = [DOORS, GROUPS, GUARANTEES, ASKED, ASKED_AFTER_FAULT];
+            known.extend(counts.map(str::to_owned));
+            known.extend([PROGRAMMED, HALF_ASSUMED].map(str::to_owned));
             known.extend(family.patterns.keys().map(|name| asked_by(name)));
         }
         known.extend(family.control.keys().cloned());
@@ -264,6 +270,8 @@ impl<'a> Ground<'a> {
                 )
             })
             .collect();
+        let after = asked.iter().filter(|g| g.after_fault()).count();
+        let programmed = self.machine.basis.logic.is_programmed();
         let asked = asked.len();
         let guarantees = self.machine.guarantees.len();
         let assumed = self
@@ -275,6 +283,8 @@ impl<'a> Ground<'a> {
             (GROUPS, groups),
             (GUARANTEES, guarantees),
             (ASKED, asked),
+            (ASKED_AFTER_FAULT, after),
+            (PROGRAMMED, usize::from(programmed)),
             (HALF_ASSUMED, assumed),
         ] {
             self.set(name, i64::try_from(n).unwrap_or(i64::MAX));
