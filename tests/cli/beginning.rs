@@ -67,6 +67,35 @@ IDS=17 DO SG_BITS = CONFIRMED
 M17
 ";
 
+/// Its half in the PLC, which holds the axes when the NCK stands still.
+const LATHE_PLC: &str = "\
+ORGANIZATION_BLOCK OB 1
+U INSEP[3];
+U MARKERSIP[2];
+= MARKERSIP[1];
+UN INSEP[3];
+= MARKERSIP[2];
+U INSEP[2];
+U(;
+O MARKERSIP[3];
+O MARKERSIP[1];
+);
+= MARKERSIP[3];
+= OUTSIP[2];
+SET;
+= OUTSIP[1];
+U MARKERSIP[3];
+U INSEP[1];
+U(;
+O MARKERSIP[4];
+O MARKERSIP[1];
+);
+= MARKERSIP[4];
+= OUTSIP[3];
+= OUTSIP[4];
+END_ORGANIZATION_BLOCK
+";
+
 /// A program beside the file, with its guarantees, and the contacts that it reads.
 fn programmed(text: &str) -> String {
     let text = text.replace(
@@ -77,6 +106,7 @@ fn programmed(text: &str) -> String {
     let more = "
 [logic.spl]
 source = \"lathe.spf\"
+plc    = \"lathe.stl\"
 
 [guarantee.no_start]
 pattern = \"no_start\"
@@ -105,6 +135,7 @@ fn a_lathe_from_nothing_to_a_clean_verdict() {
         "front_axes",
         |folder, file, text| {
             folder.write("lathe.spf", LATHE);
+            folder.write("lathe.stl", LATHE_PLC);
             let text = programmed(text);
             // An axis that the program does not serve never moves: each guarantee about it would hold.
             std::fs::write(file, &text).expect("written");
