@@ -5,13 +5,14 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
+use std::sync::Arc;
 
-use stillpoint_engine::check::{Settings, check, severity, summarise};
+use stillpoint_engine::check::{Settings, check, summarise};
 use stillpoint_engine::subject::{self, Readings};
 use stillpoint_engine::verdict_name;
 use stillpoint_lang::diag::Diagnostics;
 use stillpoint_machine::knob::{Knob, Range};
-use stillpoint_machine::{self as machine, Machine, Run};
+use stillpoint_machine::{self as machine, Machine};
 use stillpoint_model::Verdict;
 
 /// What a guarantee says with one value.
@@ -63,10 +64,10 @@ pub fn sweep(path: &Path, name: &str, settings: &Settings) -> Result<Swept, Fail
         return Err(Failed::Other("this file asks nothing of the machine: a sweep tells for which values its guarantees hold".to_owned()));
     }
     let knob = given.knob(name).map_err(Failed::Other)?;
-    let mut known = Known {
-        path,
-        settings,
-        verdicts: BTreeMap::new(),
+    // Most of what a value does not touch was explored with the value before.
+    let settings = &Settings {
+        known: Some(Arc::default()),
+        ..settings.clone()
     };
     let mut rows: BTreeMap<i64, Row> = BTreeMap::new();
     let mut open: Vec<i64> = points(&knob);
@@ -75,7 +76,7 @@ pub fn sweep(path: &Path, name: &str, settings: &Settings) -> Result<Swept, Fail
             continue;
         }
         let row = match load(knob.turned(&source, value)) {
-            Ok(machine) => Ok(known.verdicts_of(machine)?),
+            Ok(machine) => Ok(verdicts_of(path, machine, settings)?),
             Err(Diagnostics(list)) => {
                 Err(list.first().map_or_else(String::new, |d| d.message.clone()))
             }
@@ -113,56 +114,31 @@ impl From<Diagnostics> for Failed {
     }
 }
 
-/// The verdicts known so far, by what the run explores.
-struct Known<'a> {
-    path: &'a Path,
-    settings: &'a Settings,
-    verdicts: BTreeMap<Explored, Verdict>,
-}
-
-/// What decides a verdict: guarantee, system and parameters.
-type Explored = (String, String, BTreeMap<String, Vec<i64>>, i64);
-
-fn explored(run: &Run) -> Explored {
-    let guarantee = run.guarantee.clone().unwrap_or_default();
-    (guarantee, run.system.clone(), run.params.clone(), run.cycle)
-}
-
-impl Known<'_> {
-    fn verdicts_of(&mut self, machine: Machine) -> Result<BTreeMap<String, Verdict>, Failed> {
-        let runs: Vec<Run> = machine
-            .runs
-            .iter()
-            .filter(|r| r.guarantee.is_some())
-            .cloned()
-            .collect();
-        for run in &runs {
-            if self.verdicts.contains_key(&explored(run)) {
-                continue;
-            }
-            let one = std::slice::from_ref(run);
-            let subject = subject::of_runs(self.path, machine.clone(), one, &Readings::new())?;
-            let checked = check(&subject, self.settings, &mut |_| Box::new(()))
-                .map_err(|(title, e)| Failed::Other(format!("{title}: {e}")))?;
-            let summaries = summarise(&subject, &checked);
-            let complete = checked.iter().all(|c| c.outcome.report.complete);
-            let verdict = summaries.first().map(|s| s.verdict);
-            // Nothing is said of what was not explored to its end.
-            let verdict = verdict.filter(|v| complete || *v == Verdict::Violated);
-            self.verdicts
-                .insert(explored(run), verdict.unwrap_or(Verdict::Inconclusive));
+/// What the guarantees of a machine say.
+fn verdicts_of(
+    path: &Path,
+    machine: Machine,
+    settings: &Settings,
+) -> Result<BTreeMap<String, Verdict>, Failed> {
+    let mut runs = machine.runs.clone();
+    runs.retain(|run| run.guarantee.is_some());
+    let subject = subject::of_runs(path, machine, &runs, &Readings::new())?;
+    let checked = check(&subject, settings, &mut |_| Box::new(()))
+        .map_err(|(title, e)| Failed::Other(format!("{title}: {e}")))?;
+    let summaries = summarise(&subject, &checked).into_iter();
+    let mut found: BTreeMap<_, _> = summaries.map(|s| (s.id, s.verdict)).collect();
+    // Nothing is said of what was not explored to its end.
+    for (run, done) in runs.iter().zip(&checked) {
+        let name = run
+            .guarantee
+            .as_ref()
+            .filter(|_| !done.outcome.report.complete);
+        match name.and_then(|name| found.get_mut(name)) {
+            None | Some(Verdict::Violated) => {}
+            Some(verdict) => *verdict = Verdict::Inconclusive,
         }
-        let mut found: BTreeMap<String, Verdict> = BTreeMap::new();
-        for run in &runs {
-            let verdict = self.verdicts[&explored(run)];
-            let name = run.guarantee.clone().unwrap_or_default();
-            let worst = found.entry(name).or_insert(verdict);
-            if severity(verdict) > severity(*worst) {
-                *worst = verdict;
-            }
-        }
-        Ok(found)
     }
+    Ok(found)
 }
 
 /// What is tested first: all values of a choice; of a range its ends, the given value and others ever farther from it.

@@ -84,7 +84,7 @@ pub struct Options {
 }
 
 /// When a search ends. What it has found until then are shortest runs.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Until {
     /// With the last state.
     #[default]

@@ -14,6 +14,7 @@ use stillpoint_model::{
 use crate::excluded::{Decisive, Exclusion, Judge, decisive};
 use crate::explore;
 use crate::keep::Keep;
+use crate::known::{Known, identity};
 use crate::outcome::{Outcome, Reductions, label};
 use crate::reduce;
 use crate::subject::{Subject, Task};
@@ -43,6 +44,8 @@ pub struct Settings {
     pub cluster: Option<Arc<Cluster>>,
     /// Ends everything from outside, as a limit would.
     pub interrupt: Option<Interrupt>,
+    /// What other checks have explored, which need not be explored again; what this one explores is kept there.
+    pub known: Option<Arc<Known>>,
 }
 
 impl Settings {
@@ -75,6 +78,8 @@ impl Settings {
 pub struct Checked {
     /// The engine's outcome.
     pub outcome: Outcome,
+    /// The same was explored before, in this check or another one, and the outcome is that one's.
+    pub again: bool,
     /// Rules that never fired: (name, why).
     pub unfired: Vec<(String, Unfired)>,
     /// Witnesses that the values of the machine exclude, by property number.
@@ -133,6 +138,7 @@ pub fn check(
     let start = Instant::now();
     let mut out = Vec::new();
     let mut judge = Judge::default();
+    let known = settings.known.clone().unwrap_or_default();
     for (number, task) in subject.tasks.iter().enumerate() {
         let options = Options {
             limits: settings.limits(start),
@@ -143,24 +149,35 @@ pub fn check(
             checkpoint: settings.keep.as_ref().map(|k| k.of(number, &task.bound)),
             ..Options::default()
         };
-        let mut follow = progress(task);
-        let outcome = match &settings.cluster {
-            Some(cluster) => explore::run_together(
+        let how = (
+            settings.interpret,
+            settings.reductions,
+            settings.witnesses,
+            settings.until,
+        );
+        let identity = identity(&task.bound, &how);
+        // The other processes of a cluster know nothing of what this one has found.
+        let found = known.find(&identity).filter(|_| settings.cluster.is_none());
+        let again = found.is_some();
+        let outcome = match (found, &settings.cluster) {
+            (Some(found), _) => Ok(found),
+            (None, Some(cluster)) => explore::run_together(
                 &task.bound,
                 &options,
                 settings.interpret,
-                follow.as_mut(),
+                progress(task).as_mut(),
                 Some(cluster),
             ),
-            None => reduce::run(
+            (None, None) => reduce::run(
                 &task.bound,
                 &options,
                 settings.interpret,
                 settings.reductions,
-                follow.as_mut(),
+                progress(task).as_mut(),
             ),
         }
         .map_err(|e| (task.title.clone(), e))?;
+        known.keep(identity, &outcome);
         let unfired = unfired(task, &outcome);
         let alone = settings.cluster.as_ref().is_none_or(|c| c.process() == 0);
         let excluded = match subject.machine.is_some() && alone {
@@ -181,6 +198,7 @@ pub fn check(
         let violated = judged.any(|j| j.verdict == Verdict::Violated);
         out.push(Checked {
             outcome,
+            again,
             unfired,
             excluded,
             decisive: decided,

@@ -8,6 +8,7 @@ mod cycles;
 pub mod excluded;
 mod explore;
 pub mod keep;
+mod known;
 pub mod lines;
 mod outcome;
 pub mod readings;
@@ -19,4 +20,5 @@ pub mod table;
 
 pub use cycles::{Cycle, lazy, replay};
 pub use explore::{run, run_together};
+pub use known::Known;
 pub use outcome::{Evaluator, Explored, Outcome, Pair, Reduction, Reductions, label, verdict_name};

@@ -16,7 +16,7 @@ pub enum Evaluator {
 }
 
 /// What exploring one table gave.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Outcome {
     /// The explorer's report; its `properties` follow `bound.system.properties`, the `independent` ones included.
     pub report: Report,
@@ -31,7 +31,7 @@ pub struct Outcome {
 }
 
 /// The exploration of pairs of runs for one property.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Pair {
     /// Pairs of states.
     pub states: u64,
@@ -40,7 +40,7 @@ pub struct Pair {
 }
 
 /// Which reductions to use.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash)]
 pub struct Reductions {
     /// Judge properties on slices of the system.
     pub slice: bool,

@@ -246,13 +246,16 @@ fn run(out: &mut String, n: usize, task: &Task, done: &Checked, all: bool) {
     if !reduced(done) {
         let _ = writeln!(
             out,
-            "  {} states of {} ({storage}, {evaluator}), {} transitions, depth {}, {} absorbing, {:.2} s",
+            "  {} states of {} ({storage}, {evaluator}), {} transitions, depth {}, {} absorbing, {}",
             grouped(u128::from(report.states)),
             grouped(report.index_space),
             grouped(report.transitions),
             report.depth,
             grouped(u128::from(report.absorbing)),
-            report.seconds,
+            match done.again {
+                true => "the same as a run before".to_owned(),
+                false => format!("{:.2} s", report.seconds),
+            },
         );
     }
     if all {

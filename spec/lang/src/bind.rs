@@ -10,7 +10,7 @@ use crate::ir::{Node, Space, System, Var};
 pub type Bounds = (i32, i32);
 
 /// A system with parameter values.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq, Hash)]
 pub struct Bound {
     /// The resolved system.
     pub system: System,

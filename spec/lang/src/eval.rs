@@ -254,6 +254,7 @@ impl Bound {
     }
 }
 
+#[inline]
 fn load(space: Space, k: usize, cells: Cells, m: &mut impl Memory) -> i64 {
     i64::from(match space {
         Space::Param => cells.params[k],
@@ -261,6 +262,16 @@ fn load(space: Space, k: usize, cells: Cells, m: &mut impl Memory) -> i64 {
         Space::Now => m.now(k),
         Space::Input => m.input(k),
     })
+}
+
+/// Value of a part of an expression. Most parts are single values, which need no call.
+#[inline(always)]
+fn part(node: &Node, cells: Cells, m: &mut impl Memory) -> i64 {
+    match node {
+        Node::Const(v) => *v,
+        Node::Cell(space, k) => load(*space, *k as usize, cells, m),
+        other => value(other, cells, m),
+    }
 }
 
 /// Value of an expression. Truth values are 0 and 1.
@@ -284,20 +295,20 @@ pub(crate) fn value(node: &Node, cells: Cells, m: &mut impl Memory) -> i64 {
             index,
             ..
         } => {
-            let offset = value(index, cells, m) - lo;
+            let offset = part(index, cells, m) - lo;
             load(*space, *base as usize + offset as usize, cells, m)
         }
-        Node::Not(a) => i64::from(value(a, cells, m) == 0),
-        Node::Neg(a) => -value(a, cells, m),
-        Node::Abs(a) => value(a, cells, m).abs(),
+        Node::Not(a) => i64::from(part(a, cells, m) == 0),
+        Node::Neg(a) => -part(a, cells, m),
+        Node::Abs(a) => part(a, cells, m).abs(),
         Node::Binary(op, a, b) => binary(*op, a, b, cells, m),
         Node::Sel(g, a, b) => {
-            let chosen = if value(g, cells, m) == 0 { a } else { b };
-            value(chosen, cells, m)
+            let chosen = if part(g, cells, m) == 0 { a } else { b };
+            part(chosen, cells, m)
         }
         Node::Mux(k, values) => {
-            let k = value(k, cells, m) as usize;
-            value(&values[k], cells, m)
+            let k = part(k, cells, m) as usize;
+            part(&values[k], cells, m)
         }
         Node::Min(values) => {
             let mut least = i64::MAX;
@@ -316,14 +327,15 @@ pub(crate) fn value(node: &Node, cells: Cells, m: &mut impl Memory) -> i64 {
     }
 }
 
+#[inline]
 fn binary(op: BinaryOp, a: &Node, b: &Node, cells: Cells, m: &mut impl Memory) -> i64 {
-    let x = value(a, cells, m);
+    let x = part(a, cells, m);
     match op {
         BinaryOp::And if x == 0 => return 0,
         BinaryOp::Or if x != 0 => return 1,
         _ => {}
     }
-    let y = value(b, cells, m);
+    let y = part(b, cells, m);
     match op {
         BinaryOp::And | BinaryOp::Or => i64::from(y != 0),
         BinaryOp::Xor | BinaryOp::Ne => i64::from(x != y),

@@ -3,7 +3,7 @@
 pub use crate::syntax::ast::BinaryOp;
 
 /// Type of a scalar value. Times are integers of cycles.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Ty {
     /// Truth value, stored as 0 or 1.
     Bool,
@@ -14,7 +14,7 @@ pub enum Ty {
 }
 
 /// A group of cells an expression can index.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Space {
     /// Parameters.
     Param,
@@ -27,7 +27,7 @@ pub enum Space {
 }
 
 /// A typed expression over cells.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Hash)]
 pub enum Node {
     /// Literal.
     Const(i64),
@@ -142,7 +142,7 @@ impl Node {
 }
 
 /// A cell: parameter, state variable or input.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Hash)]
 pub struct Var {
     /// Full name, e.g. `stop[1].level` or `limit[0]`.
     pub name: String,
@@ -159,7 +159,7 @@ pub struct Var {
 }
 
 /// A parameter of the system.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Hash)]
 pub struct Param {
     /// Name, type and range.
     pub var: Var,
@@ -170,7 +170,7 @@ pub struct Param {
 }
 
 /// A state variable.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Hash)]
 pub struct State {
     /// Name, type and range.
     pub var: Var,
@@ -179,7 +179,7 @@ pub struct State {
 }
 
 /// What a named expression is, for reports.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum LazyKind {
     /// `let` of a machine.
     Let,
@@ -190,7 +190,7 @@ pub enum LazyKind {
 }
 
 /// A named expression.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Hash)]
 pub struct Lazy {
     /// Full name.
     pub name: String,
@@ -211,7 +211,7 @@ pub struct Lazy {
 }
 
 /// A statement of an effect.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Hash)]
 pub enum Stmt {
     /// Assigns to a state cell; a value outside the range is fault `site`.
     Assign {
@@ -252,14 +252,14 @@ impl Stmt {
 }
 
 /// A place where a value can leave its range.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Hash)]
 pub struct Site {
     /// `machine.rule: variable`.
     pub name: String,
 }
 
 /// A rule.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Hash)]
 pub struct Rule {
     /// Full name, `instance.rule`.
     pub name: String,
@@ -274,7 +274,7 @@ pub struct Rule {
 }
 
 /// An instance of a machine, in the order of stepping.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Hash)]
 pub struct Instance {
     /// Name, with index for arrays.
     pub name: String,
@@ -287,7 +287,7 @@ pub struct Instance {
 }
 
 /// The form of a property; numbers are indices into [`System::atoms`], of `observe` into [`System::observed`].
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Hash)]
 pub enum Form {
     /// Holds in each cycle (in which `when` holds).
     Always {
@@ -374,7 +374,7 @@ impl Form {
 }
 
 /// In which table of a report a property stands.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Topic {
     /// What becomes of a single fault.
     Fault,
@@ -383,7 +383,7 @@ pub enum Topic {
 }
 
 /// What the report on a bounded response is to show, over parameters: stated, so that a change fails the check.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, Hash)]
 pub struct Stated {
     /// The least bound that holds, in cycles.
     pub exactly: Option<Node>,
@@ -392,7 +392,7 @@ pub struct Stated {
 }
 
 /// A property of a system.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Hash)]
 pub struct Property {
     /// Id as in the file; copies over an index variable share it.
     pub id: String,
@@ -415,7 +415,7 @@ pub struct Property {
 }
 
 /// An enum.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Hash)]
 pub struct Enum {
     /// Name.
     pub name: String,
@@ -426,7 +426,7 @@ pub struct Enum {
 }
 
 /// A reading and its options, the recommended one first.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Hash)]
 pub struct Reading {
     /// Id, e.g. `A-25`.
     pub id: String,
@@ -439,7 +439,7 @@ pub struct Reading {
 }
 
 /// A resolved system.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Hash)]
 pub struct System {
     /// `specification/system`.
     pub name: String,

@@ -12,9 +12,13 @@ pub(super) struct Desk {
     inputs: Vec<i32>,
     names: Vec<i32>,
     ranges: Vec<(i32, i32)>,
+    /// The state variables as the step finds them.
+    found: Vec<i32>,
     /// The inputs read here, in this order, with their values; the last one turns fastest.
     choices: Vec<(usize, i32)>,
     at: usize,
+    /// The names evaluated here, in this order, each with the number of inputs read until then.
+    log: Vec<(usize, usize)>,
     rule: usize,
 }
 
@@ -26,19 +30,18 @@ impl Desk {
             inputs: vec![UNSET; bound.inputs.len()],
             names: vec![UNSET; bound.system.lazies.len()],
             ranges: bound.inputs.clone(),
+            found: vec![UNSET; bound.states.len()],
             choices: Vec::new(),
             at: 0,
+            log: Vec::new(),
             rule: 0,
         }
     }
 
-    /// The first combination comes next.
-    pub(super) fn begin(&mut self) {
-        self.choices.clear();
-    }
-
-    /// Lays out what a stage may look at: state variables before the cycle, and what was left to it.
+    /// Lays out what a stage may look at: state variables before the cycle, and what was left to it. The first combination comes next.
     pub(super) fn start(&mut self, before: &[i32], stage: &Stage, cells: &[Cell], values: &[i32]) {
+        self.choices.clear();
+        self.log.clear();
         self.at = 0;
         self.rule = 0;
         self.inputs.fill(UNSET);
@@ -57,6 +60,7 @@ impl Desk {
                 Cell::Named(k) => self.names[*k] = *value,
             }
         }
+        self.found.copy_from_slice(&self.now);
     }
 
     /// The values of these cells.
@@ -88,11 +92,22 @@ impl Desk {
     }
 
     /// The next combination; false if there is none.
+    ///
+    /// The step up to the first input that has another value is what it was. So the inputs before it count as read, and what was
+    /// named before it was read keeps its value.
     pub(super) fn advance(&mut self) -> bool {
         self.choices.truncate(self.at);
         while let Some((k, value)) = self.choices.last_mut() {
+            self.inputs[*k] = UNSET;
             if *value < self.ranges[*k].1 {
                 *value += 1;
+                self.at = self.choices.len() - 1;
+                self.rule = 0;
+                self.now.copy_from_slice(&self.found);
+                let kept = self.log.partition_point(|(_, read)| *read <= self.at);
+                for (name, _) in self.log.drain(kept..) {
+                    self.names[name] = UNSET;
+                }
                 return true;
             }
             self.choices.pop();
@@ -102,16 +117,19 @@ impl Desk {
 }
 
 impl Memory for Desk {
+    #[inline]
     fn before(&mut self, k: usize) -> i32 {
         debug_assert_ne!(self.before[k], UNSET, "more is read than was foreseen");
         self.before[k]
     }
 
+    #[inline]
     fn now(&mut self, k: usize) -> i32 {
         debug_assert_ne!(self.now[k], UNSET, "more is read than was foreseen");
         self.now[k]
     }
 
+    #[inline]
     fn input(&mut self, k: usize) -> i32 {
         if self.inputs[k] == UNSET {
             if self.at == self.choices.len() {
@@ -125,18 +143,23 @@ impl Memory for Desk {
         self.inputs[k]
     }
 
+    #[inline]
     fn named(&mut self, k: usize) -> Option<i32> {
         Some(self.names[k]).filter(|value| *value != UNSET)
     }
 
+    #[inline]
     fn assign(&mut self, k: usize, value: i32) {
         self.now[k] = value;
     }
 
+    #[inline]
     fn name(&mut self, k: usize, value: i32) {
         self.names[k] = value;
+        self.log.push((k, self.at));
     }
 
+    #[inline]
     fn fired(&mut self, _: usize, rule: usize) {
         self.rule = rule;
     }

@@ -92,7 +92,7 @@ impl Stages for Staged {
         } = self;
         let own = &plan.stages[stage];
         let values = classes[stage].values[class as usize].clone();
-        desk.begin();
+        desk.start(before, own, &plan.boundaries[stage], &values);
         let mut vectors = 0;
         loop {
             vectors += 1;
@@ -100,7 +100,6 @@ impl Stages for Staged {
                 // The states that need it are made one by one.
                 return Err(Fault::OUT_OF_DOMAIN);
             }
-            desk.start(before, own, &plan.boundaries[stage], &values);
             let step = plan.bound.step_over(stage, desk);
             step.map_err(|code| Fault { code })?;
             for name in &own.forced {
