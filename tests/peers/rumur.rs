@@ -3,7 +3,7 @@
 //! A user without rumur or gcc sees that the tests were skipped; where the environment has `CI`, they fail then.
 
 use std::collections::BTreeSet;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use stillpoint_engine::subject::{Subject, Task};
 use stillpoint_harness::export::murphi::{RANGE, murphi};
@@ -147,12 +147,11 @@ fn compare_all(path: &Path, transitions: u128) -> Vec<(String, Option<BTreeSet<S
     compared.collect()
 }
 
-/// Compares the shipped systems with no more transitions than this; the answer is how many, and which are larger.
-fn compare_shipped(transitions: u128) -> (usize, BTreeSet<String>) {
-    let files = shipped();
+/// Compares the systems of these files with no more transitions than this; the answer is how many, and which are larger.
+fn compare_shipped(files: &[PathBuf], transitions: u128) -> (usize, BTreeSet<String>) {
     let mut compared = 0;
     let mut left_out = BTreeSet::new();
-    let all = each(&files, |path| compare_all(path, transitions));
+    let all = each(files, |path| compare_all(path, transitions));
     for (name, broken) in all.into_iter().flatten() {
         match broken {
             Some(broken) => {
@@ -165,18 +164,19 @@ fn compare_shipped(transitions: u128) -> (usize, BTreeSet<String>) {
     (compared, left_out)
 }
 
+/// Every other file, those that SPIN does not compare daily.
 #[test]
 fn most_shipped_systems_have_the_same_states_and_verdicts() {
     if !tools(&TOOLS) {
         return;
     }
-    let (compared, left_out) = compare_shipped(QUICK);
+    let files: Vec<_> = shipped().into_iter().skip(1).step_by(2).collect();
+    let (compared, left_out) = compare_shipped(&files, QUICK);
     println!(
         "{compared} systems in rumur and here, {} larger",
         left_out.len()
     );
-    assert!(compared >= 100, "{left_out:?}");
-    assert!(exceptions("rumur").is_subset(&left_out));
+    assert!(compared >= 50, "{left_out:?}");
 }
 
 #[test]
@@ -186,7 +186,7 @@ fn shipped_systems_have_the_same_states_and_verdicts() {
         return;
     }
     assert_eq!(
-        compare_shipped(TRANSITIONS).1,
+        compare_shipped(&shipped(), TRANSITIONS).1,
         exceptions("rumur"),
         "the systems that are too large"
     );

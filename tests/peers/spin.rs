@@ -3,7 +3,7 @@
 //! A user without SPIN or gcc sees that the tests were skipped; where the environment has `CI`, they fail then.
 
 use std::collections::BTreeSet;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
 use stillpoint_harness::export::promela::{Promela, promela};
@@ -162,12 +162,11 @@ fn the_yardstick_has_its_states() {
     assert_eq!((found.states, found.errors), (4_024_036, 0));
 }
 
-/// Compares the shipped systems of no more transitions: how many they are, and which are left out.
-fn compare_shipped(most: u128) -> (usize, BTreeSet<String>) {
+/// Compares the systems of these files of no more transitions: how many they are, and which are left out.
+fn compare_shipped(files: &[PathBuf], most: u128) -> (usize, BTreeSet<String>) {
     let exceptions = exceptions("spin");
-    let files = shipped();
     let (mut compared, mut left_out) = (0, BTreeSet::new());
-    let all = each(&files, |path| compare(path, &exceptions, most));
+    let all = each(files, |path| compare(path, &exceptions, most));
     for (path, one) in files.iter().zip(all) {
         assert_eq!(one.broken, 0, "{}", path.display());
         compared += one.compared;
@@ -176,18 +175,19 @@ fn compare_shipped(most: u128) -> (usize, BTreeSet<String>) {
     (compared, left_out)
 }
 
+/// Every other file, those that rumur does not compare daily.
 #[test]
 fn most_shipped_systems_have_the_same_states() {
     if !tools(&TOOLS) {
         return;
     }
-    let (compared, left_out) = compare_shipped(QUICK);
+    let files: Vec<_> = shipped().into_iter().step_by(2).collect();
+    let (compared, left_out) = compare_shipped(&files, QUICK);
     println!(
         "{compared} systems in SPIN and here, {} larger",
         left_out.len()
     );
-    assert!(compared >= 100, "{left_out:?}");
-    assert!(exceptions("spin").is_subset(&left_out));
+    assert!(compared >= 50, "{left_out:?}");
 }
 
 #[test]
@@ -196,7 +196,7 @@ fn shipped_systems_have_the_same_states() {
     if !tools(&TOOLS) {
         return;
     }
-    let (compared, left_out) = compare_shipped(u128::MAX);
+    let (compared, left_out) = compare_shipped(&shipped(), u128::MAX);
     println!("{compared} systems in SPIN and here");
     assert_eq!(
         left_out,

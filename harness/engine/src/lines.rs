@@ -19,32 +19,52 @@ pub struct Line {
     pub text: String,
     /// The value that it computed.
     pub value: String,
+    /// So many cycles before the last one of the run.
+    pub before: usize,
+}
+
+/// What these lines are, in words.
+pub fn heading(lines: &[Line]) -> String {
+    let when = match lines.first().map_or(0, |line| line.before) {
+        0 => "what the program computes in the last cycle".to_owned(),
+        1 => "what the program computed when it ran last, in the cycle before".to_owned(),
+        n => format!("what the program computed when it ran last, {n} cycles before"),
+    };
+    format!("{when}, as far as it decides this")
 }
 
 /// The lines that decide what a property says of the last cycle of a run, in the order of the program: for a choice the branch
 /// that was taken, for AND and OR the operand that decides. Where the property reads nothing of the program itself, the lines that
-/// decide what the program gives in that cycle. None where no program is part of the system.
+/// decide what the program gives in that cycle. A program that has a cycle of its own need not run in that one: then it is the cycle in
+/// which it ran last. None where no program is part of the system.
 pub fn deciding(bound: &Bound, property: &Property, trace: &Trace) -> Vec<Line> {
     let cycles = replay(bound, trace);
-    let Some(cycle) = cycles.last() else {
-        return Vec::new();
-    };
+    let latest = cycles.iter().rev().enumerate();
+    let mut found = latest.map(|(before, cycle)| of_cycle(bound, property, cycle, before));
+    found.find(|lines| !lines.is_empty()).unwrap_or_default()
+}
+
+/// The lines that decide the property in this cycle, if it is the last one, else what the program gives.
+fn of_cycle(bound: &Bound, property: &Property, cycle: &Cycle, before: usize) -> Vec<Line> {
     let told = bound.system.lazies.iter();
     let told = told.filter(|lazy| line(&lazy.text).is_some());
     let programs: BTreeSet<Option<&str>> = told.map(|lazy| instance(&lazy.name)).collect();
     let mut search = Search {
         bound,
         cycle,
+        before,
         several: programs.len() > 1,
         seen: BTreeSet::new(),
         lines: BTreeSet::new(),
     };
-    let (atoms, observed) = property.form.expressions();
-    let system = &bound.system;
-    atoms.iter().for_each(|k| search.visit(&system.atoms[*k]));
-    observed
-        .iter()
-        .for_each(|k| search.visit(&system.observed[*k]));
+    if before == 0 {
+        let (atoms, observed) = property.form.expressions();
+        let system = &bound.system;
+        atoms.iter().for_each(|k| search.visit(&system.atoms[*k]));
+        observed
+            .iter()
+            .for_each(|k| search.visit(&system.observed[*k]));
+    }
     if search.lines.is_empty() {
         search.outputs();
     }
@@ -65,6 +85,8 @@ fn instance(name: &str) -> Option<&str> {
 struct Search<'a> {
     bound: &'a Bound,
     cycle: &'a Cycle,
+    /// How many cycles come after it.
+    before: usize,
     /// Several programs have lines: each is told with the instance that it belongs to.
     several: bool,
     seen: BTreeSet<u32>,
@@ -107,6 +129,7 @@ impl Search<'_> {
             number,
             text,
             value: self.bound.system.show(lazy.ty, value),
+            before: self.before,
         });
     }
 

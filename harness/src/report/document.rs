@@ -377,6 +377,7 @@ fn counterexamples(subject: &Subject, checked: &[Checked]) -> Vec<Block> {
 fn program(violation: &Violation<'_>) -> Option<Block> {
     let (property, trace) = (violation.property?, violation.trace?);
     let lines = lines::deciding(&violation.task.bound, property, trace);
+    let heading = lines::heading(&lines);
     let rows = lines.into_iter().map(|line| {
         vec![
             words(line.number.to_string()),
@@ -385,11 +386,7 @@ fn program(violation: &Violation<'_>) -> Option<Block> {
         ]
     });
     let rows: Vec<_> = rows.collect();
-    let heads = [
-        "#line",
-        "value",
-        "what the program computes in the last cycle, as far as it decides this",
-    ];
+    let heads = ["#line", "value", &heading];
     (!rows.is_empty()).then(|| table(&heads, rows))
 }
 

@@ -34,7 +34,7 @@ pub fn to_json(subject: &Subject, checked: &[Checked], summaries: &[Summary]) ->
                     let broken = j.trace.as_ref().filter(|_| j.verdict == Verdict::Violated);
                     let lines = broken.map_or_else(Vec::new, |t| lines::deciding(&task.bound, p, t));
                     let lines: Vec<Value> = (lines.iter())
-                        .map(|l| json!({ "line": l.number, "value": l.value, "text": l.text }))
+                        .map(|l| json!({ "line": l.number, "value": l.value, "text": l.text, "before": l.before }))
                         .collect();
                     let by = done.decisive.get(&k).map_or(&[][..], Vec::as_slice);
                     let by: Vec<Value> = by.iter().map(decisive).collect();

@@ -278,12 +278,13 @@ fn run(out: &mut String, n: usize, task: &Task, done: &Checked, all: bool) {
 /// The lines of a program that decide the last cycle of a run.
 fn program(out: &mut String, lines: &[Line]) {
     if !lines.is_empty() {
-        out.push_str("  what the program computes in the last cycle, as far as it decides this:\n");
+        let _ = writeln!(out, "  {}:", lines::heading(lines));
     }
     for Line {
         number,
         text,
         value,
+        ..
     } in lines
     {
         let _ = writeln!(out, "    line {number:>4}  {value:<6} {text}");
