@@ -123,6 +123,24 @@ fn the_machining_centre_keeps_every_property() {
     assert!(properties >= 200, "{properties}");
 }
 
+/// An exploration is spared exactly where the same system with the same values was explored before.
+#[test]
+fn equal_explorations_are_made_once() {
+    let (subject, checked) = &*MACHINING_CENTRE;
+    let mut spared = 0;
+    for (n, (task, done)) in subject.tasks.iter().zip(checked).enumerate() {
+        let mut before = subject.tasks[..n].iter().zip(checked);
+        let same = before.find(|(earlier, _)| earlier.bound == task.bound);
+        assert_eq!(same.is_some(), done.again, "{}", task.title);
+        if let Some((_, first)) = same {
+            let verdicts = |c: &Checked| c.outcome.report.properties.clone();
+            assert_eq!(verdicts(first), verdicts(done), "{}", task.title);
+            spared += 1;
+        }
+    }
+    assert!(spared >= 2, "{spared}");
+}
+
 #[test]
 #[ignore = "deep: minutes"]
 fn the_logic_and_the_kernel_of_the_machining_centre_keep_every_property() {
