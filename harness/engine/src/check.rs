@@ -155,9 +155,10 @@ pub fn check(
             settings.witnesses,
             settings.until,
         );
-        let identity = identity(&task.bound, &how);
         // The other processes of a cluster know nothing of what this one has found.
-        let found = known.find(&identity).filter(|_| settings.cluster.is_none());
+        let alone = settings.cluster.is_none();
+        let identity = alone.then(|| identity(&task.bound, &how));
+        let found = identity.as_ref().and_then(|identity| known.find(identity));
         let again = found.is_some();
         let outcome = match (found, &settings.cluster) {
             (Some(found), _) => Ok(found),
@@ -177,7 +178,9 @@ pub fn check(
             ),
         }
         .map_err(|e| (task.title.clone(), e))?;
-        known.keep(identity, &outcome);
+        if let Some(identity) = identity.filter(|_| !again) {
+            known.keep(identity, &outcome);
+        }
         let unfired = unfired(task, &outcome);
         let alone = settings.cluster.as_ref().is_none_or(|c| c.process() == 0);
         let excluded = match subject.machine.is_some() && alone {

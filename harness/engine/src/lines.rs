@@ -38,37 +38,18 @@ pub fn heading(lines: &[Line]) -> String {
 /// decide what the program gives in that cycle. A program that has a cycle of its own need not run in that one: then it is the cycle in
 /// which it ran last. None where no program is part of the system.
 pub fn deciding(bound: &Bound, property: &Property, trace: &Trace) -> Vec<Line> {
-    let cycles = replay(bound, trace);
-    let latest = cycles.iter().rev().enumerate();
-    let mut found = latest.map(|(before, cycle)| of_cycle(bound, property, cycle, before));
-    found.find(|lines| !lines.is_empty()).unwrap_or_default()
-}
-
-/// The lines that decide the property in this cycle, if it is the last one, else what the program gives.
-fn of_cycle(bound: &Bound, property: &Property, cycle: &Cycle, before: usize) -> Vec<Line> {
     let told = bound.system.lazies.iter();
     let told = told.filter(|lazy| line(&lazy.text).is_some());
     let programs: BTreeSet<Option<&str>> = told.map(|lazy| instance(&lazy.name)).collect();
-    let mut search = Search {
-        bound,
-        cycle,
-        before,
-        several: programs.len() > 1,
-        seen: BTreeSet::new(),
-        lines: BTreeSet::new(),
-    };
-    if before == 0 {
-        let (atoms, observed) = property.form.expressions();
-        let system = &bound.system;
-        atoms.iter().for_each(|k| search.visit(&system.atoms[*k]));
-        observed
-            .iter()
-            .for_each(|k| search.visit(&system.observed[*k]));
+    if programs.is_empty() {
+        return Vec::new();
     }
-    if search.lines.is_empty() {
-        search.outputs();
-    }
-    search.lines.into_iter().collect()
+    let several = programs.len() > 1;
+    let cycles = replay(bound, trace);
+    let latest = cycles.iter().rev().enumerate();
+    let mut found =
+        latest.map(|(before, cycle)| Search::new(bound, cycle, before, several).of(property));
+    found.find(|lines| !lines.is_empty()).unwrap_or_default()
 }
 
 /// The line of a program that the text of a named expression begins with.
@@ -93,7 +74,33 @@ struct Search<'a> {
     lines: BTreeSet<Line>,
 }
 
-impl Search<'_> {
+impl<'a> Search<'a> {
+    fn new(bound: &'a Bound, cycle: &'a Cycle, before: usize, several: bool) -> Self {
+        Self {
+            bound,
+            cycle,
+            before,
+            several,
+            seen: BTreeSet::new(),
+            lines: BTreeSet::new(),
+        }
+    }
+
+    /// The lines that decide the property, if this is the last cycle; where there are none, those that decide what the program gives.
+    fn of(mut self, property: &Property) -> Vec<Line> {
+        if self.before == 0 {
+            let system = &self.bound.system;
+            let (atoms, observed) = property.form.expressions();
+            atoms.iter().for_each(|k| self.visit(&system.atoms[*k]));
+            let observed = observed.iter();
+            observed.for_each(|k| self.visit(&system.observed[*k]));
+        }
+        if self.lines.is_empty() {
+            self.outputs();
+        }
+        self.lines.into_iter().collect()
+    }
+
     fn value(&self, node: &Node) -> i64 {
         let mut frame: Frame = self.cycle.frame.clone();
         // An input that nobody read decides nothing: any value will do.
