@@ -122,8 +122,8 @@ fn verdicts_of(
 ) -> Result<BTreeMap<String, Verdict>, Failed> {
     let mut runs = machine.runs.clone();
     runs.retain(|run| run.guarantee.is_some());
-    let subject = subject::of_runs(path, machine, &runs, &Readings::new())?;
-    let checked = check(&subject, settings, &mut |_| Box::new(()))
+    let mut subject = subject::of_runs(path, machine, &runs, &Readings::new())?;
+    let checked = check(&mut subject, settings, &mut |_| Box::new(()))
         .map_err(|(title, e)| Failed::Other(format!("{title}: {e}")))?;
     let summaries = summarise(&subject, &checked).into_iter();
     let mut found: BTreeMap<_, _> = summaries.map(|s| (s.id, s.verdict)).collect();

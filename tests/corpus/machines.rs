@@ -18,8 +18,8 @@ fn load(file: &str) -> Subject {
 /// A machine, and what its check has found.
 pub(crate) type Whole = (Subject, Vec<Checked>);
 
-fn whole(subject: Subject) -> Whole {
-    let checked = check(&subject, &Settings::default(), &mut |_| Box::new(()))
+fn whole(mut subject: Subject) -> Whole {
+    let checked = check(&mut subject, &Settings::default(), &mut |_| Box::new(()))
         .unwrap_or_else(|(t, e)| panic!("{t}: {e}"));
     (subject, checked)
 }
@@ -160,7 +160,7 @@ fn a_program_that_ignores_the_doors_is_found() {
     };
     subject.tasks.retain(with_logic);
     assert_eq!(subject.tasks.len(), 7);
-    let checked = check(&subject, &Settings::default(), &mut |_| Box::new(()))
+    let checked = check(&mut subject, &Settings::default(), &mut |_| Box::new(()))
         .unwrap_or_else(|(t, e)| panic!("{t}: {e}"));
     for (task, done) in subject.tasks.iter().zip(&checked) {
         let judged = done.outcome.report.properties.iter();

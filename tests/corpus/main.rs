@@ -11,6 +11,7 @@ mod db18;
 mod fuzz;
 mod guarantees;
 mod interface;
+mod loose;
 mod machines;
 mod manuals;
 mod messages;

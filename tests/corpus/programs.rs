@@ -125,7 +125,7 @@ pub(super) fn checked(subject: &Subject) -> Vec<Checked> {
         until: Until::Decided,
         ..Settings::default()
     };
-    check(subject, &settings, &mut |_| Box::new(()))
+    check(&mut subject.clone(), &settings, &mut |_| Box::new(()))
         .unwrap_or_else(|(title, e)| panic!("{title}: {e}"))
 }
 

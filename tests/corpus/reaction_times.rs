@@ -12,7 +12,7 @@ use stillpoint_tests::root;
 
 const FILE: &str = "spec/families/sinumerik-840d/reaction.toml";
 
-fn report(subject: &Subject) -> serde_json::Value {
+fn report(subject: &mut Subject) -> serde_json::Value {
     let settings = Settings {
         interpret: true,
         ..Settings::default()
@@ -24,8 +24,8 @@ fn report(subject: &Subject) -> serde_json::Value {
 
 #[test]
 fn every_reaction_is_within_what_is_allowed() {
-    let subject = subject::load(&root().join(FILE), &Readings::new()).expect("loads");
-    let report = report(&subject);
+    let mut subject = subject::load(&root().join(FILE), &Readings::new()).expect("loads");
+    let report = report(&mut subject);
     let rows = report["reactions"].as_array().expect("the table");
     assert!(rows.len() >= 20, "{rows:?}");
     for row in rows {
@@ -116,9 +116,9 @@ fn a_bound_that_is_not_as_recorded_fails_the_check() {
         std::fs::write(&path, changed).expect("written");
         let subject = subject::load(&path, &Readings::new());
         std::fs::remove_file(&path).expect("removed");
-        let subject = subject.expect("loads");
+        let mut subject = subject.expect("loads");
         let settings = Settings::default();
-        let checked = check(&subject, &settings, &mut |_| Box::new(())).expect("explored");
+        let checked = check(&mut subject, &settings, &mut |_| Box::new(())).expect("explored");
         let summaries = summarise(&subject, &checked);
         assert_eq!(exit_status(&summaries, &checked), 1);
         let violations = violations(&subject, &checked);

@@ -149,14 +149,14 @@ fn alike(file: &str, name: &str, least: u64) {
         let params = BTreeMap::from([("t_clear".to_owned(), vec![clear])]);
         let bound = Bound::new(system, &params, &chosen).unwrap_or_else(|e| panic!("{e}"));
         let title = format!("{name}, {chosen:?}, t_clear = {clear}");
-        let subject = Subject {
+        let mut subject = Subject {
             path: family("both.toml"),
             name: "both".to_owned(),
             title: String::new(),
             machine: None,
             tasks: vec![task(&spec, bound, title.clone())],
         };
-        let done = check(&subject, &Settings::default(), &mut |_| Box::new(()))
+        let done = check(&mut subject, &Settings::default(), &mut |_| Box::new(()))
             .unwrap_or_else(|(t, e)| panic!("{t}: {e}"));
         let report = &done[0].outcome.report;
         println!(
@@ -193,6 +193,7 @@ fn task(spec: &Spec, bound: Bound, title: String) -> Task {
         analysis,
         file: family("both.toml"),
         sources: BTreeMap::new(),
+        loose: None,
     }
 }
 

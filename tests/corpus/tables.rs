@@ -10,8 +10,8 @@ use stillpoint_tests::{exceptions, files_under_construction, specification_files
 
 /// What is wrong with a file.
 fn wrong(path: &Path) -> Option<String> {
-    let subject = subject::load(path, &Readings::new()).unwrap_or_else(|e| panic!("{e}"));
-    let checked = match check(&subject, &Settings::default(), &mut |_| Box::new(())) {
+    let mut subject = subject::load(path, &Readings::new()).unwrap_or_else(|e| panic!("{e}"));
+    let checked = match check(&mut subject, &Settings::default(), &mut |_| Box::new(())) {
         Ok(checked) => checked,
         Err((title, e)) => return Some(format!("{title}: {e}")),
     };

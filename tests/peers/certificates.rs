@@ -34,12 +34,12 @@ fn scratch(name: &str) -> PathBuf {
 
 /// Checks a file and certifies the report; the certificate, and the verdicts of the report by system and property.
 fn produce(file: &Path, threads: usize) -> (Vec<u8>, BTreeMap<(String, String), String>) {
-    let subject = subject::load(file, &BTreeMap::new()).unwrap_or_else(|e| panic!("{e}"));
+    let mut subject = subject::load(file, &BTreeMap::new()).unwrap_or_else(|e| panic!("{e}"));
     let settings = Settings {
         threads,
         ..Settings::default()
     };
-    let checked = check(&subject, &settings, &mut |_| Box::new(()))
+    let checked = check(&mut subject, &settings, &mut |_| Box::new(()))
         .unwrap_or_else(|(title, e)| panic!("{title}: {e}"));
     let name = file
         .file_stem()
@@ -282,12 +282,12 @@ fn what_the_engines_find_about_random_systems_is_confirmed() {
 
 #[test]
 fn a_limit_leaves_only_what_was_seen() {
-    let subject = subject::load(&forms(), &BTreeMap::new()).expect("loads");
+    let mut subject = subject::load(&forms(), &BTreeMap::new()).expect("loads");
     let settings = Settings {
         time: Some(std::time::Duration::ZERO),
         ..Settings::default()
     };
-    let checked = check(&subject, &settings, &mut |_| Box::new(())).expect("explored");
+    let checked = check(&mut subject, &settings, &mut |_| Box::new(())).expect("explored");
     assert!(checked.iter().all(|c| !c.outcome.report.complete));
     let path = scratch("limit.cert");
     let written = certificate::certify(&path, &subject, &checked, 1, &|_, _| ()).expect("written");
@@ -319,7 +319,7 @@ fn a_certificate_costs_at_most_twice_the_check() {
         ..Settings::default()
     };
     let explored = || {
-        check(&subject, &settings, &mut |_| Box::new(()))
+        check(&mut subject.clone(), &settings, &mut |_| Box::new(()))
             .unwrap_or_else(|(title, e)| panic!("{title}: {e}"))
     };
     let checked = explored();

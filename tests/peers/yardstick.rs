@@ -10,13 +10,13 @@ use stillpoint_tests::root;
 /// The report without what differs from run to run.
 fn run(threads: usize, interpret: bool) -> (Report, Evaluator) {
     let path = root().join("spec/bench/two-axis.toml");
-    let subject = subject::load(&path, &Readings::new()).unwrap_or_else(|e| panic!("{e}"));
+    let mut subject = subject::load(&path, &Readings::new()).unwrap_or_else(|e| panic!("{e}"));
     let settings = Settings {
         threads,
         interpret,
         ..Settings::default()
     };
-    let mut checked = check(&subject, &settings, &mut |_| Box::new(()))
+    let mut checked = check(&mut subject, &settings, &mut |_| Box::new(()))
         .unwrap_or_else(|(t, e)| panic!("{t}: {e}"));
     let json = to_json(&subject, &checked, &summarise(&subject, &checked));
     assert_eq!(json["states"], 4_024_036);

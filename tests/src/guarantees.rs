@@ -58,13 +58,13 @@ fn explored(
     runs: &[Run],
     settings: &Settings,
 ) -> (Subject, Vec<Checked>) {
-    let subject =
+    let mut subject =
         subject::of_runs(path, machine, runs, &Readings::new()).unwrap_or_else(|e| panic!("{e}"));
     let settings = Settings {
         known: Some(KNOWN.clone()),
         ..settings.clone()
     };
-    let checked = check(&subject, &settings, &mut |_| Box::new(()))
+    let checked = check(&mut subject, &settings, &mut |_| Box::new(()))
         .unwrap_or_else(|(t, e)| panic!("{t}: {e}"));
     (subject, checked)
 }

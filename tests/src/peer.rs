@@ -212,11 +212,16 @@ pub fn explored(subject: &Subject, task: &Task) -> Report {
 }
 
 fn explored_now(subject: &Subject, task: &Task) -> Report {
-    let alone = Subject {
+    let mut alone = Subject {
         tasks: vec![task.clone()],
         ..subject.clone()
     };
-    let mut all = check(&alone, &Settings::default(), &mut |_| Box::new(()))
+    // What others are given is the system itself.
+    let settings = Settings {
+        exact: true,
+        ..Settings::default()
+    };
+    let mut all = check(&mut alone, &settings, &mut |_| Box::new(()))
         .unwrap_or_else(|(t, e)| panic!("{t}: {e}"));
     let report = all.remove(0).outcome.report;
     assert!(report.complete, "{}: {}", subject.name, task.title);

@@ -161,12 +161,14 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         witnesses: (arguments.markdown || arguments.html.is_some()) && place.cluster.is_none(),
         cluster: place.cluster.clone(),
         interrupt: Some(interrupt.handle()),
+        // A certificate is about the system that whoever checks it makes of the file.
+        exact: arguments.certificate.is_some(),
         ..Settings::default()
     };
     let start = Instant::now();
     let fail =
         |(title, e): (String, stillpoint_model::Error)| Failure::Other(format!("{title}: {e}"));
-    let checked = check(&subject, &settings, &mut |task| {
+    let checked = check(&mut subject, &settings, &mut |task| {
         Box::new(Line::new(&task.title).within(settings.memory))
     })
     .map_err(fail)?;

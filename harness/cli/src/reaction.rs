@@ -72,7 +72,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let shown =
         |run: &&Run| wishes.axes.is_empty() || run.axes.iter().any(|a| wishes.axes.contains(a));
     let runs: Vec<Run> = reactions.runs.iter().filter(shown).cloned().collect();
-    let subject = subject::of_runs(file, machine.clone(), &runs, &Readings::new())?;
+    let mut subject = subject::of_runs(file, machine.clone(), &runs, &Readings::new())?;
     let interrupt = Interruptible::begin()?;
     let settings = Settings {
         threads: arguments.limits.threads,
@@ -81,7 +81,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         interrupt: Some(interrupt.handle()),
         ..Settings::default()
     };
-    let checked = check(&subject, &settings, &mut |task| {
+    let checked = check(&mut subject, &settings, &mut |task| {
         Box::new(Line::new(&task.title).within(settings.memory))
     })
     .map_err(|(title, e)| Failure::Other(format!("{title}: {e}")))?;

@@ -44,6 +44,8 @@ pub struct Settings {
     pub cluster: Option<Arc<Cluster>>,
     /// Ends everything from outside, as a limit would.
     pub interrupt: Option<Interrupt>,
+    /// Explore nothing loosely, see [`crate::subject::Loose`].
+    pub exact: bool,
     /// What other checks have explored, which need not be explored again; what this one explores is kept there.
     pub known: Option<Arc<Known>>,
 }
@@ -126,12 +128,12 @@ impl Summary {
     }
 }
 
-/// Checks all tasks, one after the other.
+/// Checks all tasks, one after the other. Where one holds loosely its system is the loose one afterwards.
 ///
 /// # Errors
 /// A system that cannot be explored at all, with the task's title.
 pub fn check(
-    subject: &Subject,
+    subject: &mut Subject,
     settings: &Settings,
     progress: &mut dyn FnMut(&Task) -> Box<dyn Progress>,
 ) -> Result<Vec<Checked>, (String, Error)> {
@@ -139,8 +141,11 @@ pub fn check(
     let mut out = Vec::new();
     let mut judge = Judge::default();
     let known = settings.known.clone().unwrap_or_default();
-    for (number, task) in subject.tasks.iter().enumerate() {
-        let options = Options {
+    // What the processes of a cluster share, and what is kept for later, belongs to the system itself.
+    let loosely = !settings.exact && settings.cluster.is_none() && settings.keep.is_none();
+    for number in 0..subject.tasks.len() {
+        let task = &mut subject.tasks[number];
+        let mut options = Options {
             limits: settings.limits(start),
             interrupt: settings.interrupt.clone(),
             // Most reports tell the length of a witness only; rebuilding their runs takes as long as the search.
@@ -149,41 +154,33 @@ pub fn check(
             checkpoint: settings.keep.as_ref().map(|k| k.of(number, &task.bound)),
             ..Options::default()
         };
-        let how = (
-            settings.interpret,
-            settings.reductions,
-            settings.witnesses,
-            settings.until,
-        );
-        // The other processes of a cluster know nothing of what this one has found.
-        let alone = settings.cluster.is_none();
-        let identity = alone.then(|| identity(&task.bound, &how));
-        let found = identity.as_ref().and_then(|identity| known.find(identity));
-        let again = found.is_some();
-        let outcome = match (found, &settings.cluster) {
-            (Some(found), _) => Ok(found),
-            (None, Some(cluster)) => explore::run_together(
-                &task.bound,
-                &options,
-                settings.interpret,
-                progress(task).as_mut(),
-                Some(cluster),
-            ),
-            (None, None) => reduce::run(
-                &task.bound,
-                &options,
-                settings.interpret,
-                settings.reductions,
-                progress(task).as_mut(),
-            ),
+        let mut found = None;
+        if loosely && task.loose.is_some() {
+            task.change();
+            let until = Until::Violated;
+            let options = Options {
+                until,
+                ..options.clone()
+            };
+            let (outcome, again) = explored(task, &options, settings, &known, progress)?;
+            if holds(&outcome) {
+                task.abstractions
+                    .extend(task.loose.as_ref().map(|l| l.text.clone()));
+                found = Some((outcome, again));
+            } else {
+                task.change();
+            }
         }
-        .map_err(|e| (task.title.clone(), e))?;
-        if let Some(identity) = identity.filter(|_| !again) {
-            known.keep(identity, &outcome);
-        }
+        options.limits = settings.limits(start);
+        let (outcome, again) = match found {
+            Some(found) => found,
+            None => explored(task, &options, settings, &known, progress)?,
+        };
+        let task = &subject.tasks[number];
+        let machine = subject.machine.is_some();
         let unfired = unfired(task, &outcome);
         let alone = settings.cluster.as_ref().is_none_or(|c| c.process() == 0);
-        let excluded = match subject.machine.is_some() && alone {
+        let excluded = match machine && alone {
             true => judge
                 .of(task, &outcome, &options, settings.interpret)
                 .map_err(|e| (task.title.clone(), e))?,
@@ -211,6 +208,56 @@ pub fn check(
         }
     }
     Ok(out)
+}
+
+/// Explores the system of a task, unless what comes out is known.
+fn explored(
+    task: &Task,
+    options: &Options,
+    settings: &Settings,
+    known: &Known,
+    progress: &mut dyn FnMut(&Task) -> Box<dyn Progress>,
+) -> Result<(Outcome, bool), (String, Error)> {
+    let how = (
+        settings.interpret,
+        settings.reductions,
+        settings.witnesses,
+        options.until,
+    );
+    // The other processes of a cluster know nothing of what this one has found.
+    let alone = settings.cluster.is_none();
+    let identity = alone.then(|| identity(&task.bound, &how));
+    let found = identity.as_ref().and_then(|identity| known.find(identity));
+    let again = found.is_some();
+    let outcome = match (found, &settings.cluster) {
+        (Some(found), _) => Ok(found),
+        (None, Some(cluster)) => explore::run_together(
+            &task.bound,
+            options,
+            settings.interpret,
+            progress(task).as_mut(),
+            Some(cluster),
+        ),
+        (None, None) => reduce::run(
+            &task.bound,
+            options,
+            settings.interpret,
+            settings.reductions,
+            progress(task).as_mut(),
+        ),
+    }
+    .map_err(|e| (task.title.clone(), e))?;
+    if let Some(identity) = identity.filter(|_| !again) {
+        known.keep(identity, &outcome);
+    }
+    Ok((outcome, again))
+}
+
+/// Whether all that is asked holds, and is put to the test.
+fn holds(outcome: &Outcome) -> bool {
+    let report = &outcome.report;
+    let mut judged = report.properties.iter();
+    report.complete && report.faults.is_empty() && judged.all(|j| j.verdict == Verdict::Holds)
 }
 
 fn unfired(task: &Task, outcome: &Outcome) -> Vec<(String, Unfired)> {

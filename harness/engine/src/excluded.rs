@@ -8,10 +8,10 @@
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use stillpoint_lang::bind::Bound;
-use stillpoint_model::{Error, Form, Limits, Options, Property, Until, Verdict, explore};
+use stillpoint_model::{Error, Form, Options, Property, Until, Verdict, explore};
 
 use crate::outcome::Outcome;
 use crate::subject::Task;
@@ -20,8 +20,8 @@ use crate::table::{Generated, Interpreted, properties};
 /// Beyond this many states of the family's own configuration it is not asked which of the values decides.
 const SMALL: u64 = 100_000;
 
-/// So long at most one parameter is asked whether it breaks a property: with the value of the family the system may be of any size.
-const MOST: Duration = Duration::from_secs(10);
+/// So long at most the parameters are asked which of them breaks a property: with the value of the family the system may be of any size.
+const MOST: Duration = Duration::from_secs(20);
 
 /// Why a witness need not exist.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -72,15 +72,11 @@ pub fn decisive(
     options: &Options,
     interpret: bool,
 ) -> Result<Vec<Decisive>, Error> {
-    let time = options.limits.time.unwrap_or(MOST).min(MOST);
-    let options = Options {
+    let end = Instant::now() + options.limits.time.unwrap_or(MOST).min(MOST);
+    let mut options = Options {
         witnesses: false,
         until: Until::Decided,
         checkpoint: None,
-        limits: Limits {
-            time: Some(time),
-            ..options.limits
-        },
         ..options.clone()
     };
     let candidates = differing(&task.bound);
@@ -94,6 +90,7 @@ pub fn decisive(
         let Some(other) = with(&task.bound, &candidates, &[n]) else {
             continue;
         };
+        options.limits.time = Some(end.saturating_duration_since(Instant::now()));
         if let Some((Verdict::Holds, _)) = judged(&other, property, &options, interpret)? {
             found.push(candidate.told(task));
         }

@@ -8,6 +8,7 @@ use std::sync::Arc;
 use stillpoint_lang::analysis::{Analysis, Known};
 use stillpoint_lang::bind::{BindError, Bound};
 use stillpoint_lang::diag::{Diagnostic, Diagnostics, Result};
+use stillpoint_lang::ir::Form;
 use stillpoint_lang::{Spec, read_text};
 use stillpoint_machine::{self as machine, Machine, Run, families};
 
@@ -41,6 +42,29 @@ pub struct Task {
     pub file: PathBuf,
     /// For parameters that a machine file decides: the expression over its values.
     pub sources: BTreeMap<String, String>,
+    /// The same for less effort, where what holds there holds here.
+    pub loose: Option<Box<Loose>>,
+}
+
+/// A system in which more may happen than in that of its task, and fewer states are told apart.
+#[derive(Debug, Clone)]
+pub struct Loose {
+    /// The system with its parameter values.
+    pub bound: Bound,
+    /// What static analysis found.
+    pub analysis: Analysis,
+    /// What is left open, in words.
+    pub text: String,
+}
+
+impl Task {
+    /// Changes the system for the loose one, or back.
+    pub fn change(&mut self) {
+        if let Some(loose) = &mut self.loose {
+            std::mem::swap(&mut self.bound, &mut loose.bound);
+            std::mem::swap(&mut self.analysis, &mut loose.analysis);
+        }
+    }
 }
 
 /// A file and everything to be explored for it.
@@ -111,6 +135,7 @@ fn of_spec(path: &Path, text: Arc<str>, readings: &Readings) -> Result<Subject> 
                 analysis,
                 file: path.to_owned(),
                 sources: BTreeMap::new(),
+                loose: None,
             }),
             Err(Diagnostics(list)) => errors.extend(list),
         }
@@ -141,6 +166,9 @@ fn of_machine(path: &Path, readings: &Readings) -> Result<Subject> {
     of_runs(path, machine, &runs, readings)
 }
 
+/// The specification of runs, and the one in which these times of their programs are loose.
+type Made = (Spec, Option<(Spec, Vec<String>)>);
+
 /// A machine with explorations that need not be its own ones, such as those of its reaction times.
 ///
 /// # Errors
@@ -153,22 +181,39 @@ pub fn of_runs(
 ) -> Result<Subject> {
     let mut tasks = Vec::new();
     let mut known = Known::default();
-    let mut specs: BTreeMap<_, Spec> = BTreeMap::new();
+    let mut specs: BTreeMap<_, Made> = BTreeMap::new();
     for run in runs {
-        let spec = match specs.entry((
+        let (spec, loose) = match specs.entry((
             &run.file,
             &run.wiring,
             run.half,
             run.asks.as_ref().map(|asks| &asks.own.name),
         )) {
             Entry::Occupied(known) => known.into_mut(),
-            Entry::Vacant(new) => new.insert(machine.spec(run)?),
+            Entry::Vacant(new) => new.insert((machine.spec(run)?, machine.loose_spec(run)?)),
         };
         let cycle = u64::try_from(run.cycle).ok();
         let system = spec.system(&run.system, cycle)?;
         let source: Arc<str> = Arc::from("");
         let bound = bind(&run.file, &source, system, &run.params, readings)?;
         let analysis = spec.analyse(&bound, &mut known)?;
+        let loose = match loose.as_ref().filter(|_| is_of_paths(&bound)) {
+            Some((spec, times)) => {
+                let system = spec.system(&run.system, cycle)?;
+                let bound = bind(&run.file, &source, system, &run.params, readings)?;
+                let analysis = spec.analyse(&bound, &mut Known::default())?;
+                let text = format!(
+                    "Nothing that this exploration tells the program starts {}: whether such a time is over is left open in each cycle, and what holds so holds.",
+                    times.join(", ")
+                );
+                Some(Box::new(Loose {
+                    bound,
+                    analysis,
+                    text,
+                }))
+            }
+            None => None,
+        };
         tasks.push(Task {
             title: run.title.clone(),
             axes: run.axes.clone(),
@@ -182,6 +227,7 @@ pub fn of_runs(
             analysis,
             file: run.file.clone(),
             sources: run.sources.clone(),
+            loose,
         });
     }
     Ok(Subject {
@@ -190,6 +236,17 @@ pub fn of_runs(
         title: machine.title.clone(),
         machine: Some(machine),
         tasks,
+    })
+}
+
+/// Whether all that is asked of the system is true of each path by itself: then more paths cannot make it true.
+fn is_of_paths(bound: &Bound) -> bool {
+    let properties = bound.system.properties.iter();
+    properties.map(|property| &property.form).all(|form| {
+        matches!(
+            form,
+            Form::Always { .. } | Form::LeadsTo { .. } | Form::Unless { .. }
+        )
     })
 }
 

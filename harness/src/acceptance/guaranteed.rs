@@ -41,9 +41,9 @@ pub fn decide(path: &Path, machine: &Machine) -> Result<Decided, Undecided> {
         .filter(|run| run.guarantee.is_some())
         .cloned()
         .collect();
-    let subject = subject::of_runs(path, machine.clone(), &runs, &Readings::new())
+    let mut subject = subject::of_runs(path, machine.clone(), &runs, &Readings::new())
         .map_err(Undecided::Input)?;
-    let checked = check(&subject, &Settings::default(), &mut |_| Box::new(()))
+    let checked = check(&mut subject, &Settings::default(), &mut |_| Box::new(()))
         .map_err(|(title, e)| Undecided::Other(format!("{title}: {e}")))?;
     let all = answers(&subject, &checked);
     Ok(Decided {

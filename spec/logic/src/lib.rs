@@ -13,6 +13,9 @@ mod tree;
 
 use stillpoint_lang::Written;
 
+/// The input of a machine that tells a program when it is scanned.
+pub const SCAN: &str = "scan";
+
 /// A program as a table.
 #[derive(Clone)]
 pub struct Compiled {
@@ -24,6 +27,8 @@ pub struct Compiled {
     pub durations: Vec<(String, u64)>,
     /// What it reads beside the inputs of the machine that it takes the place of: further inputs of the table.
     pub inputs: Vec<Input>,
+    /// The times that are inputs of the table too, by their names in the program: see [`st::Signature::loose`].
+    pub loose: Vec<String>,
 }
 
 /// An input that a program adds to those of the machine.

@@ -286,7 +286,7 @@ impl Logic {
     fn fits(&self, name: &str, written: &Definition, path: &Path) -> Result<()> {
         let (old, new) = (
             Spec::load(path)?.open_machine(name)?,
-            self.spec(path, &Wiring::new())?.open_machine(name)?,
+            self.spec(path, &Wiring::new(), None)?.open_machine(name)?,
         );
         let mut findings = Findings::new(&written.file, &written.source);
         for key in written.machine.outputs() {
@@ -337,6 +337,12 @@ impl Logic {
         declared.map(|signal| (signal.name, signal.given)).collect()
     }
 
+    /// The signals of all programs by all their names: the variable, and whether a program gives it.
+    pub fn signals(&self) -> BTreeMap<String, (String, bool)> {
+        let all = self.wired.iter().flat_map(Wired::signals);
+        all.collect()
+    }
+
     /// An input of a program, for messages.
     pub fn example(&self) -> String {
         let declared = self.declared().into_iter();
@@ -356,7 +362,7 @@ impl Logic {
     pub fn times(&self, spec: &Spec, wiring: &Wiring) -> Result<Times> {
         let mut times = Times::default();
         for wired in self.wired.iter().filter(|w| w.takes_part(spec)) {
-            let durations = wired.compiled(spec, wiring)?.durations;
+            let durations = wired.compiled(spec, wiring, false)?.durations;
             match wired.program {
                 Program::Spf(_) => times.scanned.extend(durations),
                 Program::Stl(_) | Program::St(_) => times.running.extend(durations),
@@ -434,17 +440,26 @@ impl Logic {
         Diagnostic::new(&self.file, &self.source, place, message)
     }
 
-    /// A specification file of the family with this logic in it, the signals of programs connected so.
+    /// A specification file of the family with this logic in it, the signals of programs connected so. Where the times of programs that
+    /// may be loose are asked for, they are, and named there.
     ///
     /// # Errors
     /// The file cannot be read, or the logic lacks an output of what it replaces.
-    pub fn spec(&self, path: &Path, wiring: &Wiring) -> Result<Spec> {
+    pub fn spec(
+        &self,
+        path: &Path,
+        wiring: &Wiring,
+        mut loose: Option<&mut Vec<String>>,
+    ) -> Result<Spec> {
         let mut spec = Spec::load(path)?;
         let wired = self.wired.iter().filter(|_| !wiring.is_empty());
         let wired: Vec<&Wired> = wired.filter(|w| w.takes_part(&spec)).collect();
         for wired in wired {
-            let machine = wired.compiled(&spec, wiring)?.machine;
-            spec.replace(&wired.file, &wired.source, &wired.name, &machine)?;
+            let compiled = wired.compiled(&spec, wiring, loose.is_some())?;
+            spec.replace(&wired.file, &wired.source, &wired.name, &compiled.machine)?;
+            if let Some(loose) = &mut loose {
+                loose.extend(compiled.loose);
+            }
         }
         for (name, machine) in &self.machines {
             spec.replace(&machine.file, &machine.source, name, &machine.machine)?;
@@ -468,8 +483,25 @@ impl Machine {
     /// # Errors
     /// The file cannot be read, or a program cannot be explored.
     pub fn spec(&self, run: &Run) -> Result<Spec> {
+        self.made(run, None)
+    }
+
+    /// The same with programs that say less: their times that nothing starts which the run tells them are whatever they may be in each cycle.
+    /// With the names of these times; none: there are no such times.
+    ///
+    /// What such a run does includes all that the run does, so that what holds in each of its paths holds here too.
+    ///
+    /// # Errors
+    /// As [`Machine::spec`].
+    pub fn loose_spec(&self, run: &Run) -> Result<Option<(Spec, Vec<String>)>> {
+        let mut times = Vec::new();
+        let spec = self.made(run, Some(&mut times))?;
+        Ok((!times.is_empty()).then_some((spec, times)))
+    }
+
+    fn made(&self, run: &Run, loose: Option<&mut Vec<String>>) -> Result<Spec> {
         let Basis { family, logic, .. } = &*self.basis;
-        let mut spec = logic.of(run.half).spec(&run.file, &run.wiring)?;
+        let mut spec = logic.of(run.half).spec(&run.file, &run.wiring, loose)?;
         if let Some(asks) = &run.asks {
             let slots = family.logic.iter();
             let slots = slots.flat_map(|(name, slot)| [Some(name), slot.plc.as_ref()]);

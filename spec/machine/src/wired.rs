@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 use stillpoint_lang::Spec;
 use stillpoint_lang::diag::{Diagnostic, Result};
-use stillpoint_logic::Compiled;
 use stillpoint_logic::st::{self, Signature};
+use stillpoint_logic::{Compiled, SCAN};
 use stillpoint_logic::{spf, stl};
 use toml::Spanned;
 
@@ -15,9 +15,6 @@ use super::Wiring;
 use super::family::{Explore, Family, Half, Wire};
 use super::guarantee::Asked;
 use super::logic::Logic;
-
-/// The port of the tables that tells a program when it is scanned.
-const SCAN: &str = "scan";
 
 /// A program that stands beside the machine file.
 #[derive(Clone)]
@@ -123,12 +120,15 @@ impl Wired {
         Ports::of(spec, self.name.get_ref()).is_some_and(|ports| ports.is_told(port))
     }
 
-    /// The table that it is with these signals.
+    /// The table that it is with these signals; a loose one says less, see [`Signature::loose`].
     ///
     /// # Errors
     /// It cannot be explored.
-    pub fn compiled(&self, spec: &Spec, wiring: &Wiring) -> Result<Compiled> {
-        let signature = Signature::of(spec, self.name.get_ref())?;
+    pub fn compiled(&self, spec: &Spec, wiring: &Wiring, loose: bool) -> Result<Compiled> {
+        let mut signature = Signature::of(spec, self.name.get_ref())?;
+        if loose {
+            signature = signature.loose();
+        }
         let ports = Ports::of(spec, self.name.get_ref()).unwrap_or_default();
         match &self.program {
             Program::Spf(program) => program.compile(&of_nck(&ports, signature, wiring)),

@@ -18,6 +18,8 @@ pub struct Signature {
     pub(crate) params: Vec<Port>,
     /// What the outputs of the machine give, where the program has outputs by names of its own; else they have the same names.
     pub(crate) given: Option<Vec<(String, Output)>>,
+    /// Whether times that nothing starts which the machine is told are inputs of the table.
+    pub(crate) loose: bool,
 }
 
 #[derive(Debug, Clone)]
@@ -97,7 +99,18 @@ impl Signature {
             outputs: system.lazies.iter().filter_map(output).collect(),
             params: system.params.iter().filter_map(param).collect(),
             given: None,
+            loose: false,
         })
+    }
+
+    /// The same for a table that says less: a time of the program is whatever it may be in each cycle, unless an input of the machine has
+    /// a say in it. What such a table can do includes all that the program does.
+    #[must_use]
+    pub fn loose(self) -> Self {
+        Self {
+            loose: true,
+            ..self
+        }
     }
 
     /// Names of the table that a program cannot give to anything else.

@@ -22,8 +22,8 @@ pub(crate) enum Use {
     State(usize),
     /// A duration in microseconds.
     Duration(u64),
-    /// An input that the program adds: index into those of the signature.
-    Added(usize),
+    /// An input: index into those of the signature.
+    Input(usize),
 }
 
 /// An expression of the tables that a program has computed.

@@ -272,12 +272,9 @@ impl<'a> Lowering<'a> {
                 "leave it out: what an input is in each cycle comes from the machine",
             ));
         }
-        let mut term = port.term(false);
-        if port.added.is_some() {
-            let index = signature.inputs.iter().position(|p| p.name == port.name);
-            term = term.reading(Use::Added(index.unwrap_or_default()));
-        }
-        Ok(Entry::Input(term))
+        let index = signature.inputs.iter().position(|p| p.name == port.name);
+        let read = Use::Input(index.unwrap_or_default());
+        Ok(Entry::Input(port.term(false).reading(read)))
     }
 
     /// An output of the program is one of the signature, with its type; it has the range of its declaration, else the signature's.

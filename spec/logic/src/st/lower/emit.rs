@@ -9,7 +9,7 @@ use super::{Entry, Lowering, Role, Scope, Slot, Variable};
 use crate::fault::Span;
 use crate::st::program::Output;
 use crate::st::term::{Term, Ty, Use};
-use crate::{Compiled, Input};
+use crate::{Compiled, Input, SCAN};
 
 /// A duration has at most so many cycles: none is shorter than a microsecond.
 pub(super) fn most_cycles(us: u64) -> i64 {
@@ -52,6 +52,7 @@ impl<'a> Lowering<'a> {
             self.set(id, settled);
         }
         let needed = self.needed(&outputs);
+        let loose = self.loose(&needed);
         let mut machine = Written::new(format!(
             "{}: program {}",
             self.file, self.tree.program.name.text
@@ -60,7 +61,7 @@ impl<'a> Lowering<'a> {
         let inputs = self.added(&needed, &mut machine);
         for (id, variable) in self.variables.iter().enumerate() {
             if needed.contains(&Use::State(id)) {
-                self.state(variable, &mut machine);
+                self.state(variable, loose.contains(&id), &mut machine);
             }
         }
         for (k, one) in self.lets.iter().enumerate() {
@@ -70,7 +71,7 @@ impl<'a> Lowering<'a> {
             }
         }
         let span = &self.tree.program.name.span;
-        let then = self.rule(&needed);
+        let then = self.rule(&needed, &loose);
         if !then.is_empty() {
             let note = format!(
                 "program {} of {}, once in each cycle",
@@ -94,7 +95,33 @@ impl<'a> Lowering<'a> {
             machine,
             durations,
             inputs,
+            loose: loose
+                .iter()
+                .map(|id| self.variables[*id].name.clone())
+                .collect(),
         }
+    }
+
+    /// The times that nothing starts which the machine is told, where the signature wants them as inputs.
+    fn loose(&self, needed: &BTreeSet<Use>) -> BTreeSet<usize> {
+        let times = self.variables.iter().enumerate();
+        let times = times.filter(|(id, variable)| {
+            let state = Use::State(*id);
+            variable.ty == Ty::Time && needed.contains(&state)
+        });
+        let checked = |id: usize| self.checks.iter().any(|check| check.variable == id);
+        let told = |one: &Use| match one {
+            Use::Input(k) => {
+                let port = &self.signature.inputs[*k];
+                port.added.is_none() && port.name != SCAN
+            }
+            _ => false,
+        };
+        let free = |id: usize| !checked(id) && !self.read_by(vec![Use::State(id)]).iter().any(told);
+        times
+            .map(|(id, _)| id)
+            .filter(|id| self.signature.loose && free(*id))
+            .collect()
     }
 
     /// The inputs that the program adds to those of the machine.
@@ -105,7 +132,7 @@ impl<'a> Lowering<'a> {
             let Some(variable) = &port.added else {
                 continue;
             };
-            if !needed.contains(&Use::Added(k)) {
+            if !needed.contains(&Use::Input(k)) {
                 continue;
             }
             let ty = match port.ty {
@@ -171,7 +198,6 @@ impl<'a> Lowering<'a> {
 
     /// Everything that an output reads, at once or over the cycles, and every check.
     fn needed(&self, outputs: &[(String, Given)]) -> BTreeSet<Use> {
-        let mut needed = BTreeSet::new();
         let mut open: Vec<Use> = Vec::new();
         for id in outputs.iter().filter_map(|(_, given)| given.variable()) {
             open.extend(&self.value(Slot::Variable(id)).uses);
@@ -180,6 +206,12 @@ impl<'a> Lowering<'a> {
             open.extend(check.path.uses.iter().chain(&check.value.uses));
             open.push(Use::State(check.variable));
         }
+        self.read_by(open)
+    }
+
+    /// All of this, and what that reads in its turn.
+    fn read_by(&self, mut open: Vec<Use>) -> BTreeSet<Use> {
+        let mut needed = BTreeSet::new();
         while let Some(one) = open.pop() {
             if !needed.insert(one) {
                 continue;
@@ -196,7 +228,7 @@ impl<'a> Lowering<'a> {
                         open.extend(&term.uses);
                     }
                 }
-                Use::Duration(_) | Use::Added(_) => {}
+                Use::Duration(_) | Use::Input(_) => {}
             }
         }
         needed
@@ -224,7 +256,7 @@ impl<'a> Lowering<'a> {
         durations
     }
 
-    fn state(&self, variable: &Variable, machine: &mut Written) {
+    fn state(&self, variable: &Variable, loose: bool, machine: &mut Written) {
         let range = |name: &str| match &variable.bounds {
             Some((low, high)) => format!("{name}({}..{})", low.text, high.text),
             None => name.to_owned(),
@@ -237,6 +269,11 @@ impl<'a> Lowering<'a> {
         };
         let span = &variable.span;
         let line = self.line(span);
+        if loose {
+            let title = format!("line {line}: {}, at any time", variable.name);
+            machine.add_input(text(span, variable.table.clone()), text(span, ty), &title);
+            return;
+        }
         machine.add_state(
             text(span, variable.table.clone()),
             text(span, ty),
@@ -246,7 +283,7 @@ impl<'a> Lowering<'a> {
     }
 
     /// The checks in their order, then the state after the cycle.
-    fn rule(&self, needed: &BTreeSet<Use>) -> String {
+    fn rule(&self, needed: &BTreeSet<Use>, loose: &BTreeSet<usize>) -> String {
         let mut then = String::new();
         for check in &self.checks {
             let (table, value) = (&self.variables[check.variable].table, &check.value.text);
@@ -258,7 +295,7 @@ impl<'a> Lowering<'a> {
         let checked: BTreeSet<usize> = self.checks.iter().map(|c| c.variable).collect();
         let read = self.read(needed);
         for (id, variable) in self.variables.iter().enumerate() {
-            if !needed.contains(&Use::State(id)) {
+            if !needed.contains(&Use::State(id)) || loose.contains(&id) {
                 continue;
             }
             // What the program never assigns stays; what no cycle reads of the one before is no state.
@@ -281,7 +318,7 @@ impl<'a> Lowering<'a> {
         let uses = lets.flat_map(|(_, one)| &one.term.uses);
         uses.filter_map(|u| match u {
             Use::State(id) => Some(*id),
-            Use::Let(_) | Use::Duration(_) | Use::Added(_) => None,
+            Use::Let(_) | Use::Duration(_) | Use::Input(_) => None,
         })
         .collect()
     }
