@@ -8,6 +8,7 @@ use super::Machine;
 use super::family::{Family, Formula};
 use super::family_file::Check;
 use super::ground::{About, DataFile, Ground, grounds};
+use super::guarantee::About as Named;
 use super::template::{Template, Words};
 use stillpoint_lang::diag::Result;
 
@@ -15,6 +16,8 @@ use stillpoint_lang::diag::Result;
 #[derive(Debug)]
 pub(super) struct Premise {
     pub of: About,
+    /// The patterns of the guarantees that it is about.
+    patterns: Vec<String>,
     each: Vec<i64>,
     pub when: Formula,
     pub lets: Vec<(String, Formula)>,
@@ -26,12 +29,13 @@ impl Premise {
     pub fn read(
         check: &mut Check,
         family: &Family,
-        of: About,
+        (of, patterns): (About, Vec<Spanned<String>>),
         each: Vec<i64>,
         when: Spanned<String>,
         lets: IndexMap<String, Spanned<String>>,
     ) -> Option<(Self, Vec<String>)> {
         let mut known = of.known(family);
+        known.extend(arguments(check, family, of, &patterns, when.span())?);
         let when = check.formula(when, &known)?;
         let mut formulas = Vec::new();
         for (name, text) in lets {
@@ -41,6 +45,7 @@ impl Premise {
         }
         let premise = Self {
             of,
+            patterns: patterns.into_iter().map(Spanned::into_inner).collect(),
             each: if each.is_empty() { vec![0] } else { each },
             when,
             lets: formulas,
@@ -54,7 +59,11 @@ impl Premise {
     /// A formula without a value, which is a fault of the family's data.
     pub fn grounds<'a>(&self, file: &DataFile, machine: &'a Machine) -> Result<Vec<Ground<'a>>> {
         let mut list = Vec::new();
-        for subject in grounds(machine, self.of) {
+        let of_pattern = |subject: &Ground<'_>| {
+            let guarantee = subject.guarantee;
+            guarantee.is_none_or(|g| self.patterns.contains(&g.pattern))
+        };
+        for subject in grounds(machine, self.of).into_iter().filter(of_pattern) {
             for k in &self.each {
                 let mut ground = subject.at(*k);
                 if ground.value(file, &self.when)? == 0 {
@@ -69,6 +78,42 @@ impl Premise {
         }
         Ok(list)
     }
+}
+
+/// The names that all patterns have which an entry about guarantees names: their arguments, and of patterns about doors the values of
+/// a door. `None` leaves a finding.
+fn arguments(
+    check: &mut Check,
+    family: &Family,
+    of: About,
+    patterns: &[Spanned<String>],
+    place: super::Place,
+) -> Option<Vec<String>> {
+    if (of == About::Guarantee) == patterns.is_empty() {
+        let message = "`patterns` stands where an entry is about guarantees, and only there";
+        let help = "write of = \"guarantee\" and patterns = [\"...\"], or neither";
+        check.findings.add(place, message, "this entry", help);
+        return None;
+    }
+    let mut common: Option<Vec<String>> = None;
+    for name in patterns {
+        let Some(pattern) = family.patterns.get(name.get_ref()) else {
+            let known: Vec<&str> = family.patterns.keys().map(String::as_str).collect();
+            let message = format!("\"{}\" is no pattern of guarantees", name.get_ref());
+            let help = format!("patterns of this family: {}", known.join(", "));
+            check
+                .findings
+                .add(name.span(), message, "no such pattern", help);
+            return None;
+        };
+        let of_door = family.door.keys().filter(|_| pattern.about == Named::Door);
+        let names: Vec<&String> = pattern.arguments.keys().chain(of_door).collect();
+        common = Some(match common {
+            None => names.into_iter().cloned().collect(),
+            Some(known) => (known.into_iter().filter(|n| names.contains(&n))).collect(),
+        });
+    }
+    Some(common.unwrap_or_default())
 }
 
 /// Reads the formulas and texts of one entry; `None` leaves a finding.

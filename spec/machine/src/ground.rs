@@ -80,6 +80,8 @@ const ASKED_AFTER_FAULT: &str = "asked_after_fault";
 const PROGRAMMED: &str = "programmed";
 /// How many guarantees assume something of a half of the safe logic that the file has not.
 const HALF_ASSUMED: &str = "half_assumed";
+/// As a number how many inputs of the safe logic no guarantee looks at, as a text which ones.
+const UNASKED: &str = "unasked";
 /// As a number in how many values an axis differs from the one that moves the same thing, as a text in which ones.
 const DIFFERS: &str = "differs";
 /// How many other axes move the same thing.
@@ -104,6 +106,8 @@ pub(super) enum About {
     Door,
     /// Once for each door and each axis behind it.
     DoorAxis,
+    /// Once for each axis of each guarantee of the patterns that the entry names.
+    Guarantee,
 }
 
 impl About {
@@ -113,14 +117,14 @@ impl About {
         if self != Self::Door {
             let counts = [DOORS, GROUPS, GUARANTEES, ASKED, ASKED_AFTER_FAULT];
             known.extend(counts.map(str::to_owned));
-            known.extend([PROGRAMMED, HALF_ASSUMED].map(str::to_owned));
+            known.extend([PROGRAMMED, HALF_ASSUMED, UNASKED].map(str::to_owned));
             known.extend(family.patterns.keys().map(|name| asked_by(name)));
         }
         known.extend(family.control.keys().cloned());
         known.extend(family.functions.iter().map(|f| f.variable.clone()));
         known.extend(family.lets.iter().map(|(name, _)| name.clone()));
         known.push("enabled_any".to_owned());
-        if matches!(self, Self::Axis | Self::DoorAxis) {
+        if matches!(self, Self::Axis | Self::DoorAxis | Self::Guarantee) {
             known.extend(["kind", "spindle", "LINEAR", "ROTARY", PATH, OTHERS].map(str::to_owned));
             known.extend([DIFFERS, PAIRED].map(str::to_owned));
             known.extend(family.axis.keys().cloned());
@@ -137,13 +141,14 @@ impl About {
     /// The names of things that texts may show beside values.
     pub fn titles(self) -> &'static [&'static str] {
         match self {
-            Self::Machine => &["machine", "axes"],
+            Self::Machine => &["machine", "axes", UNASKED],
             Self::Axis => &[
                 "machine", "axis", "group", "partners", OTHERS, "pair", DIFFERS,
             ],
             Self::Group => &["machine", "group", "axes"],
             Self::Door => &["machine", "door", "axes"],
             Self::DoorAxis => &["machine", "door", "axis", "group", "axes"],
+            Self::Guarantee => &["machine", "guarantee", "axis", "group"],
         }
     }
 }
@@ -156,6 +161,7 @@ pub(super) struct Ground<'a> {
     /// The group itself, or that of the axis.
     pub group: Option<&'a Group>,
     pub door: Option<&'a Door>,
+    pub guarantee: Option<&'a Guarantee>,
     /// Values by name: also functions, named expressions and `k`.
     pub values: Values,
 }
@@ -167,6 +173,7 @@ pub(super) fn grounds<'a>(machine: &'a Machine, about: About) -> Vec<Ground<'a>>
         axis: None,
         group: None,
         door: None,
+        guarantee: None,
         values: common(machine),
     };
     let axes = || machine.axes.iter().zip(&machine.basis.judged.axes);
@@ -209,6 +216,18 @@ pub(super) fn grounds<'a>(machine: &'a Machine, about: About) -> Vec<Ground<'a>>
             for door in &machine.doors {
                 let inside = axes().filter(|(axis, _)| door.has(&axis.name));
                 list.extend(inside.map(|pair| of_axis(pair).behind(door)));
+            }
+        }
+        About::Guarantee => {
+            for guarantee in &machine.guarantees {
+                let mut doors = machine.doors.iter();
+                let door = doors.find(|d| Some(&d.name) == guarantee.door.as_ref());
+                let named = axes().filter(|(axis, _)| guarantee.has(&axis.name));
+                list.extend(named.map(|pair| {
+                    let ground = of_axis(pair);
+                    let ground = door.into_iter().fold(ground, Ground::behind);
+                    ground.asked_by(guarantee)
+                }));
             }
         }
     }
@@ -286,6 +305,7 @@ impl<'a> Ground<'a> {
             (ASKED_AFTER_FAULT, after),
             (PROGRAMMED, usize::from(programmed)),
             (HALF_ASSUMED, assumed),
+            (UNASKED, self.machine.unasked().len()),
         ] {
             self.set(name, i64::try_from(n).unwrap_or(i64::MAX));
         }
@@ -302,13 +322,18 @@ impl<'a> Ground<'a> {
         let door = self
             .door
             .is_none_or(|d| guarantee.door.as_ref() == Some(&d.name));
-        let axis = |a: &Axis| guarantee.axes.iter().any(|n| *n.get_ref() == a.name);
-        door && self.axis.is_none_or(axis)
+        door && self.axis.is_none_or(|axis| guarantee.has(&axis.name))
     }
 
     fn behind(mut self, door: &'a Door) -> Self {
         insert(&mut self.values, &door.values);
         self.door = Some(door);
+        self
+    }
+
+    fn asked_by(mut self, guarantee: &'a Guarantee) -> Self {
+        insert(&mut self.values, &guarantee.values);
+        self.guarantee = Some(guarantee);
         self
     }
 
@@ -367,6 +392,8 @@ impl<'a> Ground<'a> {
             "axis" => self.axis.map(|a| a.name.clone()),
             "group" => self.group.map(|g| g.name.clone()),
             "door" => self.door.map(|d| d.name.clone()),
+            "guarantee" => self.guarantee.map(|g| g.name.clone()),
+            UNASKED => Some(self.machine.unasked().join(", ")),
             "partners" => self.axis.map(partners),
             "pair" => Some(self.axis?.pair.as_ref()?.get_ref().clone()),
             DIFFERS => Some(self.machine.differences(self.axis?).join(", ")),
@@ -392,13 +419,15 @@ impl<'a> Ground<'a> {
         })
     }
 
-    /// The values of parameters that can be read here: of the door, the axis, the group, the control.
+    /// The values of parameters that can be read here: of the guarantee, the door, the axis, the group, the control.
     pub fn settings(&self) -> impl Iterator<Item = &'a Settings> {
+        let guarantee = self.guarantee.map(|g| &g.values);
         let door = self.door.map(|d| &d.values);
         let axis = self.axis.map(|a| &a.values);
         let group = self.group.map(|g| &g.values);
         let control = &self.machine.control;
-        door.into_iter().chain(axis).chain(group).chain([control])
+        let own = guarantee.into_iter().chain(door);
+        own.chain(axis).chain(group).chain([control])
     }
 
     /// The value of a parameter as its user writes it; that of an axis, where there are several, for each that has it.

@@ -349,6 +349,11 @@ impl Guarantee {
         let after = self.values.get(AFTER);
         after.is_some_and(|setting| setting.cells.iter().any(|cell| *cell != 0))
     }
+
+    /// Whether it is about this axis.
+    pub fn has(&self, axis: &str) -> bool {
+        self.axes.iter().any(|name| name.get_ref() == axis)
+    }
 }
 
 impl Machine {

@@ -39,6 +39,7 @@ mod read;
 mod runs;
 mod signal;
 mod template;
+mod unasked;
 pub mod units;
 pub mod uses;
 mod value;

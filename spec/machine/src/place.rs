@@ -43,6 +43,9 @@ impl Ground<'_> {
 
     /// The place of what the entry is about.
     pub fn place(&self) -> Place {
+        if let Some(guarantee) = self.guarantee {
+            return guarantee.place.clone();
+        }
         let own = match (self.axis, self.door) {
             (Some(axis), None) => Some(axis.place.clone()),
             (None, Some(door)) => Some(door.place.clone()),
@@ -52,15 +55,17 @@ impl Ground<'_> {
         own.unwrap_or_else(|| self.machine.place.clone())
     }
 
-    /// Where the list of axes or groups of the door or group stands; of a door and an axis the name in it.
+    /// Where the list of axes or groups of the guarantee, door or group stands; of a guarantee or door and an axis the name in it.
     fn listed(&self) -> Option<Place> {
-        let list = match (self.door, self.group) {
-            (Some(door), _) => &door.axes,
-            (None, Some(group)) => &group.axes,
-            (None, None) => return None,
+        let list = match (self.guarantee, self.door, self.group) {
+            (Some(guarantee), ..) => &guarantee.axes,
+            (None, Some(door), _) => &door.axes,
+            (None, None, Some(group)) => &group.axes,
+            (None, None, None) => return None,
         };
         let own = |name: &&toml::Spanned<String>| {
-            let axis = self.axis.filter(|_| self.door.is_some());
+            let among = self.door.is_some() || self.guarantee.is_some();
+            let axis = self.axis.filter(|_| among);
             axis.is_none_or(|a| a.name == *name.get_ref())
         };
         list.iter().find(own).map(toml::Spanned::span)
@@ -68,7 +73,10 @@ impl Ground<'_> {
 
     /// A parameter, or one of its values; without an axis that of the first axis that gives it, with the values of all.
     fn parameter(&self, name: &str, index: Option<i64>) -> Option<(Shown, Option<Place>)> {
-        let param = self.machine.basis.family.parameter(name)?;
+        let family = &self.machine.basis.family;
+        let pattern = self.guarantee.and_then(|g| family.patterns.get(&g.pattern));
+        let argument = pattern.and_then(|pattern| pattern.arguments.get(name));
+        let param = argument.or_else(|| family.parameter(name))?;
         let cell = usize::try_from(index.unwrap_or(0)).ok()?;
         let own: Option<&Setting> = self.settings().find_map(|s| s.get(name));
         let members = self.members().filter_map(|a| a.values.get(name));

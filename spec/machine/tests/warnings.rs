@@ -85,10 +85,16 @@ fn ids(machine: &Machine) -> BTreeSet<String> {
     open.map(|w| w.id.clone()).collect()
 }
 
-/// The file without its guarantees: some of them name what a change takes away, and are refused then.
+/// The file without its guarantees, and without what is accepted of them: some name what a change takes away, and are refused then.
 fn unasked(text: &str) -> String {
     let parts = text.split("\n\n");
-    let asks = |part: &&str| part.lines().any(|line| line.starts_with("[guarantee."));
+    let asks = |part: &&str| {
+        let of_guarantees = |line: &str| {
+            line.starts_with("[guarantee.")
+                || line.starts_with("warning = ") && line.ends_with("-keeps-torque\"")
+        };
+        part.lines().any(of_guarantees)
+    };
     let others = parts.filter(|part| !asks(part));
     others.collect::<Vec<_>>().join("\n\n")
 }

@@ -130,7 +130,10 @@ pub(super) fn plan(
             .add(data.part.span(), message, "this part", help);
         return None;
     };
-    let (premise, known) = Premise::read(check, family, data.of, data.each, data.when, data.lets)?;
+    let (premise, known) = {
+        let subjects = (data.of, Vec::new());
+        Premise::read(check, family, subjects, data.each, data.when, data.lets)?
+    };
     let names = Words {
         about: data.of,
         known: &known,

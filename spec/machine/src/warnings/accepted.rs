@@ -28,10 +28,11 @@ struct File {
 struct Entry {
     warning: Spanned<String>,
     reason: Spanned<String>,
-    /// Only for this axis, group or door; without any of them wherever the warning comes up.
+    /// Only for this axis, group, door or guarantee; without any of them wherever the warning comes up.
     axis: Option<Spanned<String>>,
     group: Option<Spanned<String>>,
     door: Option<Spanned<String>>,
+    guarantee: Option<Spanned<String>>,
 }
 
 /// The acceptances, each with whether it was needed.
@@ -41,7 +42,7 @@ impl Accepted {
     /// Reads `[[accepted]]`; `known` are the warnings of the family.
     ///
     /// # Errors
-    /// Unknown warnings, axes, groups and doors; an empty reason.
+    /// Unknown warnings, axes, groups, doors and guarantees; an empty reason.
     pub fn read(path: &Path, source: &Arc<str>, machine: &Machine, known: &[&str]) -> Result<Self> {
         let file = path.display().to_string();
         let tables: File = toml::from_str(source).map_err(|e| toml_error(&file, source, &e))?;
@@ -51,6 +52,8 @@ impl Accepted {
             .map(|g| g.name.as_str())
             .collect();
         let doors: Vec<&str> = machine.doors.iter().map(|d| d.name.as_str()).collect();
+        let guarantees = machine.guarantees.iter();
+        let guarantees: Vec<&str> = guarantees.map(|g| g.name.as_str()).collect();
         let mut list = Vec::new();
         for entry in tables.accepted {
             let entry = entry.into_inner();
@@ -72,6 +75,7 @@ impl Accepted {
             exists("axis", entry.axis.as_ref(), &axes);
             exists("group", entry.group.as_ref(), &groups);
             exists("door", entry.door.as_ref(), &doors);
+            exists("guarantee", entry.guarantee.as_ref(), &guarantees);
             if entry.reason.get_ref().trim().is_empty() {
                 let message = format!("'{}' is accepted without a reason", entry.warning.get_ref());
                 let help = "say why the value is right for this machine: the report shows it";
@@ -92,7 +96,8 @@ impl Accepted {
             let here = entry.warning.get_ref() == id
                 && fits(&entry.axis, ground.axis.map(|a| &a.name))
                 && fits(&entry.group, ground.group.map(|g| &g.name))
-                && fits(&entry.door, ground.door.map(|d| &d.name));
+                && fits(&entry.door, ground.door.map(|d| &d.name))
+                && fits(&entry.guarantee, ground.guarantee.map(|g| &g.name));
             if here {
                 *needed = true;
                 reason.get_or_insert_with(|| entry.reason.get_ref().clone());
@@ -112,6 +117,7 @@ impl Accepted {
                 ("axis", entry.axis),
                 ("group", entry.group),
                 ("door", entry.door),
+                ("guarantee", entry.guarantee),
             ];
             let only = only.into_iter();
             let only: Vec<String> = only
@@ -128,7 +134,8 @@ impl Accepted {
                 reason:
                     "An acceptance that nothing needs hides the warning as soon as a value changes."
                         .to_owned(),
-                better: "Remove it, or correct the axis, group or door that it names.".to_owned(),
+                better: "Remove it, or correct the axis, group, door or guarantee that it names."
+                    .to_owned(),
                 source: String::new(),
                 req: Vec::new(),
                 values: Vec::new(),

@@ -89,6 +89,9 @@ struct FileData {
 struct RuleData {
     id: Spanned<String>,
     of: About,
+    /// Of guarantees: their patterns, whose common arguments the expressions may read.
+    #[serde(default)]
+    patterns: Vec<Spanned<String>>,
     #[serde(default)]
     each: Vec<i64>,
     #[serde(default, rename = "let")]
@@ -200,8 +203,9 @@ impl Rule {
     /// `None` leaves a finding.
     fn read(check: &mut Check, data: RuleData, family: &Family, manual: &str) -> Option<Self> {
         let written = [&data.text, &data.reason, &data.better].map(|t| t.get_ref().clone());
+        let subjects = (data.of, data.patterns);
         let (premise, known) =
-            Premise::read(check, family, data.of, data.each, data.when, data.lets)?;
+            Premise::read(check, family, subjects, data.each, data.when, data.lets)?;
         let names = Words {
             about: data.of,
             known: &known,
@@ -293,7 +297,10 @@ fn readable(text: &str, family: &Family) -> String {
     while let Some((before, after)) = rest.split_once('{') {
         let (inside, tail) = after.split_once('}').unwrap_or((after, ""));
         let name = inside.split('[').next().unwrap_or(inside).trim();
-        let own = name.len() == 1 || family.parameter(name).is_some();
+        let mut patterns = family.patterns.values();
+        let own = name.len() == 1
+            || family.parameter(name).is_some()
+            || patterns.any(|pattern| pattern.arguments.contains_key(name));
         out.push_str(before);
         out.push_str(if own { inside.trim() } else { "\u{2026}" });
         rest = tail;
@@ -305,6 +312,9 @@ impl Ground<'_> {
     /// What it is about, in a few words.
     fn name(&self) -> String {
         let axis = self.axis.map(|a| format!("axis {}", a.name));
+        if let (Some(guarantee), Some(axis)) = (self.guarantee, &axis) {
+            return format!("guarantee {}, {axis}", guarantee.name);
+        }
         let door = self.door.map(|d| format!("door {}", d.name));
         match (door, axis, self.group) {
             (Some(door), Some(axis), _) => format!("{door}, {axis}"),
