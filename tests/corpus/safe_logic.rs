@@ -123,8 +123,11 @@ fn the_lathe_keeps_what_it_guarantees() {
         "work",
         "emergency_stop",
         "emergency_stop_work",
+        "setting_up",
         "acknowledge",
         "acknowledge_work",
+        "tests",
+        "tests_work",
     ] {
         assert_eq!(
             judged(&lathe, name, Until::Complete).0,
@@ -137,7 +140,14 @@ fn the_lathe_keeps_what_it_guarantees() {
 #[test]
 fn a_door_that_is_confirmed_keeps_what_it_guarantees() {
     let machine = root().join(format!("{INTERLOCK}.toml"));
-    for name in ["hold_to_run", "acknowledge", "no_start", "slow", "stops"] {
+    for name in [
+        "hold_to_run",
+        "acknowledge",
+        "no_start",
+        "torque",
+        "slow",
+        "stops",
+    ] {
         assert_eq!(
             judged(&machine, name, Until::Complete).0,
             Verdict::Holds,

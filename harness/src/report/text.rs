@@ -119,6 +119,8 @@ fn guaranteed(out: &mut String, subject: &Subject, checked: &[Checked]) {
             .map(|run| run.task.bound.system.name.as_str())
             .collect();
         let mut before = String::new();
+        // Most runs of a guarantee answer the same faults: they are told once.
+        let mut told: &[String] = &[];
         for run in &answer.runs {
             let bound = match run.bound {
                 Some(bound) => format!("in at most {}{}", time(bound), run.travelled()),
@@ -131,13 +133,16 @@ fn guaranteed(out: &mut String, subject: &Subject, checked: &[Checked]) {
                 _ => run.task.title.clone(),
             };
             wrapped(out, &" ".repeat(15), &format!("{part}: {bound}"));
-            for fault in &run.task.faults {
-                wrapped(
-                    out,
-                    &" ".repeat(17),
-                    &format!("also after this fault: {fault}"),
-                );
+            let faults = run.task.faults.as_slice();
+            if !faults.is_empty() && faults == told {
+                wrapped(out, &" ".repeat(17), "also after these faults");
+            } else {
+                for fault in faults {
+                    let line = format!("also after this fault: {fault}");
+                    wrapped(out, &" ".repeat(17), &line);
+                }
             }
+            told = faults;
             let values = run.told().collect::<Vec<_>>().join("; ");
             if values != before {
                 wrapped(out, &" ".repeat(17), &format!("with {values}"));

@@ -7,6 +7,11 @@ use serde::Deserialize;
 /// Inverted: bit 31 of the coding.
 const INVERTED: i64 = 0x8000_0000;
 
+/// The machine datum of a coding: what an output of an axis feeds is coded as what an input is fed from, and bit 32 tells them apart.
+pub(super) const fn datum(code: i64) -> i64 {
+    code & 0xFFFF_FFFF
+}
+
 /// A word of signals.
 const WORD: i64 = 32;
 
@@ -22,9 +27,12 @@ pub(super) struct Bits {
     bytes: i64,
     /// They are what the program of the machine file declares: whether its outputs, else its inputs.
     program: Option<bool>,
+    /// They are what comes from outside of the control, as what a program declares as its inputs is: contacts, keys, devices.
+    #[serde(default)]
+    input: bool,
     #[serde(skip)]
     declared: Vec<String>,
-    /// Their machine datum without word and bit (`i s mm xx nn`: of `xx` and `nn`).
+    /// Their machine datum without word and bit (`i s mm xx nn`: of `xx` and `nn`), with bit 32 for what outputs of axes feed.
     code: i64,
 }
 
@@ -66,6 +74,15 @@ impl Signals {
                 .filter(|(_, given)| bits.program == Some(*given));
             bits.declared.extend(of.map(|(name, _)| name.clone()));
         }
+    }
+
+    /// Whether a signal of a program, `INSE[3]` or a name that it declares, comes from outside.
+    pub fn is_input(&self, signal: &str) -> bool {
+        let base = signal.split_once('[').map(|(base, _)| base);
+        let numbered = base.and_then(|base| self.0.get(base));
+        let mut declared = self.0.values().filter(|bits| bits.program == Some(false));
+        numbered.is_some_and(|bits| bits.input)
+            || declared.any(|bits| bits.declared.iter().any(|name| name == signal))
     }
 
     /// The names, for messages.
@@ -120,6 +137,7 @@ mod tests {
             count: 64,
             bytes: 0,
             program: None,
+            input: false,
             declared: Vec::new(),
             code,
         };

@@ -202,7 +202,7 @@ fn choice(raw: &Raw, param: &Param) -> Result<i64, Refusal> {
         .then(|| signal::coded(text))
         .flatten();
     let mut all = param.choices.iter();
-    let found = all.find(|(name, code)| name == text || Some(*code) == coded);
+    let found = all.find(|(name, code)| name == text || Some(signal::datum(*code)) == coded);
     found.map(|(_, code)| *code).ok_or_else(|| Refusal {
         message: format!("\"{text}\" is not one of the values"),
         label: "no such value".to_owned(),

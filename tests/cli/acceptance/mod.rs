@@ -303,7 +303,7 @@ fn the_protocol_tells_what_the_machine_guarantees() {
     let file = format!("{INTERLOCK}.toml");
     let json = json(&[&file, "--guarantees"]);
     let list = json["guarantees"].as_array().expect("guarantees");
-    assert_eq!(list.len(), 5);
+    assert_eq!(list.len(), 6);
     assert!(list.iter().all(|g| g["verdict"] == "holds"), "{list:#?}");
     let hold = &list[0]["runs"][0];
     assert_eq!(hold["bound_us"], 208_000);
@@ -324,6 +324,7 @@ fn what_breaks_a_guarantee_is_told_to_programs() {
     };
     let program = text("spf").replace("ACK_KEY AND KEY_WAS_UP", "ACK_KEY");
     std::fs::write(folder.join("interlock-840d.spf"), program).expect("written");
+    std::fs::write(folder.join("interlock-840d.stl"), text("stl")).expect("written");
     let slow = text("toml")
         .replace("contacts      = 2", "contacts      = 1")
         .replace(

@@ -3,11 +3,18 @@
 use super::Example;
 
 /// The rule by its text, the pattern, what stands in the guarantee beside the signal, the signal, its time-out.
-const RULES: [(&str, &str, &str, &str, &str); 6] = [
+const RULES: [(&str, &str, &str, &str, &str); 7] = [
     (
         "the contact that asks for the stop comes from an F module",
         "stop_request",
         "stop = \"STOP A\", within = \"1 s\", signal = \"112 ms\"",
+        "contact = \"INSE[4]\"",
+        "bus_timeout",
+    ),
+    (
+        "the contact of the emergency stop comes from an F module",
+        "torque_off",
+        "within = \"1 s\", signal = \"112 ms\"",
         "contact = \"INSE[4]\"",
         "bus_timeout",
     ),
@@ -49,7 +56,7 @@ const RULES: [(&str, &str, &str, &str, &str); 6] = [
 ];
 
 /// Rules about a value that is too small: the rule by its text, the pattern, what stands in the guarantee, what is wrong and what is right.
-const VALUES: [(&str, &str, &str, &str, &str); 4] = [
+const VALUES: [(&str, &str, &str, &str, &str); 5] = [
     (
         "the signal comes from an F module, and takes longer",
         "stop_request",
@@ -77,6 +84,13 @@ const VALUES: [(&str, &str, &str, &str, &str); 4] = [
         "feedback = \"INSE[7]\", coil = \"OUTSE[4]\", bus_timeout = \"150 ms\"",
         "within = \"100 ms\"",
         "within = \"1 s\"",
+    ),
+    (
+        "the axis does not feed this signal with its standstill",
+        "guard_lock",
+        "door = \"front\", unlock = \"OUTSE[5]\"",
+        "standstill = \"INSI[1]\"",
+        "standstill = \"INSE[8]\"",
     ),
 ];
 

@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::super::AxisKind;
 use super::super::family::{Family, Param, Quantity};
+use super::super::signal::datum;
 use super::super::units::{Dimension, parse};
 
 const FAMILY: &str = "sinumerik-840d";
@@ -66,11 +67,11 @@ fn ranges_are_the_smaller_ones_of_both_channels() {
             };
             let (mut least, mut greatest) = (i64::MIN, i64::MAX);
             for number in numbers(param) {
-                let datum = data
+                let entry = data
                     .get(&number)
                     .unwrap_or_else(|| panic!("{name}: no MD{number}"));
-                let unit = datum["unit"].as_str().expect("a unit");
-                let get = |key| datum.get(key).map(|v| base(v, unit, param, kind));
+                let unit = entry["unit"].as_str().expect("a unit");
+                let get = |key| entry.get(key).map(|v| base(v, unit, param, kind));
                 least = least.max(get("min").unwrap_or(i64::MIN));
                 for key in ["max", tighter] {
                     greatest = greatest.min(get(key).unwrap_or(i64::MAX));
@@ -81,7 +82,11 @@ fn ranges_are_the_smaller_ones_of_both_channels() {
                 let limits = param.limits(kind);
                 // Of the signals that the manual admits, a parameter lists those that are modelled.
                 if param.quantity == Quantity::Signal {
-                    assert!(limits.min >= least && limits.max <= greatest, "{name}");
+                    let codes = [limits.min, limits.max].map(datum);
+                    assert!(
+                        codes.iter().all(|c| (least..=greatest).contains(c)),
+                        "{name}"
+                    );
                 } else {
                     assert_eq!(
                         (limits.min, limits.max),
