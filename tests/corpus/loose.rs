@@ -127,3 +127,33 @@ fn what_does_not_hold_is_explored_with_its_own_times() {
         assert!(task.bound.system.states.len() > loose.bound.system.states.len());
     }
 }
+
+/// A time with many values is counted: to try them all in each cycle costs more.
+#[test]
+fn a_long_time_is_not_left_open() {
+    let folder = std::path::PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("loose");
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let text = |end: &str| {
+        let path = root().join(format!("tests/machines/interlock-840d.{end}"));
+        std::fs::read_to_string(path).expect("readable")
+    };
+    std::fs::write(folder.join("interlock-840d.stl"), text("stl")).expect("written");
+    for (limit, open) in [("4.7", true), ("4.9", false)] {
+        let program = text("spf").replace("STOP_TIME < 0.06", &format!("STOP_TIME < {limit}"));
+        std::fs::write(folder.join("interlock-840d.spf"), program).expect("written");
+        let path = folder.join("interlock-840d.toml");
+        let families = root().join("spec/families");
+        let machine = stillpoint_machine::load_bytes(&path, text("toml").into_bytes(), &families)
+            .unwrap_or_else(|e| panic!("{e}"));
+        let mut runs = machine.runs.clone();
+        runs.retain(|run| run.guarantee.as_deref() == Some("hold_to_run") && !run.half);
+        let subject = subject::of_runs(&path, machine, &runs, &Readings::new())
+            .unwrap_or_else(|e| panic!("{e}"));
+        let tasks = &subject.tasks;
+        assert!(!tasks.is_empty());
+        assert!(
+            tasks.iter().all(|task| task.loose.is_some() == open),
+            "{limit}"
+        );
+    }
+}

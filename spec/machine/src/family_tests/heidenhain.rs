@@ -239,6 +239,16 @@ pub(super) fn examples() -> Vec<(&'static str, String, String)> {
         asked(stop),
         asked(&format!("{stop}, discrepancy = \"1 ms\"")),
     ));
+    let promised = |way: &str| {
+        asked(&format!(
+            "{stop}, discrepancy = \"1 ms\", fastest = \"600 mm/min\", travel = \"{way}\""
+        ))
+    };
+    list.push((
+        "in that time the axis goes on further than is promised",
+        promised("19.999 mm"),
+        promised("20 mm"),
+    ));
     let device = "pattern = \"enabling\", door = \"a\", mode = \"SOM_2\", way = \"10 mm\", device_contacts = 2";
     list.push((
         "one of the two contacts of the device may be stuck",

@@ -56,7 +56,7 @@ const RULES: [(&str, &str, &str, &str, &str); 7] = [
 ];
 
 /// Rules about a value that is too small: the rule by its text, the pattern, what stands in the guarantee, what is wrong and what is right.
-const VALUES: [(&str, &str, &str, &str, &str); 5] = [
+const VALUES: [(&str, &str, &str, &str, &str); 6] = [
     (
         "the signal comes from an F module, and takes longer",
         "stop_request",
@@ -84,6 +84,13 @@ const VALUES: [(&str, &str, &str, &str, &str); 5] = [
         "feedback = \"INSE[7]\", coil = \"OUTSE[4]\", bus_timeout = \"150 ms\"",
         "within = \"100 ms\"",
         "within = \"1 s\"",
+    ),
+    (
+        "in that time the axis goes on further than is promised",
+        "stop_request",
+        "stop = \"STOP A\", within = \"1 s\", contact = \"INSE[5]\"",
+        "travel = \"44.332 mm\"",
+        "travel = \"44.333 mm\"",
     ),
     (
         "the axis does not feed this signal with its standstill",
