@@ -194,6 +194,7 @@ fn task(spec: &Spec, bound: Bound, title: String) -> Task {
         file: family("both.toml"),
         sources: BTreeMap::new(),
         loose: None,
+        loosely: false,
     }
 }
 

@@ -44,6 +44,8 @@ pub struct Task {
     pub sources: BTreeMap<String, String>,
     /// The same for less effort, where what holds there holds here.
     pub loose: Option<Box<Loose>>,
+    /// Whether `bound` is the loose system, and the own one stands in its place.
+    pub loosely: bool,
 }
 
 /// A system in which more may happen than in that of its task, and fewer states are told apart.
@@ -58,9 +60,16 @@ pub struct Loose {
 }
 
 impl Task {
+    /// The system that the file describes, whichever was explored.
+    pub fn own(&self) -> &Bound {
+        let loose = self.loose.as_ref().filter(|_| self.loosely);
+        loose.map_or(&self.bound, |other| &other.bound)
+    }
+
     /// Changes the system for the loose one, or back.
     pub fn change(&mut self) {
         if let Some(loose) = &mut self.loose {
+            self.loosely = !self.loosely;
             std::mem::swap(&mut self.bound, &mut loose.bound);
             std::mem::swap(&mut self.analysis, &mut loose.analysis);
         }
@@ -136,6 +145,7 @@ fn of_spec(path: &Path, text: Arc<str>, readings: &Readings) -> Result<Subject> 
                 file: path.to_owned(),
                 sources: BTreeMap::new(),
                 loose: None,
+                loosely: false,
             }),
             Err(Diagnostics(list)) => errors.extend(list),
         }
@@ -221,6 +231,7 @@ pub fn of_runs(
             file: run.file.clone(),
             sources: run.sources.clone(),
             loose,
+            loosely: false,
         });
     }
     Ok(Subject {

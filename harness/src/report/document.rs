@@ -82,7 +82,7 @@ fn sources(subject: &Subject) -> Result<Vec<Source>, String> {
         certified::Subject::load(&subject.path, kind, &readings).map_err(|e| e.to_string())?;
     let same = read.bounds.len() == subject.tasks.len()
         && (read.bounds.iter().zip(&subject.tasks))
-            .all(|(a, t)| a.system == t.bound.system && a.values == t.bound.values);
+            .all(|(a, t)| a.system == t.own().system && a.values == t.own().values);
     if !same {
         return Err("the specification was changed during the check".to_owned());
     }
@@ -300,20 +300,34 @@ pub fn guaranteed(subject: &Subject, checked: &[Checked]) -> Vec<Block> {
         return unasked(subject).map(paragraph).into_iter().collect();
     }
     let rows = answers.iter().flat_map(|answer| {
+        let mut before: Option<(&[String], String)> = None;
         answer.runs.iter().map(move |run| {
+            // What several runs of a guarantee have in common is told with the first one.
+            let values = run.told().collect::<Vec<_>>().join("\n");
+            let faults = run.task.faults.as_slice();
+            let (first, same_faults, same_values) = match &before {
+                Some((f, v)) => (false, *f == faults && !f.is_empty(), *v == values),
+                None => (true, false, false),
+            };
+            before = Some((faults, values.clone()));
+            let guarantee = &answer.guarantee;
+            let told = format!("{}\n{}", guarantee.text, guarantee.source);
             vec![
-                code(&answer.guarantee.name),
+                code(&guarantee.name),
                 badge(run.verdict, false),
-                words(format!(
-                    "{}\n{}",
-                    answer.guarantee.text, answer.guarantee.source
-                )),
-                words(run.task.axes.join(", ")),
-                words(run.task.faults.join("\n")),
+                words(if first { told } else { String::new() }),
+                words(&run.task.title),
+                words(match same_faults {
+                    true => "the same faults".to_owned(),
+                    false => faults.join("\n"),
+                }),
                 words(run.bound.map_or_else(String::new, |b| {
                     format!("at most {}{}", time(b), run.travelled())
                 })),
-                words(run.told().collect::<Vec<_>>().join("\n")),
+                words(match same_values {
+                    true => "the same values".to_owned(),
+                    false => values,
+                }),
             ]
         })
     });
@@ -321,7 +335,7 @@ pub fn guaranteed(subject: &Subject, checked: &[Checked]) -> Vec<Block> {
         "guarantee",
         "verdict",
         "in plain words",
-        "axes",
+        "explored",
         "also after this fault",
         "tightest bound",
         "values it depends on",
