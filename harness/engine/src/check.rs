@@ -154,23 +154,10 @@ pub fn check(
             checkpoint: settings.keep.as_ref().map(|k| k.of(number, &task.bound)),
             ..Options::default()
         };
-        let mut found = None;
-        if loosely && task.loose.is_some() {
-            task.change();
-            let until = Until::Violated;
-            let options = Options {
-                until,
-                ..options.clone()
-            };
-            let (outcome, again) = explored(task, &options, settings, &known, progress)?;
-            if holds(&outcome) {
-                task.abstractions
-                    .extend(task.loose.as_ref().map(|l| l.text.clone()));
-                found = Some((outcome, again));
-            } else {
-                task.change();
-            }
-        }
+        let found = match loosely {
+            true => explored_loosely(task, &options, settings, &known, progress)?,
+            false => None,
+        };
         options.limits = settings.limits(start);
         let (outcome, again) = match found {
             Some(found) => found,
@@ -251,6 +238,31 @@ fn explored(
         known.keep(identity, &outcome);
     }
     Ok((outcome, again))
+}
+
+/// Explores the loose system of a task, if it has one. None: it does not show that what is asked holds, and the task is as it was.
+fn explored_loosely(
+    task: &mut Task,
+    options: &Options,
+    settings: &Settings,
+    known: &Known,
+    progress: &mut dyn FnMut(&Task) -> Box<dyn Progress>,
+) -> Result<Option<(Outcome, bool)>, (String, Error)> {
+    let Some(text) = task.loose.as_ref().map(|loose| loose.text.clone()) else {
+        return Ok(None);
+    };
+    let options = Options {
+        until: Until::Violated,
+        ..options.clone()
+    };
+    task.change();
+    let found = explored(task, &options, settings, known, progress)?;
+    if !holds(&found.0) {
+        task.change();
+        return Ok(None);
+    }
+    task.abstractions.push(text);
+    Ok(Some(found))
 }
 
 /// Whether all that is asked holds, and is put to the test.

@@ -47,16 +47,10 @@ pub fn certify(
     threads: usize,
     progress: &(dyn Fn(usize, usize) + Sync),
 ) -> Result<Written, String> {
-    let kind = match subject.machine {
-        Some(_) => Kind::Machine,
-        None => Kind::Specification,
-    };
-    let readings = readings(subject);
-    let subject::Subject { mut header, bounds } =
-        subject::Subject::load(&subject.path, kind, &readings).map_err(|e| e.to_string())?;
-    if !same(&bounds, subject) {
-        return Err("the specification was changed during the check".to_owned());
+    if subject.tasks.iter().any(|task| task.loosely) {
+        return Err("a certificate is about the systems themselves: check them exactly".to_owned());
     }
+    let subject::Subject { mut header, bounds } = read_again(subject)?;
     let threads = match threads {
         0 => std::thread::available_parallelism().map_or(1, usize::from),
         given => given,
@@ -103,18 +97,25 @@ pub fn certify(
     })
 }
 
-/// The option of each reading that occurs.
-fn readings(subject: &Subject) -> BTreeMap<String, String> {
-    let tasks = subject.tasks.iter();
-    tasks.flat_map(|task| task.bound.readings()).collect()
-}
-
-/// Whether these systems, read again, are those that were checked.
-fn same(bounds: &[Bound], subject: &Subject) -> bool {
-    let pairs = bounds.iter().zip(&subject.tasks);
-    let mut pairs = pairs.map(|(bound, task)| (bound, &task.bound));
-    bounds.len() == subject.tasks.len()
-        && pairs.all(|(a, b)| a.system == b.system && a.values == b.values)
+/// The file of a subject, read again as whoever checks a certificate or a report reads it.
+///
+/// # Errors
+/// It cannot be read any more, or its systems are not those that were checked.
+pub(crate) fn read_again(subject: &Subject) -> Result<subject::Subject, String> {
+    let kind = match subject.machine {
+        Some(_) => Kind::Machine,
+        None => Kind::Specification,
+    };
+    let tasks = || subject.tasks.iter();
+    let readings: BTreeMap<String, String> = tasks().flat_map(|t| t.bound.readings()).collect();
+    let read = subject::Subject::load(&subject.path, kind, &readings).map_err(|e| e.to_string())?;
+    let mut pairs = read.bounds.iter().zip(tasks().map(|task| task.own()));
+    let same = read.bounds.len() == subject.tasks.len()
+        && pairs.all(|(a, b)| a.system == b.system && a.values == b.values);
+    match same {
+        true => Ok(read),
+        false => Err("the specification was changed during the check".to_owned()),
+    }
 }
 
 /// The claims about one task and what shows them.

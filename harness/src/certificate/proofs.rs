@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use stillpoint_certify::format::{Kind, Verdict};
+use stillpoint_certify::format::Verdict;
 use stillpoint_certify::proof::clause::written;
 use stillpoint_certify::proof::format::{Claim, File, Lemmas, Proof, RANGE, Run, System, text};
 use stillpoint_certify::proof::question::Question;
@@ -15,7 +15,7 @@ use stillpoint_lang::bind::Bound;
 use stillpoint_model::proof::{Budget, Spent, lemmas};
 use stillpoint_model::{self as model, Trace};
 
-use super::{Written, readings, same};
+use super::{Written, read_again};
 use crate::atomic::write_with;
 use crate::proof::{Engine, Every, Judged, Shown};
 
@@ -40,16 +40,7 @@ pub fn certify(
     progress: &dyn Fn(usize, usize),
 ) -> Result<Written, String> {
     let tasks = &found.subject.tasks;
-    let kind = match found.subject.machine {
-        Some(_) => Kind::Machine,
-        None => Kind::Specification,
-    };
-    let readings = readings(found.subject);
-    let subject::Subject { mut header, bounds } =
-        subject::Subject::load(&found.subject.path, kind, &readings).map_err(|e| e.to_string())?;
-    if !same(&bounds, found.subject) {
-        return Err("the specification was changed during the check".to_owned());
-    }
+    let subject::Subject { mut header, bounds } = read_again(found.subject)?;
     let mut written = Written { claims: 0, open: 0 };
     let mut systems = Vec::new();
     for (k, (bound, task)) in bounds.iter().zip(&mut header.task).enumerate() {

@@ -3,8 +3,7 @@
 use std::collections::BTreeMap;
 use std::time::Instant;
 
-use stillpoint_certify::format::{Kind, Source};
-use stillpoint_certify::subject as certified;
+use stillpoint_certify::format::Source;
 use stillpoint_engine::check::{Checked, Settings, Summary, Violation, exit_status, violations};
 use stillpoint_engine::lines;
 use stillpoint_engine::readings::Compared;
@@ -18,6 +17,7 @@ use super::{
     configuration, counted, counts, exploration, findings, grouped, inventory, properties, result,
     topics, values, word,
 };
+use crate::certificate::read_again;
 use crate::guarantees::{answers, time, unasked};
 use crate::states::{Budget, control_states};
 
@@ -59,7 +59,7 @@ impl About {
         begin: &mut dyn FnMut(&Task),
     ) -> Result<Self, String> {
         let mut out = Self {
-            sources: sources(subject)?,
+            sources: read_again(subject)?.header.file,
             ..Self::default()
         };
         let start = Instant::now();
@@ -69,24 +69,6 @@ impl About {
         }
         Ok(out)
     }
-}
-
-fn sources(subject: &Subject) -> Result<Vec<Source>, String> {
-    let kind = match subject.machine {
-        Some(_) => Kind::Machine,
-        None => Kind::Specification,
-    };
-    let tasks = subject.tasks.iter();
-    let readings: BTreeMap<String, String> = tasks.flat_map(|t| t.bound.readings()).collect();
-    let read =
-        certified::Subject::load(&subject.path, kind, &readings).map_err(|e| e.to_string())?;
-    let same = read.bounds.len() == subject.tasks.len()
-        && (read.bounds.iter().zip(&subject.tasks))
-            .all(|(a, t)| a.system == t.own().system && a.values == t.own().values);
-    if !same {
-        return Err("the specification was changed during the check".to_owned());
-    }
-    Ok(read.header.file)
 }
 
 fn drawn(

@@ -29,7 +29,8 @@ impl Premise {
     pub fn read(
         check: &mut Check,
         family: &Family,
-        (of, patterns): (About, Vec<Spanned<String>>),
+        of: About,
+        patterns: Vec<Spanned<String>>,
         each: Vec<i64>,
         when: Spanned<String>,
         lets: IndexMap<String, Spanned<String>>,

@@ -117,7 +117,7 @@ impl About {
         if self != Self::Door {
             let counts = [DOORS, GROUPS, GUARANTEES, ASKED, ASKED_AFTER_FAULT];
             known.extend(counts.map(str::to_owned));
-            known.extend([PROGRAMMED, HALF_ASSUMED, UNASKED].map(str::to_owned));
+            known.extend([PROGRAMMED, HALF_ASSUMED].map(str::to_owned));
             known.extend(family.patterns.keys().map(|name| asked_by(name)));
         }
         known.extend(family.control.keys().cloned());
@@ -128,6 +128,9 @@ impl About {
             known.extend(["kind", "spindle", "LINEAR", "ROTARY", PATH, OTHERS].map(str::to_owned));
             known.extend([DIFFERS, PAIRED].map(str::to_owned));
             known.extend(family.axis.keys().cloned());
+        }
+        if self == Self::Machine {
+            known.push(UNASKED.to_owned());
         }
         if matches!(self, Self::Group | Self::Machine) {
             known.extend(family.known.whole.iter().cloned());
@@ -200,7 +203,10 @@ pub(super) fn grounds<'a>(machine: &'a Machine, about: About) -> Vec<Ground<'a>>
             // What axes, groups and doors have is a list here.
             let mut values = machine.basis.judged.machine.clone();
             values.extend(whole.values.clone());
-            list.push(Ground { values, ..whole });
+            let mut ground = Ground { values, ..whole };
+            let unasked = machine.unasked().len();
+            ground.set(UNASKED, i64::try_from(unasked).unwrap_or(i64::MAX));
+            list.push(ground);
         }
         About::Axis => list.extend(axes().map(of_axis)),
         About::Group => {
@@ -305,7 +311,6 @@ impl<'a> Ground<'a> {
             (ASKED_AFTER_FAULT, after),
             (PROGRAMMED, usize::from(programmed)),
             (HALF_ASSUMED, assumed),
-            (UNASKED, self.machine.unasked().len()),
         ] {
             self.set(name, i64::try_from(n).unwrap_or(i64::MAX));
         }

@@ -255,10 +255,10 @@ fn plan(
     groups: &IndexMap<String, Vec<StepData>>,
     stages: usize,
 ) -> Option<Plan> {
-    let (premise, known) = {
-        let subjects = (data.of, Vec::new());
-        Premise::read(check, family, subjects, data.each, data.when, data.lets)?
-    };
+    let none = Vec::new();
+    let (premise, known) = Premise::read(
+        check, family, data.of, none, data.each, data.when, data.lets,
+    )?;
     let names = Words {
         about: data.of,
         known: &known,

@@ -130,10 +130,10 @@ pub(super) fn plan(
             .add(data.part.span(), message, "this part", help);
         return None;
     };
-    let (premise, known) = {
-        let subjects = (data.of, Vec::new());
-        Premise::read(check, family, subjects, data.each, data.when, data.lets)?
-    };
+    let none = Vec::new();
+    let (premise, known) = Premise::read(
+        check, family, data.of, none, data.each, data.when, data.lets,
+    )?;
     let names = Words {
         about: data.of,
         known: &known,

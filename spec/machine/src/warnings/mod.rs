@@ -203,9 +203,15 @@ impl Rule {
     /// `None` leaves a finding.
     fn read(check: &mut Check, data: RuleData, family: &Family, manual: &str) -> Option<Self> {
         let written = [&data.text, &data.reason, &data.better].map(|t| t.get_ref().clone());
-        let subjects = (data.of, data.patterns);
-        let (premise, known) =
-            Premise::read(check, family, subjects, data.each, data.when, data.lets)?;
+        let (premise, known) = Premise::read(
+            check,
+            family,
+            data.of,
+            data.patterns,
+            data.each,
+            data.when,
+            data.lets,
+        )?;
         let names = Words {
             about: data.of,
             known: &known,
