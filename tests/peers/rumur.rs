@@ -137,12 +137,10 @@ fn compare(
 /// Compares every system of a file with no more transitions than this.
 fn compare_all(path: &Path, transitions: u128) -> Vec<(String, Option<BTreeSet<String>>)> {
     let subject = load(path);
-    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     let compared = subject.tasks.iter().map(|task| {
-        let system = task.bound.system.name.rsplit('/').next();
-        let name = format!("{stem}/{}", system.unwrap_or_default());
-        let broken = compare(&subject, task, &name, transitions);
-        (name, broken)
+        let name = &task.bound.system.name;
+        let broken = compare(&subject, task, name, transitions);
+        (name.clone(), broken)
     });
     compared.collect()
 }

@@ -42,7 +42,7 @@ macro_rules! sinamics_monitors {
         slp reference safe_position actual_value gear encoderless start_phase drive_test path_test brake_test
         brake_test_request data_set
         input_filter terminal_pair chatter basic_selection basic_stop fail_safe_input fail_safe_output safe_state
-        stop_arbiter acknowledgement_edge acknowledgement restart communication io_test message_buffer
+        stop_arbiter cross_check acknowledgement_edge acknowledgement restart communication io_test message_buffer
         acceptance_mode commissioning replacement
     } };
 }

@@ -142,13 +142,6 @@ fields! {
     }
 }
 
-/// Whether the limit is the velocity of a point at this place, and of none of those a higher one.
-fn lowest_at(curve: &Curve, place: i32, limit: i32) -> bool {
-    let at = |point: (i32, i32)| point.0 == place;
-    some_point(curve, |point| at(point) && limit == point.1)
-        && !some_point(curve, |point| at(point) && limit > point.1)
-}
-
 /// Whether some point is as wanted.
 fn some_point(curve: &Curve, wanted: impl Fn((i32, i32)) -> bool) -> bool {
     let mut some = false;
@@ -199,10 +192,15 @@ monitor! { srm::interpolation;
         when |s| s.outputs.error
             => s.outputs.v_limit == 0;
 
-    /// At a point its velocity is the limit, the lowest of those that have this place.
+    /// At a point its velocity is the limit.
     point_has_its_velocity ["SRM-INTERP-003", "SRM-P-27"]:
         when |s| !s.outputs.error && some_point(&s.config.curve, |point| point.0 == s.inputs.x_actual)
-            => lowest_at(&s.config.curve, s.inputs.x_actual, s.outputs.v_limit);
+            => some_point(&s.config.curve, |point| point.0 == s.inputs.x_actual && s.outputs.v_limit == point.1);
+
+    /// Of several points at one place the lowest velocity counts.
+    lowest_of_a_place_counts ["SRM-INTERP-003"]:
+        when |s| !s.outputs.error
+            => !some_point(&s.config.curve, |point| point.0 == s.inputs.x_actual && s.outputs.v_limit > point.1);
 
     /// Between two points the limit is less than 1 mm/min from the line, toward the velocity of the point before.
     line_between_points ["SRM-INTERP-004", "SRM-ENDZONE-027", "SRM-P-27"]:

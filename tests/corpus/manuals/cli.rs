@@ -7,14 +7,18 @@ use toml::{Table, Value};
 
 /// Runs the command `stillpoint`.
 ///
-/// Given: `arguments`, in which `FILE` stands for the machine file; `machine`, a file of the workspace, or `file`, the text of one;
-/// `replace`, pairs of texts, each replaced in it where it stands first; `find`, texts looked for in both outputs;
+/// Given: `arguments`, in which `FILE` stands for the machine file and `SCENARIO` for the scenario; `machine`, a file of the
+/// workspace, or `file`, the text of one, in which `FAMILIES` is the folder of the families; `replace`, pairs of texts, each replaced
+/// in it where it stands first; `scenario`, the text of one; `find`, texts looked for in both outputs;
 /// `json`, pointers into the standard output, taken as JSON. Answer: `status`, `found` (those of `find` that were found), and
 /// each pointer of `json`.
 pub fn run(given: &Given<'_>) -> Result<Table, String> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let mut text = match given.get("file") {
-        Some(text) => text.as_str().ok_or("file: a text is needed")?.to_owned(),
+        Some(text) => {
+            let text = text.as_str().ok_or("file: a text is needed")?;
+            text.replace("FAMILIES", &root.join("spec/families").to_string_lossy())
+        }
         None => {
             std::fs::read_to_string(root.join(given.text("machine")?)).map_err(|e| e.to_string())?
         }
@@ -29,17 +33,25 @@ pub fn run(given: &Given<'_>) -> Result<Table, String> {
         text = text.replacen(from, to, 1);
     }
     // A file of its own for every case, inside the workspace so that the family is found.
-    let folder = tempfile_folder(&text)?;
-    let file = folder.join("machine.toml");
-    std::fs::write(&file, text).map_err(|e| e.to_string())?;
+    let scenario = match given.get("scenario") {
+        Some(text) => text.as_str().ok_or("scenario: a text is needed")?,
+        None => "",
+    };
+    let folder = tempfile_folder(&format!("{text}{scenario}"))?;
+    let write = |name, text: &str| {
+        let file = folder.join(name);
+        std::fs::write(&file, text).map_err(|e| e.to_string())?;
+        Ok::<_, String>(file)
+    };
+    let files = [
+        ("FILE", write("machine.toml", &text)?),
+        ("SCENARIO", write("scenario.toml", scenario)?),
+    ];
     let arguments = given.texts("arguments")?;
     let output = Command::new(env!("CARGO_BIN_EXE_stillpoint"))
-        .args(arguments.iter().map(|a| {
-            if *a == "FILE" {
-                file.as_os_str()
-            } else {
-                a.as_ref()
-            }
+        .args(arguments.iter().map(|argument| {
+            let file = files.iter().find(|(name, _)| name == argument);
+            file.map_or(argument.as_ref(), |(_, file)| file.as_os_str())
         }))
         .current_dir(&root)
         .env("NO_COLOR", "1")

@@ -3,6 +3,7 @@
 
 use stillpoint_monitors::kernel::{Distance, Position, Speed};
 use stillpoint_monitors::sinamics::basic_stop::Latched;
+use stillpoint_monitors::sinamics::cross_check::Results;
 use stillpoint_monitors::sinamics::level::{Function, Stop};
 use stillpoint_monitors::sinamics::{
     acknowledgement, acknowledgement_edge, communication, restart, sbc, sto,
@@ -10,7 +11,7 @@ use stillpoint_monitors::sinamics::{
 
 use super::bare::{self, Bare};
 use super::basic::Basic;
-use super::functions::{Functions, Results, Seen};
+use super::functions::{Functions, Seen};
 use super::messages::{Message, Messages};
 use super::said::Said;
 use super::service::{self, Service};
@@ -92,7 +93,7 @@ impl Channel {
             second,
             basic: Basic::new(values, running),
             functions: (values.extended.as_ref())
-                .map(|config| Functions::new(config, running.then_some(position))),
+                .map(|config| Functions::new(config, running.then_some(read))),
             bare: (values.extended.as_ref())
                 .and_then(|config| config.bare)
                 .map(|config| Bare::new(config, running, position)),
@@ -231,6 +232,12 @@ impl Channel {
             ),
             _ => (bare::Told::default(), position, speed),
         };
+        let edges = acknowledgement::Inputs {
+            profisafe_edge: edge,
+            reselected: reselected.acknowledge,
+            standard: read.is(Flag::General),
+            ..Default::default()
+        };
         let seen = Seen {
             position,
             speed,
@@ -245,6 +252,7 @@ impl Channel {
             other_agrees: other.agrees,
             second: self.second,
             wrong: bare.wrong,
+            acknowledges: edges.acknowledge(&values.acknowledgement),
         };
         let mut messages = Messages::default()
             .with(Message::BasicF, terminals_differ)
@@ -253,14 +261,9 @@ impl Channel {
         let raised = self.functions.as_mut().map(|f| f.watch(&bits, &seen));
         let cause = raised.is_some_and(|r| r.request != Stop::None || r.difference);
         let acknowledged = self.acknowledgement.step(&acknowledgement::Inputs {
-            power_on: false,
-            input_edge: false,
-            profisafe_edge: edge,
-            reselected: reselected.acknowledge,
             message: cause || bare.no_current || raised.is_some_and(|r| r.notice),
             cause,
-            module_cause: false,
-            standard: read.is(Flag::General),
+            ..edges
         });
         let told = match (&mut self.functions, &raised) {
             (Some(functions), Some(raised)) => {
@@ -359,6 +362,8 @@ impl Channel {
             Latched::A => Stop::A,
             Latched::Locked => Stop::Locked,
         };
+        // In the acceptance test mode the setpoint acts again once the axis stands in SOS.
+        let moves = told.mode.setpoint_enabled && arbiter.stop <= Stop::C;
         let directions = told.setpoint.map(|s| [s.positive, s.negative]);
         Said {
             position: position.0,
@@ -393,15 +398,16 @@ impl Channel {
             function: told.function,
             pulses_off: self.shared.path_off,
             off3: arbiter.off3 || told.ss1.off3 || told.ss2.off3 || ss1.off3,
-            control_brakes: told.sos.selected
+            control_brakes: (told.sos.selected
                 || arbiter.sos
                 || told.ss2.ss2e_active
-                || matches!(arbiter.stop, Stop::D | Stop::E)
+                || matches!(arbiter.stop, Stop::D | Stop::E))
+                && !moves
                 || told.ss1.active
                 || ss1.active
                 || off1
                 || service.brake.own_setpoint,
-            inhibited: arbiter.setpoint_zero || told.ss2.inhibited,
+            inhibited: (arbiter.setpoint_zero || told.ss2.inhibited) && !moves,
             torque: self.torque,
             setpoint: told.setpoint.map_or(Speed(u32::MAX), |s| s.absolute),
             directions,

@@ -250,7 +250,8 @@ impl<'a> Simulated<'a> {
                     (Flag::Declared, pulse.reference),
                     (Flag::ExternalClosed, axis.brakes[1].closed),
                     (Flag::On, own.on),
-                    (Flag::Acceptance, !limited),
+                    // The mode begins by an edge, once the drive is there.
+                    (Flag::Acceptance, !limited && own.powered && !switched),
                 ]);
             for forced in now.forced.iter().filter(|f| f.owner == k && f.side == side) {
                 // The scenario has been checked.

@@ -111,6 +111,13 @@ fields! {
     }
 }
 
+impl Inputs {
+    /// Whether these edges acknowledge, whatever messages there are: [`Outputs::acknowledge`] of the cycle.
+    pub const fn acknowledge(&self, config: &Config) -> bool {
+        !self.power_on && (safely(config, self) || (config.extended && self.reselected))
+    }
+}
+
 /// Whether a safe acknowledgement comes from an enabled source: from the F-DI or PROFIsafe.
 const fn safely(config: &Config, inputs: &Inputs) -> bool {
     (config.input && inputs.input_edge) || (config.profisafe && inputs.profisafe_edge)
@@ -180,8 +187,7 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
     } else {
         state
     };
-    let acknowledge =
-        !inputs.power_on && (safely(config, inputs) || (config.extended && inputs.reselected));
+    let acknowledge = inputs.acknowledge(config);
     let ended = acknowledge && !inputs.cause;
     let event = inputs.message || (before.event && !ended);
     let module = match before.module {

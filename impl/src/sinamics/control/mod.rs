@@ -9,6 +9,7 @@
 //! | [`fail_safe_input`] | F-DI of TM54F and CU310-2 |
 //! | [`fail_safe_output`], [`safe_state`] | F-DO, and the signal Safe State |
 //! | [`stop_arbiter`] | STOP A to F of the Extended Functions, with the functions' levels |
+//! | [`cross_check`] | comparison of the channels' results: STOP F |
 //! | [`acknowledgement_edge`], [`acknowledgement`] | what acknowledges, and what of it is cleared |
 //! | [`restart`] | from STO back to torque |
 //! | [`communication`] | PROFIsafe and TM54F supervision, ESR on failure |
@@ -27,6 +28,7 @@ pub mod chatter;
 pub mod commissioning;
 pub mod communication;
 pub mod control_path;
+pub mod cross_check;
 pub mod fail_safe_input;
 pub mod fail_safe_output;
 pub mod input_filter;

@@ -40,7 +40,7 @@ pub(super) fn steps(state: &State, config: &Config, inputs: &Inputs) -> bool {
     let change = (i64::from(inputs.pos1) - i64::from(state.last1)).abs();
     // The narrow factor first: a model checker adds once for each of its bits.
     let permitted = i64::from(config.t_sample) * i64::from(config.v_max);
-    inputs.pos1_valid && state.seen1 && change * 30_000 > permitted
+    inputs.pos1_valid && state.seen1 && 30_000 * change > permitted
 }
 
 /// The reference has survived, as far as the encoders tell.

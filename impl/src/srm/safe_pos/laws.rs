@@ -28,7 +28,7 @@ fn jump(s: &Step) -> bool {
     let way = (i64::from(s.inputs.pos1) - i64::from(s.before.last1)).abs();
     s.before.seen1
         && s.inputs.pos1_valid
-        && way * 30_000 > i64::from(s.config.t_sample) * i64::from(s.config.v_max)
+        && 30_000 * way > i64::from(s.config.t_sample) * i64::from(s.config.v_max)
 }
 
 /// An encoder that is needed is invalid, or POS1 has jumped.
@@ -39,19 +39,22 @@ fn encoder_fault(s: &Step) -> bool {
         || jump(s)
 }
 
-/// POS1 and POSSI with the offsets of a state are within a window; um.
+/// POS1 with the offset of a state, mm.
+fn first(s: &Step, state: &State) -> i64 {
+    i64::from(s.inputs.pos1) + i64::from(state.off1)
+}
+
+/// POS1 and POSSI with the offsets of a state are within a window; um. In the order of the block's own sums, as all that follow: a solver
+/// finds the same sums at once, and does not find that two different orders are the same number.
 fn motor_within(s: &Step, state: &State, window: i32) -> bool {
-    let off = (i64::from(s.inputs.pos1) + i64::from(state.off1)) * 1_000
-        - i64::from(s.inputs.possi)
-        - i64::from(state.off_si);
-    off.abs() <= i64::from(window) * 1_000
+    let motor = i64::from(s.inputs.possi) + i64::from(state.off_si);
+    (1_000 * first(s, state) - motor).abs() <= 1_000 * i64::from(window)
 }
 
 /// POS1 and POS2 with the offsets of a state are within a window.
 fn second_within(s: &Step, state: &State, window: i32) -> bool {
-    let off = i64::from(s.inputs.pos1) + i64::from(state.off1) + i64::from(s.inputs.pos2)
-        - i64::from(state.off2);
-    off.abs() <= i64::from(window)
+    let second = i64::from(state.off2) - i64::from(s.inputs.pos2);
+    (first(s, state) - second).abs() <= i64::from(window)
 }
 
 /// The encoders have gone apart in the offsets before the call.
@@ -63,22 +66,17 @@ fn apart(s: &Step) -> bool {
 
 /// The reference has survived a fault, as far as the encoders tell now.
 fn survives(s: &Step) -> bool {
-    let here = i64::from(s.inputs.pos1) + i64::from(s.before.off1);
-    s.before.was_ref
+    let before = &s.before;
+    before.was_ref
         && if s.config.pos_config {
-            second_within(
-                s,
-                &s.before,
-                s.config.pos_disc_window.min(s.config.pos2_disc_window),
-            )
-        } else if s.before.si_failed {
-            (here - i64::from(s.before.saved)).abs() <= i64::from(s.config.pos_startup_tol)
+            second_within(s, before, s.config.pos_disc_window)
+                && second_within(s, before, s.config.pos2_disc_window)
+        } else if before.si_failed {
+            (first(s, before) - i64::from(before.saved)).abs()
+                <= i64::from(s.config.pos_startup_tol)
         } else {
-            motor_within(
-                s,
-                &s.before,
-                s.config.pos_disc_window.min(s.config.possi_disc_window),
-            )
+            motor_within(s, before, s.config.pos_disc_window)
+                && motor_within(s, before, s.config.possi_disc_window)
         }
 }
 
@@ -89,9 +87,9 @@ fn commanded(s: &Step) -> bool {
 
 /// POS1 and POSSI have gone different ways in the window of the call before.
 fn drift(s: &Step) -> i64 {
-    ((i64::from(s.inputs.pos1) - i64::from(s.before.window1)) * 1_000
-        - (i64::from(s.inputs.possi) - i64::from(s.before.window_si)))
-    .abs()
+    let first = i64::from(s.inputs.pos1) - i64::from(s.before.window1);
+    let motor = i64::from(s.inputs.possi) - i64::from(s.before.window_si);
+    (1_000 * first - motor).abs()
 }
 
 /// How far the counter has gone since the last sample, modulo 2^16.
@@ -273,12 +271,12 @@ monitor! { srm::safe_pos;
     valid_velocity_is_plausible ["SRM-POSV-006", "SRM-POSV-007", "SRM-POSV-015", "SRM-P-09", "SRM-P-76"]:
         when |s| s.outputs.v_valid
             => s.outputs.safe_v <= s.config.v_max
-                && (!s.before.phase.formed() || drift(&s) <= i64::from(s.config.v_disc_window) * 1_000);
+                && (!s.before.phase.formed() || drift(&s) <= 1_000 * i64::from(s.config.v_disc_window));
 
     /// A drift beyond the window is a velocity fault; position and reference are untouched.
     drift_acts_at_once ["SRM-POSV-007", "SRM-POSV-009", "SRM-POSV-010", "SRM-P-12"]:
         when |s| s.before.phase.formed() && s.after.phase.formed()
-            && drift(&s) > i64::from(s.config.v_disc_window) * 1_000
+            && drift(&s) > 1_000 * i64::from(s.config.v_disc_window)
             => !s.outputs.v_valid && s.outputs.error && s.outputs.diag & 0x40 == 0x40
                 && s.outputs.pos_valid == (!s.after.above && !s.after.below && free(&s));
 

@@ -46,6 +46,11 @@ inventory! {
         tries: "t_b t_c: 0 2; t_d t_e: 2; t_f: 0 2; timer: 0..2; fault_timer: 0..2",
         caveat: "longer times only under Kani and in samples",
     }]
+    [contract s120_cross_check_contract on sinamics::cross_check {
+        property: "every clause of the cross-check: each result of both channels, the time they may be apart, findings of this channel",
+        tries: "apart: 1..3 max; since: 0..3 max; sls_level: 0 1; stage: 0 1; stop: 0 3; function: 0 2",
+        caveat: "two values of each result; others only under Kani and in samples",
+    }]
     [contract s120_acknowledgement_edge_contract on sinamics::acknowledgement_edge {
         property: "every clause of an acknowledging edge: rest, rise, fall, interruption, unsettled inputs",
         tries: "",

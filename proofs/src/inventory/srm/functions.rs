@@ -28,7 +28,7 @@ inventory! {
         tries: "in1 in8: -2 0 1 ends; in2 in3 in4 in5 in6 in7: -1 0 5",
         caveat: "none",
     }]
-    [contract [kani(solver(kissat), unwind(18), stub(stillpoint_monitors::srm::interpolation::between, crate::arbitrary::srm::few_lines), stub(stillpoint_monitors::srm::interpolation::near_the_line, crate::arbitrary::srm::few_near_lines), stub(stillpoint_monitors::srm::interpolation::segments_fit, crate::arbitrary::srm::few_segments)) parts(7: ascent = 1, error = 2, point = 3, line = 4, outside = 5, highest = 6, cause = 7)] srm_interpolation_contract on srm::interpolation {
+    [contract [kani(solver(kissat), unwind(18), stub(stillpoint_monitors::srm::interpolation::between, crate::arbitrary::srm::few_lines), stub(stillpoint_monitors::srm::interpolation::near_the_line, crate::arbitrary::srm::few_near_lines), stub(stillpoint_monitors::srm::interpolation::segments_fit, crate::arbitrary::srm::few_segments)) parts(8: ascent = 1, error = 2, point = 3, lowest = 4, line = 5, outside = 6, highest = 7, cause = 8)] srm_interpolation_contract on srm::interpolation {
         property: "every clause of F_INTERPOLATION: points, lines, ends, errors",
         tries: "x.0: 0 2; v.0: 0 -5; x.1: 0 2 5; v.1: -7 10 2147483647; x.2: 2 5 12; v.2: -7 10; x.3: 5 12; v.3: 30 5; x: 12; v: 40; x_16: 12 14; v_16: 35 40; x_actual: -1..15 ends",
         caveat: "the other points are the last one; Kani takes a line between two points of 4 bits, all else at full width, and leaves out overflows of a line",

@@ -6,22 +6,20 @@
 mod told;
 
 use stillpoint_monitors::kernel::{Position, Speed};
+use stillpoint_monitors::sinamics::cross_check::Results;
 use stillpoint_monitors::sinamics::level::{Function, Stop};
 use stillpoint_monitors::sinamics::sls::Level;
 use stillpoint_monitors::sinamics::types::Stop as Demand;
 use stillpoint_monitors::sinamics::{
-    actual_value, gear, reference, safe_position, sam, sbr, sdi, setpoint_limit, slp, sls,
-    sls_ramp, sos, ss1, ss2, ssm, stop_arbiter,
+    acceptance_mode, actual_value, cross_check, gear, reference, safe_position, sam, sbr, sdi,
+    setpoint_limit, slp, sls, sls_ramp, sos, ss1, ss2, ssm, stop_arbiter,
 };
 
-use self::told::Defect;
-pub(super) use self::told::{Raised, Results, Told};
+use self::told::texts;
+pub(super) use self::told::{Raised, Told};
 use super::messages::{Message, Messages};
 use super::signals::{Flag, Number, Read};
 use super::values::{BrakingMonitor, Extended};
-
-/// For so many cycles the results of the channels may differ: one hears of the other a cycle later.
-const APART: u32 = 3;
 
 /// What the functions of an axis read beside the bits.
 #[derive(Clone, Copy)]
@@ -47,6 +45,8 @@ pub(super) struct Seen {
     pub second: bool,
     /// Without encoder: its actual value is not plausible.
     pub wrong: bool,
+    /// The stops of this drive are acknowledged in this cycle.
+    pub acknowledges: bool,
 }
 
 enum Ramp {
@@ -66,6 +66,7 @@ pub(super) struct Functions {
     ss1: ss1::Monitor,
     ss2: Option<ss2::Monitor>,
     sos: sos::Monitor,
+    mode: Option<acceptance_mode::Monitor>,
     sls: Limit,
     sdi: Option<[sdi::Monitor; 2]>,
     slp: Option<slp::Monitor>,
@@ -76,12 +77,9 @@ pub(super) struct Functions {
     ramp: Ramp,
     actual: actual_value::Monitor,
     setpoint: Option<setpoint_limit::Monitor>,
-    /// Cycles for which the results have differed.
-    differ: u32,
+    check: cross_check::Monitor,
     /// SAM or SBR was violated in the cycle before.
     violated: bool,
-    /// Why STOP F came last.
-    defect: Defect,
     told: Told,
 }
 
@@ -105,22 +103,29 @@ const fn stop_a(raised: bool) -> Stop {
 }
 
 impl Functions {
-    /// At POWER ON, never referenced; or running, safely referenced at a position.
-    pub(super) fn new(config: &Extended, running: Option<Position>) -> Self {
+    /// At POWER ON, never referenced; or running, safely referenced at the position that is read, in the acceptance test mode where that
+    /// is asked for.
+    pub(super) fn new(config: &Extended, running: Option<&Read>) -> Self {
         let referenced = |config: reference::Config| {
-            let state = running.map_or(reference::State::INITIAL, |stored| reference::State {
+            let state = running.map_or(reference::State::INITIAL, |read| reference::State {
                 phase: reference::Phase::Safe,
                 agreed: true,
-                stored,
+                stored: Position(read.of(Number::Position)),
                 ..reference::State::INITIAL
             });
             resumed!(reference, config, state)
         };
+        let mut mode = config.acceptance.map(acceptance_mode::Monitor::new);
+        if let (Some(mode), Some(_)) = (&mut mode, running) {
+            // It was not asked for before: it begins in the first cycle.
+            let _ = mode.step(&acceptance_mode::Inputs::default());
+        }
         Self {
             arbiter: stop_arbiter::Monitor::new(config.arbiter),
             ss1: ss1::Monitor::new(config.ss1),
             ss2: config.ss2.map(ss2::Monitor::new),
             sos: sos::Monitor::new(config.sos),
+            mode,
             sls: match config.sls_ramp {
                 Some(ramp) => Limit::Ramp(sls_ramp::Monitor::new(ramp)),
                 None => Limit::Delayed(sls::Monitor::new(config.sls)),
@@ -137,9 +142,8 @@ impl Functions {
             },
             actual: actual_value::Monitor::new(config.actual),
             setpoint: config.setpoint.map(setpoint_limit::Monitor::new),
-            differ: 0,
+            check: cross_check::Monitor::new(config.check),
             violated: false,
-            defect: Defect::default(),
             told: Told::default(),
             config: config.clone(),
         }
@@ -185,11 +189,20 @@ impl Functions {
                 ramp_violated: self.violated,
             });
         }
+        if let Some(mode) = &mut self.mode {
+            told.mode = mode.step(&acceptance_mode::Inputs {
+                power_on: false,
+                request: bits.is(Flag::Acceptance),
+                position_test: false,
+                standing: told.sos.active,
+                sos_acknowledged: seen.acknowledges && told.sos.active,
+            });
+        }
         told.sos = self.sos.step(&sos::Inputs {
             selected: selected(Flag::Sos),
             held: told.ss2.sos || before.sos,
             position: seen.position,
-            renew: false,
+            renew: told.mode.new_reference,
         });
         told.sos_reference = self.sos.state().reference;
         let bit = |k: u32| bits.of(Number::Level) >> k & 1 == 1;
@@ -319,21 +332,16 @@ impl Functions {
             });
         }
         let told = &self.told;
-        self.differ = match seen.results[0] == seen.results[1] {
-            true => 0,
-            false => (self.differ + 1).min(APART),
-        };
-        let defects = [
-            (self.differ >= APART || apart.exceeded, Defect::Channels),
-            (told.gear.too_long, Defect::Gear),
-            (told.transferred.too_wide, Defect::Wide),
-            (seen.wrong, Defect::Value),
-        ];
-        let defect = defects.iter().find(|(found, _)| *found);
-        let difference = defect.is_some();
-        if let Some((_, defect)) = defect {
-            self.defect = *defect;
-        }
+        let check = self.check.step(&cross_check::Inputs {
+            power_on: false,
+            own: seen.results[0],
+            other: seen.results[1],
+            values_apart: apart.exceeded,
+            gear_too_long: told.gear.too_long,
+            too_wide: told.transferred.too_wide,
+            implausible: seen.wrong,
+        });
+        let difference = check.found;
         let sdi = told.sdi[0].demand.max(told.sdi[1].demand);
         // The end of STOP B is the arbiter's: SS1 raises none of its own.
         let raised = [
@@ -361,13 +369,13 @@ impl Functions {
             difference,
             notice: told.reference.missed,
             value: match difference {
-                true => self.defect.value(),
+                true => check.value,
                 false if told.reference.missed => 1_002,
                 false if told.sls.wrong_value => 1_041,
                 false => 0,
             },
             cause: match (request, difference) {
-                (Stop::None, true) => self.defect.texts()[0],
+                (Stop::None, true) => texts(check.defect)[0],
                 (Stop::None, false) => "",
                 _ => cause,
             },
@@ -426,7 +434,7 @@ impl Functions {
             (Stop::None, Stop::None) if told.cause.is_empty() => raised.cause,
             (Stop::None, _) => told.cause,
             (Stop::A, request) if request < Stop::A && before == Stop::B => "STOP B has ended",
-            (Stop::B, request) if request < Stop::B => self.defect.texts()[1],
+            (Stop::B, request) if request < Stop::B => texts(self.check.state().defect)[1],
             _ => raised.cause,
         };
         let initiated = |stop| arbiter.initiated == stop;
@@ -466,7 +474,7 @@ impl Functions {
                 limit: config.limits[level.min(3)],
                 sdi_positive: config.sdi.is_some() && selected(Flag::SdiPositive),
                 sdi_negative: config.sdi.is_some() && selected(Flag::SdiNegative),
-                acceptance: bits.is(Flag::Acceptance),
+                acceptance: told.mode.active,
                 stop_f: arbiter.fault,
             })
         });

@@ -10,10 +10,10 @@ use stillpoint_monitors::sinamics::control_path::ControlPath;
 use stillpoint_monitors::sinamics::sdi::Permitted;
 use stillpoint_monitors::sinamics::types::{Braking, Stop};
 use stillpoint_monitors::sinamics::{
-    acknowledgement, actual_value, basic_selection, basic_stop, brake_test, communication,
-    drive_test, encoderless, gear, path_test, reference, safe_position, sam, sbc, sbr, sdi,
-    setpoint_limit, slp, sls, sls_ramp, sos, ss1, ss1_basic, ss2, ssm, start_phase, sto,
-    stop_arbiter, terminal_pair,
+    acceptance_mode, acknowledgement, actual_value, basic_selection, basic_stop, brake_test,
+    communication, cross_check, drive_test, encoderless, gear, path_test, reference, safe_position,
+    sam, sbc, sbr, sdi, setpoint_limit, slp, sls, sls_ramp, sos, ss1, ss1_basic, ss2, ssm,
+    start_phase, sto, stop_arbiter, terminal_pair,
 };
 
 use self::service::{MEASURING_US, TOLERANT_US};
@@ -29,6 +29,9 @@ pub(super) const SP: &str = "SP";
 pub(super) const GEAR: &str = "gear";
 pub(super) const SS2E: &str = "SS2E";
 pub(super) const BY_TELEGRAM: &str = "SLS limit by telegram";
+
+/// For so many cycles the results of the channels may differ: one hears of the other a cycle later.
+const APART: Cycles = Cycles::new(3);
 
 /// What the monitors of an axis run with.
 #[derive(Clone)]
@@ -57,6 +60,9 @@ pub(super) struct Values {
 /// The same for the Extended Functions.
 #[derive(Clone)]
 pub(super) struct Extended {
+    /// None where p9558 is 0: the mode never begins.
+    pub acceptance: Option<acceptance_mode::Config>,
+    pub check: cross_check::Config,
     pub arbiter: stop_arbiter::Config,
     pub ss1: ss1::Config,
     /// None without encoder.
@@ -349,6 +355,8 @@ impl Reader<'_> {
         );
         let codes = |name, k| cell(&self.axis.values, name, k);
         Ok(Extended {
+            acceptance: acceptance_mode::Config::new(self.time("p9558")).ok(),
+            check: fit("the cross-check", cross_check::Config::new(APART))?,
             arbiter: fit("p9552 to p9556", arbiter)?,
             ss1: fit(
                 "p9556 and p9560",

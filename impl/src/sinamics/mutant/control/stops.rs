@@ -2,7 +2,9 @@
 
 use crate::kernel::Cycles;
 use crate::sinamics::level::{Function, Stop};
-use crate::sinamics::{acknowledgement, acknowledgement_edge, basic_stop, stop_arbiter};
+use crate::sinamics::{
+    acknowledgement, acknowledgement_edge, basic_stop, cross_check, stop_arbiter,
+};
 
 variants! { sinamics::basic_stop:
     /// STOP F without a selected function has no consequence (reading F_BF_IF_SELECTED).
@@ -208,6 +210,49 @@ variants! { sinamics::acknowledgement:
     "acknowledgement-polarity" |state, config, inputs| {
         let (after, mut outputs) = acknowledgement::transition(state, config, inputs);
         outputs.no_event = outputs.event;
+        (after, outputs)
+    }
+}
+
+variants! { sinamics::cross_check:
+    /// What the channels say of SLP is not compared.
+    "cross-check-forgets-slp" |state, config, inputs| {
+        let mut inputs = *inputs;
+        inputs.other.slp = inputs.own.slp;
+        cross_check::transition(state, config, &inputs)
+    }
+
+    /// The second direction of SDI is not compared.
+    "cross-check-one-direction" |state, config, inputs| {
+        let mut inputs = *inputs;
+        inputs.other.sdi[1] = inputs.own.sdi[1];
+        cross_check::transition(state, config, &inputs)
+    }
+
+    /// The time of a difference goes on where the channels were equal in between.
+    "cross-check-adds-up" |state, config, inputs| {
+        let (mut after, outputs) = cross_check::transition(state, config, inputs);
+        if !inputs.power_on && after.since.is_zero() {
+            after.since = state.since;
+        }
+        (after, outputs)
+    }
+
+    /// A difference is found a cycle late.
+    "cross-check-late" |state, config, inputs| {
+        let (after, mut outputs) = cross_check::transition(state, config, inputs);
+        if state.since < config.apart() && !(inputs.values_apart || inputs.gear_too_long || inputs.too_wide || inputs.implausible) {
+            outputs.found = false;
+        }
+        (after, outputs)
+    }
+
+    /// The value of a position that is too wide is that of the gear.
+    "cross-check-wrong-value" |state, config, inputs| {
+        let (after, mut outputs) = cross_check::transition(state, config, inputs);
+        if outputs.value == 7_001 {
+            outputs.value = 1_015;
+        }
         (after, outputs)
     }
 }

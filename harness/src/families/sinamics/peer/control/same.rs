@@ -41,6 +41,17 @@ peers! { sinamics |p|
             ("t_disc", "tolerance"), ("in_1", "input1"), ("in_2", "input2"), ("ack", "acknowledge"), ("error", "fault"),
             ("state", "state.phase"),
         ]);
+    // Which results there are is the monitor's; the table knows that one differs.
+    "compare" => cross_check
+        .named(&[
+            ("values", "values_apart"), ("gear", "gear_too_long"), ("wide", "too_wide"), ("wrong", "implausible"),
+        ])
+        .made("own.slp", &["differ"], |i| i64::from(i[0]))
+        .constants(&[
+            ("own.stop", 0), ("own.function", 0), ("own.sos", 0), ("own.sls", 0), ("own.sls_level", 0), ("own.sdi", 0), ("own.stage", 0),
+            ("other.stop", 0), ("other.function", 0), ("other.sos", 0), ("other.sls", 0), ("other.sls_level", 0), ("other.sdi", 0),
+            ("other.slp", 0), ("other.stage", 0),
+        ]);
     "edge" => acknowledgement_edge
         .named(&[("edge", "phase"), ("pulse", "acknowledge"), ("alarm", "not_idle")])
         .made("stable", &["high", "low"], |i| i64::from(i[0] | i[1]))
