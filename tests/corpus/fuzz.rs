@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 
 use stillpoint_tests::fuzz::{TARGETS, altered};
 use stillpoint_tests::random::Random;
-use stillpoint_tests::{files, root, telegram};
+use stillpoint_tests::{drive, files, root, telegram};
 
 /// Inputs for each target, in the daily run and in a deep one. The first ones are the same in both.
 const INPUTS: usize = 800;
@@ -75,6 +75,54 @@ fn sent_and_received(frames: usize) {
     }
     println!("{accepted} of {frames} frames are telegrams");
     assert!(accepted > frames / 2 && accepted < frames, "{accepted}");
+}
+
+/// Cycles of drives at their F host, in the daily run and in a deep one.
+const CYCLES: u64 = 200_000;
+const DEEP_CYCLES: u64 = 10_000_000;
+
+#[test]
+fn drives_answer_as_the_manual_says() {
+    answered(CYCLES);
+}
+
+#[test]
+#[ignore = "deep: a minute"]
+fn drives_answer_many_telegrams_as_the_manual_says() {
+    answered(DEEP_CYCLES);
+}
+
+fn answered(cycles: u64) {
+    let mut random = Random::new(700);
+    let mut count = drive::Count::default();
+    while count.telegrams < cycles {
+        let data = drive::records(&mut random, 200);
+        let judged = std::panic::catch_unwind(|| drive::run(&data));
+        let run = judged.unwrap_or_else(|_| panic!("{data:?}"));
+        count.telegrams += run.telegrams;
+        count.told |= run.told;
+    }
+    println!(
+        "{} telegrams answered, bits {:#x}",
+        count.telegrams, count.told
+    );
+    // Each function of these axes was active at some time, and an event has come.
+    let met = [
+        "STO active",
+        "SS1 active",
+        "SS2 active",
+        "SOS active",
+        "SLS active",
+        "Internal Event",
+        "SDI positive active",
+        "SDI negative active",
+    ];
+    for name in met {
+        assert!(
+            count.told >> telegram::place("S_ZSW2", name) & 1 == 1,
+            "{name} never"
+        );
+    }
 }
 
 #[test]

@@ -22,7 +22,7 @@ use stillpoint_logic::stl;
 use stillpoint_machine::{self as machine, Machine, families};
 
 use crate::random::Random;
-use crate::{files, root, telegram};
+use crate::{drive, files, root, telegram};
 
 /// What a fuzzer drives.
 pub struct Target {
@@ -39,7 +39,7 @@ pub struct Target {
 }
 
 /// Every target.
-pub static TARGETS: [Target; 12] = [
+pub static TARGETS: [Target; 13] = [
     Target {
         name: "certificate",
         component: "`stillpoint certify`",
@@ -53,6 +53,13 @@ pub static TARGETS: [Target; 12] = [
         property: "both sides give the same outputs in every cycle",
         seeds: || (0..=255).map(|k| vec![k; 40]).collect(),
         run: differential,
+    },
+    Target {
+        name: "drive",
+        component: "a drive of SINAMICS S120 at its F host, by telegrams of any bits, too short ones, and none",
+        property: "each answer is one that the manual allows: STO at once, SS1 and a missing host in their times, what is deselected ends, no event that nobody acknowledges, limits and window kept or told",
+        seeds: drive::seeds,
+        run: drive::drive,
     },
     Target {
         name: "expression",

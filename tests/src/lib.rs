@@ -2,6 +2,7 @@
 //! single guarantees are decided, what fuzzers drive, a reader of BTOR2.
 
 pub mod btor2;
+pub mod drive;
 pub mod fuzz;
 pub mod guarantees;
 pub mod peer;

@@ -73,6 +73,15 @@ static MANUAL: LazyLock<Manual> = LazyLock::new(|| {
     }
 });
 
+/// The place of a bit in a word.
+///
+/// # Panics
+/// If the manual has no such bit.
+pub fn place(word: &str, name: &str) -> u32 {
+    let place = MANUAL.words[word].named.get(name);
+    *place.unwrap_or_else(|| panic!("{word} has no bit `{name}`"))
+}
+
 /// The number of PZD words of these places.
 fn words_of(places: &[Place]) -> usize {
     places.iter().map(|place| place.words).sum()

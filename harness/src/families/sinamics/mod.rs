@@ -13,6 +13,7 @@ mod basic;
 mod channel;
 mod functions;
 mod messages;
+pub mod on_bus;
 mod outputs;
 mod peer;
 mod rig;

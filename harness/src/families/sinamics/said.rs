@@ -19,7 +19,10 @@ pub(super) struct Said {
     pub sto: bool,
     pub ss1: bool,
     pub ss2: bool,
+    pub ss2e: bool,
     pub sos: bool,
+    /// SOS is selected, also by a stop that ends in it.
+    pub sos_selected: bool,
     pub sos_violated: bool,
     pub sos_reference: i32,
     pub sls: bool,

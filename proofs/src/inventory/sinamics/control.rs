@@ -48,8 +48,8 @@ inventory! {
     }]
     [contract s120_cross_check_contract on sinamics::cross_check {
         property: "every clause of the cross-check: each result of both channels, the time they may be apart, findings of this channel",
-        tries: "apart: 1..3 max; since: 0..3 max; sls_level: 0 1; stage: 0 1; stop: 0 3; function: 0 2",
-        caveat: "two values of each result; others only under Kani and in samples",
+        tries: "apart: 1 3; since: 0..3; own.sls_level own.stage own.stop own.function: 0; other.sls_level other.stage: 0 1; other.stop: 0 3; other.function: 0 2",
+        caveat: "two values of each result of the other channel; others, and longer times, only under Kani and in samples",
     }]
     [contract s120_acknowledgement_edge_contract on sinamics::acknowledgement_edge {
         property: "every clause of an acknowledging edge: rest, rise, fall, interruption, unsettled inputs",

@@ -1,0 +1,341 @@
+//! A drive of SINAMICS S120 at its F host, driven by telegrams of any bytes: each answer is judged by what the manual says of the bits that
+//! were sent and received, with the values of the machine file. Nothing here knows the monitors.
+
+use std::sync::LazyLock;
+
+use stillpoint_harness::families::sinamics::on_bus::{Around, OnBus};
+use stillpoint_machine::{self as machine, Machine, families};
+use stillpoint_monitors::sinamics::telegram::frame::Telegram;
+
+use crate::random::Random;
+use crate::telegram::place;
+
+/// A machine whose axes are controlled by PROFIsafe.
+const MACHINE: &str = "spec/machines/gantry-s120.toml";
+
+/// Cycles in which a telegram may be missing: `F_WD_Time`, in cycles of 12 ms.
+const WATCHDOG: u32 = 150 / 12;
+
+/// The values of an axis that its answers depend on, in cycles and micrometres.
+struct Axis {
+    /// Delay of SLS and SOS, p9551, and the time of SS1, p9556.
+    p9551: u32,
+    p9556: u32,
+    /// Limits of SLS in um per cycle and the window of SOS in um; none of a rotary axis.
+    lengths: Option<([u32; 4], u32)>,
+    /// STO or SS1 that is selected and deselected acknowledges.
+    extended: bool,
+}
+
+/// A number before its unit.
+fn number(text: Option<&toml::Value>, unit: &str) -> Option<f64> {
+    text?.as_str()?.strip_suffix(unit)?.trim().parse().ok()
+}
+
+impl Axis {
+    fn of(file: &toml::Table, name: &str) -> Self {
+        let axis = &file["axis"][name];
+        let cycles = |name: &str| {
+            let ms = number(axis.get(name), "ms").unwrap_or_else(|| panic!("{name}: no time"));
+            (ms / 12.0).ceil() as u32
+        };
+        let speed = |k| {
+            let per_minute = number(axis.get("p9531")?.get(k), "mm/min")?;
+            Some((per_minute * 1_000.0 * 0.012 / 60.0) as u32)
+        };
+        let limits = [0, 1, 2, 3].map(speed);
+        let window = number(axis.get("p9530"), "mm");
+        let lengths = match (limits, window) {
+            ([Some(a), Some(b), Some(c), Some(d)], Some(mm)) => {
+                Some(([a, b, c, d], (mm * 1_000.0) as u32))
+            }
+            _ => None,
+        };
+        Self {
+            p9551: cycles("p9551"),
+            p9556: cycles("p9556"),
+            lengths,
+            extended: axis.get("p9507_0").and_then(toml::Value::as_bool) == Some(true),
+        }
+    }
+}
+
+/// A word with the name of the manual for each of its bits.
+#[derive(Clone, Copy, Default)]
+struct Word {
+    short: bool,
+    raw: u32,
+}
+
+impl Word {
+    fn asks(self, name: &str) -> bool {
+        self.raw >> place(["S_STW2", "S_STW1"][usize::from(self.short)], name) & 1 == 1
+    }
+
+    /// The bit of a function is 0. A word that has no such bit does not select it.
+    fn selects(self, name: &str) -> bool {
+        !(self.short && name == "SS2E") && !self.asks(name)
+    }
+
+    fn tells(self, name: &str) -> bool {
+        self.raw >> place(["S_ZSW2", "S_ZSW1"][usize::from(self.short)], name) & 1 == 1
+    }
+
+    fn level(self) -> usize {
+        (self.raw >> 9 & 3) as usize
+    }
+}
+
+/// What has been seen of a run.
+struct Seen {
+    sent: Word,
+    told: Word,
+    /// Cycles since the last telegram, and whether one was missed for longer than the watchdog allows and the drive has had no torque since.
+    missing: u32,
+    failed: bool,
+    /// Cycles for which SS1 is selected; for which SLS is with nothing beside it.
+    ss1: u32,
+    sls: u32,
+    /// Where SOS has begun.
+    stands: Option<i64>,
+    position: i64,
+}
+
+impl Seen {
+    /// One cycle: what was sent, if it was a telegram, the way of the axis, and the answer.
+    fn judge(&mut self, axis: &Axis, sent: Option<Word>, way: i64, told: Word) {
+        let before = (self.sent, self.told);
+        let fresh = sent.is_some();
+        let word = sent.unwrap_or(self.sent);
+        self.missing = if fresh { 0 } else { self.missing + 1 };
+        self.failed |= self.missing >= WATCHDOG;
+        self.position += way;
+        let tells = |name| told.tells(name);
+        let stops = ["STO", "SS1", "SS2", "SOS", "SS2E"].map(|name| word.selects(name));
+
+        // STO acts in the cycle in which it is selected (table 9-3), SS1 in p9556 at the latest.
+        assert!(
+            !fresh || !word.selects("STO") || tells("STO active"),
+            "STO is selected"
+        );
+        self.ss1 = if fresh && word.selects("SS1") {
+            self.ss1 + 1
+        } else {
+            0
+        };
+        assert!(
+            self.ss1 <= axis.p9556 + 2 || tells("STO active"),
+            "SS1 has had its time"
+        );
+        // Without telegrams the drive has no torque, after the stop of p9612 at the latest.
+        let without = WATCHDOG + axis.p9556 + 3;
+        assert!(
+            self.missing <= without || tells("STO active"),
+            "no telegram comes"
+        );
+
+        // A function that is deselected ends at once; what is active was selected, or a stop or a failure selects it.
+        if !self.failed {
+            assert!(
+                !tells("SLS active") || word.selects("SLS"),
+                "SLS is not selected"
+            );
+            for (active, name) in [
+                ("SDI positive active", "SDI positive"),
+                ("SDI negative active", "SDI negative"),
+            ] {
+                assert!(
+                    !tells(active) || word.selects(name),
+                    "{name} is not selected"
+                );
+            }
+            let held = word.selects("SOS") || word.selects("SS2") || word.selects("SS2E");
+            assert!(
+                !tells("SOS active") || held || tells("Internal Event"),
+                "nothing asks for SOS"
+            );
+        }
+
+        // An internal event ends by the falling edge of its bit, or by STO or SS1 deselected with p9507.0 = 1.
+        if before.1.tells("Internal Event") && !tells("Internal Event") {
+            let fell = before.0.asks("Internal Event ACK") && !word.asks("Internal Event ACK");
+            let selected = |word: Word| word.selects("STO") || word.selects("SS1");
+            let again = axis.extended && selected(before.0) && !selected(word);
+            assert!(fell || again, "nothing has acknowledged");
+        }
+
+        if let Some((limits, window)) = axis.lengths {
+            // A speed above the limit of the active level is an event in its cycle, and so is a position outside the window.
+            let monitors = tells("SLS active") && before.1.tells("SLS active");
+            if monitors && told.level() == before.1.level() {
+                let above = way.unsigned_abs() > u64::from(limits[told.level()]) + 1;
+                assert!(!above || tells("Internal Event"), "faster than SLS allows");
+            }
+            self.stands = match (tells("SOS active"), self.stands) {
+                (true, None) => Some(self.position),
+                (true, place) => place,
+                (false, _) => None,
+            };
+            if let Some(place) = self.stands {
+                let left = self.position.abs_diff(place) > u64::from(window);
+                assert!(
+                    !left || tells("Internal Event"),
+                    "outside the window of SOS"
+                );
+            }
+        }
+
+        // SLS that stays selected monitors after p9551, with its level.
+        let calm = fresh
+            && stops == [false; 5]
+            && word.selects("SLS")
+            && word.level() == before.0.level()
+            && !["STO active", "SS1 active", "SOS active", "Internal Event"]
+                .map(tells)
+                .contains(&true);
+        self.sls = if calm { self.sls + 1 } else { 0 };
+        if self.sls > axis.p9551 + 2 {
+            assert!(
+                tells("SLS active") && told.level() == word.level(),
+                "SLS is not monitored"
+            );
+        }
+
+        self.failed &= tells("STO active");
+        (self.sent, self.told) = (word, told);
+    }
+}
+
+/// What was driven.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Count {
+    /// Cycles with a telegram.
+    pub telegrams: u64,
+    /// Answers in which something is active or has happened, by the bits of S_ZSW2.
+    pub told: u32,
+}
+
+/// Drives a drive by these bytes: which axis, then what changes and for how many cycles. Whether any telegram was one.
+///
+/// # Panics
+/// If an answer is none that the manual allows.
+pub fn drive(data: &[u8]) -> bool {
+    run(data).telegrams > 0
+}
+
+/// The machine, and those of its axes that have a safety telegram and Extended Functions.
+static MACHINES: LazyLock<(Machine, Vec<(usize, Axis)>)> = LazyLock::new(|| {
+    let path = crate::root().join(MACHINE);
+    let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{path:?}: {e}"));
+    let file: toml::Table = toml::from_str(&text).unwrap_or_else(|e| panic!("{path:?}: {e}"));
+    let machine = machine::load(&path, &families(&path)).unwrap_or_else(|e| panic!("{e}"));
+    let known = machine.axes.iter().enumerate();
+    let axes = known.filter_map(|(k, axis)| {
+        OnBus::new(&machine, k).ok()?;
+        let timed = file["axis"][&axis.name].get("p9551").is_some();
+        timed.then(|| (k, Axis::of(&file, &axis.name)))
+    });
+    let axes = axes.collect();
+    (machine, axes)
+});
+
+/// See [`drive`].
+///
+/// # Panics
+/// If an answer is none that the manual allows.
+pub fn run(data: &[u8]) -> Count {
+    let (machine, axes) = &*MACHINES;
+    let mut count = Count::default();
+    let Some((first, data)) = data.split_first() else {
+        return count;
+    };
+    let (k, axis) = &axes[usize::from(*first) % axes.len()];
+    let mut drive = OnBus::new(machine, *k).unwrap_or_else(|e| panic!("{e}"));
+    let short = drive.telegram() == Telegram::T30;
+    let length = if short { 2 } else { 4 };
+    // Every bit that selects is 1, all others 0.
+    let functions = [
+        "STO",
+        "SS1",
+        "SS2",
+        "SOS",
+        "SLS",
+        "SLP",
+        "SDI positive",
+        "SDI negative",
+        "SS2E",
+    ];
+    let mut control = Word { short, raw: 0 };
+    for name in functions.iter().filter(|name| !(short && **name == "SS2E")) {
+        control.raw |= 1 << place(["S_STW2", "S_STW1"][usize::from(short)], name);
+    }
+    let idle = Word { short, raw: 0 };
+    let mut seen = Seen {
+        sent: control,
+        told: idle,
+        missing: 0,
+        failed: false,
+        ss1: 0,
+        sls: 0,
+        stands: None,
+        position: 0,
+    };
+    let mut speed = 0_i64;
+    for record in data.chunks_exact(4) {
+        let [what, bit, fast, times] = [record[0], record[1], record[2], record[3]];
+        if bit < 32 {
+            control.raw ^= 1 << (bit % if short { 16 } else { 32 });
+        }
+        if fast < 96 {
+            // Up to 16 mm in a cycle: faster than any limit. Mostly slow.
+            let size = i64::from(fast % 48);
+            speed = size * size * size / 8 * if fast < 48 { 1 } else { -1 };
+        }
+        // Nothing, too little, or a telegram.
+        let comes = match what % 16 {
+            0 => 0,
+            1 => length - 1,
+            _ => length,
+        };
+        for _ in 0..=times % 64 {
+            let bytes = control.raw.to_le_bytes();
+            let frame = (comes > 0).then(|| &bytes[..comes]);
+            let whole = comes == length;
+            count.telegrams += u64::from(whole);
+            if (seen.position + speed).abs() > 100_000_000 {
+                speed = -speed;
+            }
+            let position = (seen.position + speed) as i32;
+            let around = Around {
+                position,
+                on: what / 16 != 15,
+            };
+            let answer = drive.step(frame, around);
+            let mut raw = [0; 4];
+            raw[..length].copy_from_slice(&answer.bytes()[..length]);
+            let told = Word {
+                short,
+                raw: u32::from_le_bytes(raw),
+            };
+            count.told |= told.raw;
+            seen.judge(axis, whole.then_some(control), speed, told);
+        }
+    }
+    count
+}
+
+/// Records of any bytes: what changes is a bit, a speed, or nothing, for some cycles.
+pub fn records(random: &mut Random, count: usize) -> Vec<u8> {
+    let mut data = vec![random.draw() as u8];
+    for _ in 0..count {
+        let [what, bit, fast, times, ..] = random.draw().to_le_bytes();
+        data.extend([what, bit % 48, fast, times]);
+    }
+    data
+}
+
+/// Inputs to begin with.
+pub fn seeds() -> Vec<Vec<u8>> {
+    let mut random = Random::new(30);
+    (0..8).map(|_| records(&mut random, 20)).collect()
+}
