@@ -109,6 +109,14 @@ impl Seen {
         let word = sent.unwrap_or(self.sent);
         self.missing = if fresh { 0 } else { self.missing + 1 };
         self.failed |= self.missing >= WATCHDOG;
+        let here = format!(
+            "sent {:#x} then {:#x}{}, told {:#x} then {:#x}",
+            before.0.raw,
+            word.raw,
+            if fresh { "" } else { " (none)" },
+            before.1.raw,
+            told.raw
+        );
         self.position += way;
         let tells = |name| told.tells(name);
         let stops = ["STO", "SS1", "SS2", "SOS", "SS2E"].map(|name| word.selects(name));
@@ -116,7 +124,7 @@ impl Seen {
         // STO acts in the cycle in which it is selected (table 9-3), SS1 in p9556 at the latest.
         assert!(
             !fresh || !word.selects("STO") || tells("STO active"),
-            "STO is selected"
+            "STO is selected: {here}"
         );
         self.ss1 = if fresh && word.selects("SS1") {
             self.ss1 + 1
@@ -125,20 +133,20 @@ impl Seen {
         };
         assert!(
             self.ss1 <= axis.p9556 + 2 || tells("STO active"),
-            "SS1 has had its time"
+            "SS1 has had its time: {here}"
         );
         // Without telegrams the drive has no torque, after the stop of p9612 at the latest.
         let without = WATCHDOG + axis.p9556 + 3;
         assert!(
             self.missing <= without || tells("STO active"),
-            "no telegram comes"
+            "no telegram comes: {here}"
         );
 
         // A function that is deselected ends at once; what is active was selected, or a stop or a failure selects it.
         if !self.failed {
             assert!(
                 !tells("SLS active") || word.selects("SLS"),
-                "SLS is not selected"
+                "SLS is not selected: {here}"
             );
             for (active, name) in [
                 ("SDI positive active", "SDI positive"),
@@ -146,13 +154,18 @@ impl Seen {
             ] {
                 assert!(
                     !tells(active) || word.selects(name),
-                    "{name} is not selected"
+                    "{name} is not selected: {here}"
                 );
             }
-            let held = word.selects("SOS") || word.selects("SS2") || word.selects("SS2E");
+            // SS2 that is deselected brakes to its end, and is SOS for a cycle at least (reading AF-17).
+            let ends = before.1.tells("SS2 active");
+            let held = ["SOS", "SS2", "SS2E"]
+                .map(|name| word.selects(name))
+                .contains(&true)
+                || ends;
             assert!(
                 !tells("SOS active") || held || tells("Internal Event"),
-                "nothing asks for SOS"
+                "nothing asks for SOS: {here}"
             );
         }
 
@@ -161,7 +174,7 @@ impl Seen {
             let fell = before.0.asks("Internal Event ACK") && !word.asks("Internal Event ACK");
             let selected = |word: Word| word.selects("STO") || word.selects("SS1");
             let again = axis.extended && selected(before.0) && !selected(word);
-            assert!(fell || again, "nothing has acknowledged");
+            assert!(fell || again, "nothing has acknowledged: {here}");
         }
 
         if let Some((limits, window)) = axis.lengths {
@@ -169,7 +182,10 @@ impl Seen {
             let monitors = tells("SLS active") && before.1.tells("SLS active");
             if monitors && told.level() == before.1.level() {
                 let above = way.unsigned_abs() > u64::from(limits[told.level()]) + 1;
-                assert!(!above || tells("Internal Event"), "faster than SLS allows");
+                assert!(
+                    !above || tells("Internal Event"),
+                    "faster than SLS allows: {here}"
+                );
             }
             self.stands = match (tells("SOS active"), self.stands) {
                 (true, None) => Some(self.position),
@@ -180,7 +196,7 @@ impl Seen {
                 let left = self.position.abs_diff(place) > u64::from(window);
                 assert!(
                     !left || tells("Internal Event"),
-                    "outside the window of SOS"
+                    "outside the window of SOS: {here}"
                 );
             }
         }
@@ -197,7 +213,7 @@ impl Seen {
         if self.sls > axis.p9551 + 2 {
             assert!(
                 tells("SLS active") && told.level() == word.level(),
-                "SLS is not monitored"
+                "SLS is not monitored: {here}"
             );
         }
 
