@@ -13,6 +13,19 @@ use crate::telegram::place;
 /// A machine whose axes are controlled by PROFIsafe.
 const MACHINE: &str = "spec/machines/gantry-s120.toml";
 
+/// The functions that a bit of 0 selects.
+const FUNCTIONS: [&str; 9] = [
+    "STO",
+    "SS1",
+    "SS2",
+    "SOS",
+    "SLS",
+    "SLP",
+    "SDI positive",
+    "SDI negative",
+    "SS2E",
+];
+
 /// Cycles in which a telegram may be missing: `F_WD_Time`, in cycles of 12 ms.
 const WATCHDOG: u32 = 150 / 12;
 
@@ -60,6 +73,11 @@ impl Axis {
     }
 }
 
+/// The control word of a telegram.
+const fn stw(short: bool) -> &'static str {
+    if short { "S_STW1" } else { "S_STW2" }
+}
+
 /// A word with the name of the manual for each of its bits.
 #[derive(Clone, Copy, Default)]
 struct Word {
@@ -69,7 +87,7 @@ struct Word {
 
 impl Word {
     fn asks(self, name: &str) -> bool {
-        self.raw >> place(["S_STW2", "S_STW1"][usize::from(self.short)], name) & 1 == 1
+        self.raw >> place(stw(self.short), name) & 1 == 1
     }
 
     /// The bit of a function is 0. A word that has no such bit does not select it.
@@ -93,9 +111,15 @@ struct Seen {
     /// Cycles since the last telegram, and whether one was missed for longer than the watchdog allows and the drive has had no torque since.
     missing: u32,
     failed: bool,
-    /// Cycles for which SS1 is selected; for which SLS is with nothing beside it.
+    /// Cycles for which SS1 is selected, for which SOS is; for which SLS is with nothing beside it.
     ss1: u32,
+    sos: u32,
     sls: u32,
+    /// Something that monitors was selected, or telegrams were missed: from then on an internal event may have a cause.
+    may: bool,
+    /// Cycles for which telegrams have come with nothing selected and the axis has stood; whether the acknowledgement rose in them.
+    quiet: u32,
+    rose: bool,
     /// Where SOS has begun.
     stands: Option<i64>,
     position: i64,
@@ -121,7 +145,7 @@ impl Seen {
         let tells = |name| told.tells(name);
         let stops = ["STO", "SS1", "SS2", "SOS", "SS2E"].map(|name| word.selects(name));
 
-        // STO acts in the cycle in which it is selected (table 9-3), SS1 in p9556 at the latest.
+        // STO acts in the cycle in which it is selected, SS1 in p9556 at the latest. How late a cycle of the bus makes it is not asked here.
         assert!(
             !fresh || !word.selects("STO") || tells("STO active"),
             "STO is selected: {here}"
@@ -134,6 +158,19 @@ impl Seen {
         assert!(
             self.ss1 <= axis.p9556 + 2 || tells("STO active"),
             "SS1 has had its time: {here}"
+        );
+        // SOS is told as selected at once, for the control has to brake (4.5.2), and is active after p9551.
+        let sos = fresh && word.selects("SOS");
+        assert!(!sos || tells("SOS selected"), "SOS is selected: {here}");
+        self.sos = if sos { self.sos + 1 } else { 0 };
+        let stopped = ["SOS active", "SS1 active", "STO active"].map(tells);
+        let late = self.sos > axis.p9551 + 2 && !stopped.contains(&true);
+        assert!(!late, "SOS is not active: {here}");
+        // Where nothing has monitored yet nothing can have happened.
+        self.may |= self.missing > 0 || FUNCTIONS[1..].iter().any(|name| word.selects(name));
+        assert!(
+            self.may || !tells("Internal Event"),
+            "an event of nothing: {here}"
         );
         // Without telegrams the drive has no torque, after the stop of p9612 at the latest.
         let without = WATCHDOG + axis.p9556 + 3;
@@ -175,6 +212,21 @@ impl Seen {
             let selected = |word: Word| word.selects("STO") || word.selects("SS1");
             let again = axis.extended && selected(before.0) && !selected(word);
             assert!(fell || again, "nothing has acknowledged: {here}");
+        }
+
+        // At standstill with nothing selected no cause is left: the falling edge of the bit ends the event.
+        let ack = [before.0, word].map(|word| word.asks("Internal Event ACK"));
+        let selected = FUNCTIONS.iter().any(|name| word.selects(name));
+        self.quiet = match fresh && way == 0 && !selected {
+            true => self.quiet + 1,
+            false => 0,
+        };
+        self.rose = self.quiet > 3 && (self.rose || ack == [false, true]);
+        if self.rose && ack == [true, false] {
+            assert!(
+                !tells("Internal Event"),
+                "what was acknowledged stays: {here}"
+            );
         }
 
         if let Some((limits, window)) = axis.lengths {
@@ -270,21 +322,11 @@ pub fn run(data: &[u8]) -> Count {
     let short = drive.telegram() == Telegram::T30;
     let length = if short { 2 } else { 4 };
     // Every bit that selects is 1, all others 0.
-    let functions = [
-        "STO",
-        "SS1",
-        "SS2",
-        "SOS",
-        "SLS",
-        "SLP",
-        "SDI positive",
-        "SDI negative",
-        "SS2E",
-    ];
-    let mut control = Word { short, raw: 0 };
-    for name in functions.iter().filter(|name| !(short && **name == "SS2E")) {
-        control.raw |= 1 << place(["S_STW2", "S_STW1"][usize::from(short)], name);
+    let mut free = Word { short, raw: 0 };
+    for name in FUNCTIONS.iter().filter(|name| !(short && **name == "SS2E")) {
+        free.raw |= 1 << place(stw(short), name);
     }
+    let mut control = free;
     let idle = Word { short, raw: 0 };
     let mut seen = Seen {
         sent: control,
@@ -292,7 +334,11 @@ pub fn run(data: &[u8]) -> Count {
         missing: 0,
         failed: false,
         ss1: 0,
+        sos: 0,
         sls: 0,
+        may: false,
+        quiet: 0,
+        rose: false,
         stands: None,
         position: 0,
     };
@@ -306,6 +352,12 @@ pub fn run(data: &[u8]) -> Count {
             // Up to 16 mm in a cycle: faster than any limit. Mostly slow.
             let size = i64::from(fast % 48);
             speed = size * size * size / 8 * if fast < 48 { 1 } else { -1 };
+        }
+        match what % 16 {
+            // Nothing is selected any more, and the axis stands.
+            2 => (control, speed) = (free, 0),
+            3 => control.raw ^= 1 << place(stw(short), "Internal Event ACK"),
+            _ => {}
         }
         // Nothing, too little, or a telegram.
         let comes = match what % 16 {

@@ -39,14 +39,15 @@ impl Basic {
         }
     }
 
-    /// The cycles of the Basic Functions in one of the Extended ones; whether these keep the pulses off, and whether the brake is defective.
+    /// The cycles of the Basic Functions in one of the Extended ones; whether these keep the pulses off, whether the brake is defective, and
+    /// whether no telegram comes.
     pub(super) fn step(
         &mut self,
         values: &Values,
         bits: &Read,
         other: &Shared,
         edge: bool,
-        [held, defect]: [bool; 2],
+        [held, defect, silent]: [bool; 3],
     ) -> Told {
         let immediate = values.ss1_basic.time == Cycles::ZERO;
         let general = bits.is(Flag::General);
@@ -76,7 +77,7 @@ impl Basic {
             });
             let stop = self.stop.step(&basic_stop::Inputs {
                 power_on: false,
-                difference: differ,
+                difference: differ || silent,
                 fault: defect,
                 locking: false,
                 selected: selection.sto || selection.ss1 || other.selected,

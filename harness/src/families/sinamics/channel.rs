@@ -55,6 +55,10 @@ struct Channel {
     /// The Extended Functions keep the pulses off: terminals that differ are no fault.
     held: bool,
     brake_defect: bool,
+    /// A stop of the Basic Functions has come of the communication.
+    silent: bool,
+    /// The pulses were to be suppressed in the cycle before, and the switch-off path of this channel has not done it.
+    path_error: bool,
     messages: Messages,
     /// The value of C01711.
     value: u16,
@@ -132,6 +136,8 @@ impl Channel {
             torque: running,
             held: false,
             brake_defect: false,
+            silent: false,
+            path_error: false,
             messages: Messages::default(),
             value: 0,
             before: None,
@@ -144,11 +150,11 @@ impl Channel {
         }
     }
 
-    /// The bits that count: of the last telegram, or substitute values.
-    fn bits(&mut self, read: &Read, acknowledge: bool) -> (Read, Stop) {
+    /// The bits that count: of the last telegram, or substitute values; the stop of a failure, and whether there is one in this cycle.
+    fn bits(&mut self, read: &Read, acknowledge: bool) -> (Read, Stop, bool) {
         let Some(communication) = &mut self.communication else {
             self.valid = true;
-            return (*read, Stop::None);
+            return (*read, Stop::None, false);
         };
         if read.is(Flag::Telegram) {
             self.received = *read;
@@ -170,7 +176,7 @@ impl Channel {
                 read.with_bits_of(&Read::default().number(Number::Limit, limit))
             }
         };
-        (bits, said.request)
+        (bits, said.request, said.fault && !said.valid)
     }
 
     /// POWER ON: what the other channel hears of it is new, too.
@@ -202,10 +208,12 @@ impl Channel {
             level,
         });
         let edge = edge.acknowledge;
-        let (bits, communication) = self.bits(read, edge);
+        let (bits, communication, silent) = self.bits(read, edge);
+        // The Extended Functions have a stop of their own for it; without them it is F01611 (5.5.1).
+        let silent = silent && values.extended.is_none();
         let (held, defect) = (self.held, self.brake_defect);
         let (selection, ss1, basic, terminals_differ) =
-            (self.basic).step(values, &bits, other, edge, [held, defect]);
+            (self.basic).step(values, &bits, other, edge, [held, defect, silent]);
         let ss1_selected = values.extended.is_some() && !bits.is(Flag::Ss1);
         let any = selection.sto || selection.ss1 || ss1_selected;
         let reselected = self.reselection.step(&acknowledgement_edge::Inputs {
@@ -255,7 +263,7 @@ impl Channel {
             acknowledges: edges.acknowledge(&values.acknowledgement),
         };
         let mut messages = Messages::default()
-            .with(Message::BasicF, terminals_differ)
+            .with(Message::BasicF, terminals_differ || silent)
             .with(Message::Brake, self.brake_defect)
             .with(Message::Crosscheck, bare.no_current);
         let raised = self.functions.as_mut().map(|f| f.watch(&bits, &seen));
@@ -295,6 +303,7 @@ impl Channel {
                 held: self.held,
                 pulses: self.torque,
                 paths_off: [self.shared.path_off, other.path_off],
+                path_error: self.path_error,
                 valid: self.valid,
             },
         );
@@ -357,6 +366,8 @@ impl Channel {
             agrees: read.is(Flag::Agrees),
             path_off: sto.pulses_off && !read.is(Flag::PathFault),
         };
+        self.silent = silent || self.silent && basic.stop != Latched::None;
+        self.path_error = sto.pulses_off && read.is(Flag::PathFault);
         let basic_stop = match basic.stop {
             Latched::None | Latched::F => Stop::None,
             Latched::A => Stop::A,
@@ -373,15 +384,17 @@ impl Channel {
             cause: match basic.stop {
                 Latched::None => told.cause,
                 _ if self.messages.has(Message::Brake) => "the brake does not follow",
+                _ if self.silent => "no valid telegram",
                 _ => "the terminals differ",
             },
             messages: self.messages,
             sto: sto.shown,
             ss1: told.ss1.active || ss1.active || arbiter.stop == Stop::B,
             ss2: told.ss2.ss2_active || arbiter.stop == Stop::C && arbiter.off3,
-            ss2e: told.ss2.ss2e_active,
+            // An internal STOP D is told as SS2E, and D and E as a selection of SOS: the control has to brake (4.5.2, 9.3).
+            ss2e: told.ss2.ss2e_active || arbiter.stop == Stop::D,
             sos: told.sos.active,
-            sos_selected: told.sos.selected,
+            sos_selected: told.sos.selected || matches!(arbiter.stop, Stop::D | Stop::E),
             sos_violated: told.sos.violated,
             sos_reference: told.sos_reference.0,
             sls: told.sls.active,
@@ -415,7 +428,7 @@ impl Channel {
             directions,
             brake_open: brake.open,
             valid: self.valid,
-            event: acknowledged.event,
+            event: acknowledged.event || basic.entered,
             value: self.value,
             bare,
             service,

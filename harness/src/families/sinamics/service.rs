@@ -1,7 +1,7 @@
 //! What a channel does beside its functions: the test stops, and the safe brake test.
 
 use stillpoint_monitors::kernel::{Position, Speed};
-use stillpoint_monitors::sinamics::{brake_test, drive_test, path_test};
+use stillpoint_monitors::sinamics::{brake_test, brake_test_request, drive_test, path_test};
 
 use super::signals::{Flag, Read};
 use super::values::Values;
@@ -11,6 +11,10 @@ pub(super) struct Service {
     paths: Option<path_test::Monitor>,
     drive: Option<drive_test::Monitor>,
     brake: Option<brake_test::Monitor>,
+    /// What asks for the test stop, and for the brake test before it.
+    request: brake_test_request::Monitor,
+    /// What the brake test told in the cycle before.
+    tested: brake_test::Outputs,
     /// Cycles for which the axis has stood since the brake test was selected: the load is measured then.
     stands: u32,
 }
@@ -33,6 +37,8 @@ pub(super) struct Seen {
     pub pulses: bool,
     /// The switch-off paths of both channels have suppressed them.
     pub paths_off: [bool; 2],
+    /// That of this channel has not.
+    pub path_error: bool,
     /// Safety telegrams come.
     pub valid: bool,
 }
@@ -104,6 +110,8 @@ impl Service {
             paths: values.path_test.map(paths),
             drive: values.drive_test.map(drive),
             brake: values.brake_test.map(brake_test::Monitor::new),
+            request: brake_test_request::Monitor::new(values.test_request),
+            tested: brake_test::Outputs::default(),
             stands: 0,
         }
     }
@@ -112,10 +120,21 @@ impl Service {
     pub(super) fn step(&mut self, values: &Values, read: &Read, seen: &Seen) -> Told {
         let mut told = Told::default();
         let mut passed = false;
+        let before = self.tested;
+        let under_way = self.request.state().phase != brake_test_request::Phase::Idle;
+        let request = self.request.step(&brake_test_request::Inputs {
+            request: read.is(Flag::TestStop),
+            // The drive's own test asks at POWER ON, and tests no brake then (AF-11).
+            automatic: false,
+            ready: before.ready,
+            complete: before.complete,
+            ended: under_way
+                && (!before.selected || before.refused || before.interrupted || before.late),
+        });
         if let Some(drive) = &mut self.drive {
             let said = drive.step(&drive_test::Inputs {
                 power_on: seen.power_on,
-                request: read.is(Flag::TestStop),
+                request: request.test_stop,
                 stop: seen.off,
                 allowed: read.is(Flag::PoweredUp) && !seen.stops,
                 pulses_off: seen.paths_off == [true; 2],
@@ -132,24 +151,35 @@ impl Service {
                 test_stop: told.tests,
                 passed,
                 activated: false,
-                path_error: false,
+                path_error: seen.path_error,
                 extended_sto: seen.held,
             });
             told.path_due = said.due;
         }
         if let Some(brake) = &mut self.brake {
-            let select = read.is(Flag::BrakeTest);
+            // With p10203 = 2 the test stop alone asks for it.
+            let by_test_stop = values.test_request.by_test_stop;
+            let select = match by_test_stop {
+                true => request.select,
+                false => read.is(Flag::BrakeTest),
+            };
             self.stands = match select && seen.speed == Speed(0) {
                 true => self.stands.saturating_add(1),
                 false => 0,
             };
             told.brake = brake.step(&brake_test::Inputs {
                 select,
-                start: read.is(Flag::BrakeTestStart),
-                choice: brake_test::Choice {
-                    second_brake: read.is(Flag::SecondBrake),
-                    negative: read.is(Flag::NegativeTorque),
-                    second_sequence: read.is(Flag::SecondSequence),
+                start: match by_test_stop {
+                    true => request.start,
+                    false => read.is(Flag::BrakeTestStart),
+                },
+                choice: match by_test_stop {
+                    true => request.choice,
+                    false => brake_test::Choice {
+                        second_brake: read.is(Flag::SecondBrake),
+                        negative: read.is(Flag::NegativeTorque),
+                        second_sequence: read.is(Flag::SecondSequence),
+                    },
                 },
                 external_closed: read.is(Flag::ExternalClosed),
                 pulses: seen.pulses,
@@ -158,6 +188,7 @@ impl Service {
                 stop: seen.stops || seen.off || told.tests,
                 position: seen.position,
             });
+            self.tested = told.brake;
             let state = brake.state();
             told.negative = state.choice.negative;
             let ramp = values.test_ramps[usize::from(state.choice.second_brake)];

@@ -73,13 +73,17 @@ impl Selection {
         }
     }
 
-    /// A channel says that it is there.
-    fn is_active(&self, said: &Said) -> bool {
+    /// A channel says that it is there: of SLS not above the limit of the level that is asked for, whatever level is active.
+    fn is_active(&self, said: &Said, values: &Values) -> bool {
         let stands = said.sto || said.sos;
+        let limit = |level: usize| values.extended.as_ref().map(|e| e.limits[level.min(3)]);
         match (self.sto || self.ss1, self.sos || self.ss2) {
             (true, _) => said.sto,
             (false, true) => stands,
-            (false, false) => stands || said.sls,
+            (false, false) => {
+                let asked = self.sls.and_then(limit);
+                stands || said.sls && asked.is_none_or(|limit| said.sls_limit <= limit)
+            }
         }
     }
 }
@@ -269,7 +273,9 @@ impl<'a> Simulated<'a> {
             let mut behind = axes.filter(|(known, _)| guard.has(&known.name));
             let safe = behind.all(|(_, own)| {
                 let selection = self.behind(guard, own.enabling);
-                own.said.iter().all(|said| selection.is_active(said))
+                own.said
+                    .iter()
+                    .all(|said| selection.is_active(said, &own.values))
             });
             self.doors[k].released = self.doors[k].asked && safe;
         }

@@ -34,7 +34,8 @@ impl Config {
 }
 
 fields! {
-    /// What a channel tells the other one of itself: all that decides on torque, limits and stops (S120-CTRL-503).
+    /// What a channel tells the other one of itself: its stop, what runs and monitors, level and gear stage (S120-CTRL-503). Numbers with a
+    /// tolerance, positions and speeds, are compared elsewhere.
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
     pub struct Results {
         /// The latched stop.

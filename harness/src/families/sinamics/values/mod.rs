@@ -11,9 +11,9 @@ use stillpoint_monitors::sinamics::sdi::Permitted;
 use stillpoint_monitors::sinamics::types::{Braking, Stop};
 use stillpoint_monitors::sinamics::{
     acceptance_mode, acknowledgement, actual_value, basic_selection, basic_stop, brake_test,
-    communication, cross_check, drive_test, encoderless, gear, path_test, reference, safe_position,
-    sam, sbc, sbr, sdi, setpoint_limit, slp, sls, sls_ramp, sos, ss1, ss1_basic, ss2, ssm,
-    start_phase, sto, stop_arbiter, terminal_pair,
+    brake_test_request, communication, cross_check, drive_test, encoderless, gear, path_test,
+    reference, safe_position, sam, sbc, sbr, sdi, setpoint_limit, slp, sls, sls_ramp, sos, ss1,
+    ss1_basic, ss2, ssm, start_phase, sto, stop_arbiter, terminal_pair,
 };
 
 use self::service::{MEASURING_US, TOLERANT_US};
@@ -49,6 +49,7 @@ pub(super) struct Values {
     pub path_test: Option<path_test::Config>,
     pub drive_test: Option<drive_test::Config>,
     pub brake_test: Option<brake_test::Config>,
+    pub test_request: brake_test_request::Config,
     /// p10208 of both brakes, in cycles.
     pub test_ramps: [u32; 2],
     /// The greatest speed during the brake test, and the cycles in which the load is measured.
@@ -291,6 +292,7 @@ impl Reader<'_> {
                 true => Some(self.drive_test()?),
                 false => None,
             },
+            test_request: self.test_request(extended),
             brake_test: match extended && self.axis.has(SBT) {
                 true => Some(self.brake_test()?),
                 false => None,

@@ -2,10 +2,10 @@
 
 use stillpoint_monitors::kernel::{Cycles, Distance, Speed};
 use stillpoint_monitors::sinamics::{
-    brake_test, drive_test, encoderless, reference, safe_position, start_phase,
+    brake_test, brake_test_request, drive_test, encoderless, reference, safe_position, start_phase,
 };
 
-use super::{Reader, brake, brake_cycles};
+use super::{Reader, SBT, brake, brake_cycles};
 use crate::families::values::{Fit, cell, fit};
 
 /// 2 s for the user agreement, 5 s to switch on without encoder, 11 s for an external brake, 2 min of increased tolerance, in us.
@@ -50,6 +50,19 @@ impl Reader<'_> {
         let (interval, longest) = (self.time("p9559"), self.time("p9557"));
         let config = drive_test::Config::new(interval, longest, self.is("p9507_6"));
         fit("p9557 and p9559", config)
+    }
+
+    /// The brake test by the test stop, of brake 1 where it is the motor's (S120-SBT-015).
+    pub(super) fn test_request(&self, extended: bool) -> brake_test_request::Config {
+        brake_test_request::Config {
+            by_test_stop: extended
+                && self.axis.has(SBT)
+                && self.cell("p10203") == 2
+                && brake(self.axis, 0) == brake_test::Kind::Motor,
+            // The file has no p10218, of which the manual does not say which number is which sign.
+            negative: false,
+            automatic: brake_test_request::SbtAuto::default(),
+        }
     }
 
     pub(super) fn brake_test(&self) -> Fit<brake_test::Config> {
