@@ -92,7 +92,8 @@ impl Word {
 
     /// The bit of a function is 0. A word that has no such bit does not select it.
     fn selects(self, name: &str) -> bool {
-        !(self.short && name == "SS2E") && !self.asks(name)
+        let missing = self.short && name == "SS2E";
+        !(missing || self.asks(name))
     }
 
     fn tells(self, name: &str) -> bool {
@@ -194,8 +195,8 @@ impl Seen {
                     "{name} is not selected: {here}"
                 );
             }
-            // SS2 that is deselected brakes to its end, and is SOS for a cycle at least (reading AF-17).
-            let ends = before.1.tells("SS2 active");
+            // SS2 that is deselected brakes to its end, and is SOS for a cycle at least (reading AF-17); the SOS of a stop ends a cycle after it.
+            let ends = before.1.tells("SS2 active") || before.1.tells("Internal Event");
             let held = ["SOS", "SS2", "SS2E"]
                 .map(|name| word.selects(name))
                 .contains(&true)

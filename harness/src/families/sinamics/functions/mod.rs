@@ -179,12 +179,14 @@ impl Functions {
             told.ss2 = ss2.step(&ss2::Inputs {
                 ss2: selected(Flag::Ss2),
                 ss2e: selected(Flag::Ss2e),
-                // Only what it gives way to; the arbiter carries out the others.
-                stop: match before.stop >= Stop::B {
-                    true => Demand::B,
-                    false => Demand::None,
-                },
-                ss1_or_sto: seen.sto || seen.ss1 || seen.basic_ss1 || seen.basic_sto,
+                // The arbiter carries out the stops. What SS2 gives way to is no reason for its operating stop: a stop that holds that would be the
+                // cause of its own violation, and nothing could acknowledge it.
+                stop: Demand::None,
+                ss1_or_sto: seen.sto
+                    || seen.ss1
+                    || seen.basic_ss1
+                    || seen.basic_sto
+                    || before.stop >= Stop::B,
                 sos_active: false,
                 ramp_violated: self.violated,
             });
