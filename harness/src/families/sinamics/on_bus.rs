@@ -2,6 +2,7 @@
 //! itself, and the drive tells what both of them say.
 
 use stillpoint_machine::{Axis, Machine};
+use stillpoint_monitors::sinamics::telegram::control::ControlWord2;
 use stillpoint_monitors::sinamics::telegram::frame::{Frame, Positioned, Received, Sent, Telegram};
 use stillpoint_monitors::sinamics::telegram::status::{StatusWord1, StatusWord2};
 use stillpoint_monitors::sinamics::telegram::values::sls_limit_active;
@@ -150,44 +151,35 @@ const fn shortened(word: StatusWord2) -> StatusWord1 {
 /// What a telegram selects.
 fn selected(received: &Received, position: i32) -> Read {
     let at_rest = Read::at_rest(position);
+    let word = match received {
+        // The bits of S_STW1 stand in S_STW2 where they stand in it; what it does not have is not selected.
+        Received::T30(word) => ControlWord2 {
+            ss2e: true,
+            ..ControlWord2::decode(word.encode().into())
+        },
+        Received::T31(word) | Received::Limited(word, _) => *word,
+        Received::Nothing | Received::T701(..) => return at_rest,
+    };
+    let read = at_rest
+        .flags(&[
+            (Flag::Sto, word.sto),
+            (Flag::Ss1, word.ss1),
+            (Flag::Ss2, word.ss2),
+            (Flag::Sos, word.sos),
+            (Flag::Sls, word.sls),
+            (Flag::Slp, word.slp),
+            (Flag::Ack, word.internal_event_ack),
+            (Flag::SdiPositive, word.sdi_positive),
+            (Flag::SdiNegative, word.sdi_negative),
+            (Flag::SlpRange, word.slp_area_2),
+            (Flag::GearTolerance, word.gear_tolerance),
+            (Flag::Ss2e, word.ss2e),
+        ])
+        .number(Number::Level, i32::from(word.sls_level()) - 1)
+        .number(Number::Stage, word.gear_stage().into());
     match received {
-        Received::T30(word) => at_rest
-            .flags(&[
-                (Flag::Sto, word.sto),
-                (Flag::Ss1, word.ss1),
-                (Flag::Ss2, word.ss2),
-                (Flag::Sos, word.sos),
-                (Flag::Sls, word.sls),
-                (Flag::Slp, word.slp),
-                (Flag::Ack, word.internal_event_ack),
-                (Flag::SdiPositive, word.sdi_positive),
-                (Flag::SdiNegative, word.sdi_negative),
-            ])
-            .number(Number::Level, i32::from(word.sls_level()) - 1),
-        Received::T31(word) | Received::Limited(word, _) => {
-            let read = at_rest
-                .flags(&[
-                    (Flag::Sto, word.sto),
-                    (Flag::Ss1, word.ss1),
-                    (Flag::Ss2, word.ss2),
-                    (Flag::Sos, word.sos),
-                    (Flag::Sls, word.sls),
-                    (Flag::Slp, word.slp),
-                    (Flag::Ack, word.internal_event_ack),
-                    (Flag::SdiPositive, word.sdi_positive),
-                    (Flag::SdiNegative, word.sdi_negative),
-                    (Flag::SlpRange, word.slp_area_2),
-                    (Flag::GearTolerance, word.gear_tolerance),
-                    (Flag::Ss2e, word.ss2e),
-                ])
-                .number(Number::Level, i32::from(word.sls_level()) - 1)
-                .number(Number::Stage, word.gear_stage().into());
-            match received {
-                // A number with its highest bit is no limit, as a negative one is none.
-                Received::Limited(_, limit) => read.number(Number::Limit, i32::from(*limit as i16)),
-                _ => read,
-            }
-        }
-        Received::Nothing | Received::T701(..) => at_rest,
+        // A number with its highest bit is no limit, as a negative one is none.
+        Received::Limited(_, limit) => read.number(Number::Limit, i32::from(*limit as i16)),
+        _ => read,
     }
 }
