@@ -65,13 +65,17 @@ fn many_telegrams_are_what_the_manual_prints() {
     sent_and_received(DEEP_FRAMES);
 }
 
+/// What a target says of these bytes; they are told where it breaks.
+fn judged<T>(data: &[u8], run: fn(&[u8]) -> T) -> T {
+    std::panic::catch_unwind(|| run(data)).unwrap_or_else(|_| panic!("{data:?}"))
+}
+
 fn sent_and_received(frames: usize) {
     let mut random = Random::new(120);
     let mut accepted = 0;
     for _ in 0..frames {
         let frame = telegram::frame(&mut random);
-        let judged = std::panic::catch_unwind(|| telegram::telegram(&frame));
-        accepted += usize::from(judged.unwrap_or_else(|_| panic!("{frame:?}")));
+        accepted += usize::from(judged(&frame, telegram::telegram));
     }
     println!("{accepted} of {frames} frames are telegrams");
     assert!(accepted > frames / 2 && accepted < frames, "{accepted}");
@@ -97,8 +101,7 @@ fn answered(cycles: u64) {
     let mut count = drive::Count::default();
     while count.telegrams < cycles {
         let data = drive::records(&mut random, 200);
-        let judged = std::panic::catch_unwind(|| drive::run(&data));
-        let run = judged.unwrap_or_else(|_| panic!("{data:?}"));
+        let run = judged(&data, drive::run);
         count.telegrams += run.telegrams;
         count.told |= run.told;
     }

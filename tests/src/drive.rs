@@ -4,7 +4,7 @@
 use std::sync::LazyLock;
 
 use stillpoint_harness::families::sinamics::on_bus::{Around, OnBus};
-use stillpoint_machine::{self as machine, Machine, families};
+use stillpoint_machine::{self as machine, AxisKind, Machine, Settings, families};
 use stillpoint_monitors::sinamics::telegram::frame::Telegram;
 
 use crate::random::Random;
@@ -26,56 +26,48 @@ const FUNCTIONS: [&str; 9] = [
     "SS2E",
 ];
 
-/// Cycles in which a telegram may be missing: `F_WD_Time`, in cycles of 12 ms.
-const WATCHDOG: u32 = 150 / 12;
-
 /// The values of an axis that its answers depend on, in cycles and micrometres.
 struct Axis {
+    /// Cycles in which a telegram may be missing: `F_WD_Time`.
+    watchdog: u32,
     /// Delay of SLS and SOS, p9551, and the time of SS1, p9556.
     p9551: u32,
     p9556: u32,
     /// Limits of SLS in um per cycle and the window of SOS in um; none of a rotary axis.
-    lengths: Option<([u32; 4], u32)>,
+    lengths: Option<([u64; 4], u64)>,
     /// STO or SS1 that is selected and deselected acknowledges.
     extended: bool,
 }
 
-/// A number before its unit.
-fn number(text: Option<&toml::Value>, unit: &str) -> Option<f64> {
-    text?.as_str()?.strip_suffix(unit)?.trim().parse().ok()
-}
-
 impl Axis {
-    fn of(file: &toml::Table, name: &str) -> Self {
-        let axis = &file["axis"][name];
-        let cycles = |name: &str| {
-            let ms = number(axis.get(name), "ms").unwrap_or_else(|| panic!("{name}: no time"));
-            (ms / 12.0).ceil() as u32
+    fn of(machine: &Machine, axis: &machine::Axis) -> Self {
+        let cycle = machine.monitoring_cycle.unsigned_abs();
+        let cell = |values: &Settings, name: &str, k: usize| {
+            let cell = values.get(name).and_then(|value| value.cells.get(k));
+            let cell = cell.unwrap_or_else(|| panic!("{} has no {name}", axis.name));
+            cell.unsigned_abs()
         };
-        let speed = |k| {
-            let per_minute = number(axis.get("p9531")?.get(k), "mm/min")?;
-            Some((per_minute * 1_000.0 * 0.012 / 60.0) as u32)
-        };
-        let limits = [0, 1, 2, 3].map(speed);
-        let window = number(axis.get("p9530"), "mm");
-        let lengths = match (limits, window) {
-            ([Some(a), Some(b), Some(c), Some(d)], Some(mm)) => {
-                Some(([a, b, c, d], (mm * 1_000.0) as u32))
-            }
-            _ => None,
-        };
+        let own = |name| cell(&axis.values, name, 0);
+        let cycles = |us: u64| us.div_ceil(cycle) as u32;
+        // What runs a minute, in a cycle.
+        let limit = |k| cell(&axis.values, "p9531", k) * cycle / 60_000_000;
+        let linear = axis.kind == AxisKind::Linear;
         Self {
-            p9551: cycles("p9551"),
-            p9556: cycles("p9556"),
-            lengths,
-            extended: axis.get("p9507_0").and_then(toml::Value::as_bool) == Some(true),
+            watchdog: (cell(&machine.control, "F_WD_Time", 0) / cycle) as u32,
+            p9551: cycles(own("p9551")),
+            p9556: cycles(own("p9556")),
+            lengths: linear.then(|| ([0, 1, 2, 3].map(limit), own("p9530"))),
+            extended: own("p9507_0") != 0,
         }
     }
 }
 
-/// The control word of a telegram.
-const fn stw(short: bool) -> &'static str {
-    if short { "S_STW1" } else { "S_STW2" }
+/// Control and status word of a telegram.
+const fn words(short: bool) -> [&'static str; 2] {
+    match short {
+        true => ["S_STW1", "S_ZSW1"],
+        false => ["S_STW2", "S_ZSW2"],
+    }
 }
 
 /// A word with the name of the manual for each of its bits.
@@ -86,8 +78,12 @@ struct Word {
 }
 
 impl Word {
+    fn is(self, word: &str, name: &str) -> bool {
+        self.raw >> place(word, name) & 1 == 1
+    }
+
     fn asks(self, name: &str) -> bool {
-        self.raw >> place(stw(self.short), name) & 1 == 1
+        self.is(words(self.short)[0], name)
     }
 
     /// The bit of a function is 0. A word that has no such bit does not select it.
@@ -97,7 +93,7 @@ impl Word {
     }
 
     fn tells(self, name: &str) -> bool {
-        self.raw >> place(["S_ZSW2", "S_ZSW1"][usize::from(self.short)], name) & 1 == 1
+        self.is(words(self.short)[1], name)
     }
 
     fn level(self) -> usize {
@@ -105,7 +101,13 @@ impl Word {
     }
 }
 
+/// For how many cycles something has gone on.
+const fn counted(before: u32, goes_on: bool) -> u32 {
+    if goes_on { before + 1 } else { 0 }
+}
+
 /// What has been seen of a run.
+#[derive(Default)]
 struct Seen {
     sent: Word,
     told: Word,
@@ -132,16 +134,18 @@ impl Seen {
         let before = (self.sent, self.told);
         let fresh = sent.is_some();
         let word = sent.unwrap_or(self.sent);
-        self.missing = if fresh { 0 } else { self.missing + 1 };
-        self.failed |= self.missing >= WATCHDOG;
-        let here = format!(
-            "sent {:#x} then {:#x}{}, told {:#x} then {:#x}",
-            before.0.raw,
-            word.raw,
-            if fresh { "" } else { " (none)" },
-            before.1.raw,
-            told.raw
-        );
+        self.missing = counted(self.missing, !fresh);
+        self.failed |= self.missing >= axis.watchdog;
+        let here = || {
+            format!(
+                "sent {:#x} then {:#x}{}, told {:#x} then {:#x}",
+                before.0.raw,
+                word.raw,
+                if fresh { "" } else { " (none)" },
+                before.1.raw,
+                told.raw
+            )
+        };
         self.position += way;
         let tells = |name| told.tells(name);
         let stops = ["STO", "SS1", "SS2", "SOS", "SS2E"].map(|name| word.selects(name));
@@ -149,42 +153,43 @@ impl Seen {
         // STO acts in the cycle in which it is selected, SS1 in p9556 at the latest. How late a cycle of the bus makes it is not asked here.
         assert!(
             !fresh || !word.selects("STO") || tells("STO active"),
-            "STO is selected: {here}"
+            "STO is selected: {}",
+            here()
         );
-        self.ss1 = if fresh && word.selects("SS1") {
-            self.ss1 + 1
-        } else {
-            0
-        };
+        self.ss1 = counted(self.ss1, fresh && word.selects("SS1"));
         assert!(
             self.ss1 <= axis.p9556 + 2 || tells("STO active"),
-            "SS1 has had its time: {here}"
+            "SS1 has had its time: {}",
+            here()
         );
         // SOS is told as selected at once, for the control has to brake (4.5.2), and is active after p9551.
         let sos = fresh && word.selects("SOS");
-        assert!(!sos || tells("SOS selected"), "SOS is selected: {here}");
-        self.sos = if sos { self.sos + 1 } else { 0 };
+        assert!(!sos || tells("SOS selected"), "SOS is selected: {}", here());
+        self.sos = counted(self.sos, sos);
         let stopped = ["SOS active", "SS1 active", "STO active"].map(tells);
         let late = self.sos > axis.p9551 + 2 && !stopped.contains(&true);
-        assert!(!late, "SOS is not active: {here}");
+        assert!(!late, "SOS is not active: {}", here());
         // Where nothing has monitored yet nothing can have happened.
         self.may |= self.missing > 0 || FUNCTIONS[1..].iter().any(|name| word.selects(name));
         assert!(
             self.may || !tells("Internal Event"),
-            "an event of nothing: {here}"
+            "an event of nothing: {}",
+            here()
         );
         // Without telegrams the drive has no torque, after the stop of p9612 at the latest.
-        let without = WATCHDOG + axis.p9556 + 3;
+        let without = axis.watchdog + axis.p9556 + 3;
         assert!(
             self.missing <= without || tells("STO active"),
-            "no telegram comes: {here}"
+            "no telegram comes: {}",
+            here()
         );
 
         // A function that is deselected ends at once; what is active was selected, or a stop or a failure selects it.
         if !self.failed {
             assert!(
                 !tells("SLS active") || word.selects("SLS"),
-                "SLS is not selected: {here}"
+                "SLS is not selected: {}",
+                here()
             );
             for (active, name) in [
                 ("SDI positive active", "SDI positive"),
@@ -192,7 +197,8 @@ impl Seen {
             ] {
                 assert!(
                     !tells(active) || word.selects(name),
-                    "{name} is not selected: {here}"
+                    "{name} is not selected: {}",
+                    here()
                 );
             }
             // SS2 that is deselected brakes to its end, and is SOS for a cycle at least (reading AF-17); the SOS of a stop ends a cycle after it.
@@ -203,7 +209,8 @@ impl Seen {
                 || ends;
             assert!(
                 !tells("SOS active") || held || tells("Internal Event"),
-                "nothing asks for SOS: {here}"
+                "nothing asks for SOS: {}",
+                here()
             );
         }
 
@@ -212,21 +219,19 @@ impl Seen {
             let fell = before.0.asks("Internal Event ACK") && !word.asks("Internal Event ACK");
             let selected = |word: Word| word.selects("STO") || word.selects("SS1");
             let again = axis.extended && selected(before.0) && !selected(word);
-            assert!(fell || again, "nothing has acknowledged: {here}");
+            assert!(fell || again, "nothing has acknowledged: {}", here());
         }
 
         // At standstill with nothing selected no cause is left: the falling edge of the bit ends the event.
         let ack = [before.0, word].map(|word| word.asks("Internal Event ACK"));
         let selected = FUNCTIONS.iter().any(|name| word.selects(name));
-        self.quiet = match fresh && way == 0 && !selected {
-            true => self.quiet + 1,
-            false => 0,
-        };
+        self.quiet = counted(self.quiet, fresh && way == 0 && !selected);
         self.rose = self.quiet > 3 && (self.rose || ack == [false, true]);
         if self.rose && ack == [true, false] {
             assert!(
                 !tells("Internal Event"),
-                "what was acknowledged stays: {here}"
+                "what was acknowledged stays: {}",
+                here()
             );
         }
 
@@ -234,10 +239,11 @@ impl Seen {
             // A speed above the limit of the active level is an event in its cycle, and so is a position outside the window.
             let monitors = tells("SLS active") && before.1.tells("SLS active");
             if monitors && told.level() == before.1.level() {
-                let above = way.unsigned_abs() > u64::from(limits[told.level()]) + 1;
+                let above = way.unsigned_abs() > limits[told.level()] + 1;
                 assert!(
                     !above || tells("Internal Event"),
-                    "faster than SLS allows: {here}"
+                    "faster than SLS allows: {}",
+                    here()
                 );
             }
             self.stands = match (tells("SOS active"), self.stands) {
@@ -246,10 +252,11 @@ impl Seen {
                 (false, _) => None,
             };
             if let Some(place) = self.stands {
-                let left = self.position.abs_diff(place) > u64::from(window);
+                let left = self.position.abs_diff(place) > window;
                 assert!(
                     !left || tells("Internal Event"),
-                    "outside the window of SOS: {here}"
+                    "outside the window of SOS: {}",
+                    here()
                 );
             }
         }
@@ -262,11 +269,12 @@ impl Seen {
             && !["STO active", "SS1 active", "SOS active", "Internal Event"]
                 .map(tells)
                 .contains(&true);
-        self.sls = if calm { self.sls + 1 } else { 0 };
+        self.sls = counted(self.sls, calm);
         if self.sls > axis.p9551 + 2 {
             assert!(
                 tells("SLS active") && told.level() == word.level(),
-                "SLS is not monitored: {here}"
+                "SLS is not monitored: {}",
+                here()
             );
         }
 
@@ -295,16 +303,13 @@ pub fn drive(data: &[u8]) -> bool {
 /// The machine, and those of its axes that have a safety telegram and Extended Functions.
 static MACHINES: LazyLock<(Machine, Vec<(usize, Axis)>)> = LazyLock::new(|| {
     let path = crate::root().join(MACHINE);
-    let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{path:?}: {e}"));
-    let file: toml::Table = toml::from_str(&text).unwrap_or_else(|e| panic!("{path:?}: {e}"));
     let machine = machine::load(&path, &families(&path)).unwrap_or_else(|e| panic!("{e}"));
     let known = machine.axes.iter().enumerate();
-    let axes = known.filter_map(|(k, axis)| {
-        OnBus::new(&machine, k).ok()?;
-        let timed = file["axis"][&axis.name].get("p9551").is_some();
-        timed.then(|| (k, Axis::of(&file, &axis.name)))
-    });
-    let axes = axes.collect();
+    let driven =
+        known.filter(|(k, axis)| axis.has("motion monitoring") && OnBus::new(&machine, *k).is_ok());
+    let axes = driven
+        .map(|(k, axis)| (k, Axis::of(&machine, axis)))
+        .collect();
     (machine, axes)
 });
 
@@ -325,23 +330,13 @@ pub fn run(data: &[u8]) -> Count {
     // Every bit that selects is 1, all others 0.
     let mut free = Word { short, raw: 0 };
     for name in FUNCTIONS.iter().filter(|name| !(short && **name == "SS2E")) {
-        free.raw |= 1 << place(stw(short), name);
+        free.raw |= 1 << place(words(short)[0], name);
     }
     let mut control = free;
-    let idle = Word { short, raw: 0 };
     let mut seen = Seen {
-        sent: control,
-        told: idle,
-        missing: 0,
-        failed: false,
-        ss1: 0,
-        sos: 0,
-        sls: 0,
-        may: false,
-        quiet: 0,
-        rose: false,
-        stands: None,
-        position: 0,
+        sent: free,
+        told: Word { short, raw: 0 },
+        ..Seen::default()
     };
     let mut speed = 0_i64;
     for record in data.chunks_exact(4) {
@@ -357,7 +352,7 @@ pub fn run(data: &[u8]) -> Count {
         match what % 16 {
             // Nothing is selected any more, and the axis stands.
             2 => (control, speed) = (free, 0),
-            3 => control.raw ^= 1 << place(stw(short), "Internal Event ACK"),
+            3 => control.raw ^= 1 << place(words(short)[0], "Internal Event ACK"),
             _ => {}
         }
         // Nothing, too little, or a telegram.

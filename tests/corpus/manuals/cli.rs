@@ -1,6 +1,7 @@
 //! Cases that go through the command line, as a user meets them.
 
 use super::case::Given;
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::Path;
 use std::process::Command;
 use toml::{Table, Value};
@@ -32,21 +33,21 @@ pub fn run(given: &Given<'_>) -> Result<Table, String> {
         }
         text = text.replacen(from, to, 1);
     }
-    // A file of its own for every case, inside the workspace so that the family is found.
     let scenario = match given.get("scenario") {
-        Some(text) => text.as_str().ok_or("scenario: a text is needed")?,
-        None => "",
+        Some(text) => Some(text.as_str().ok_or("scenario: a text is needed")?),
+        None => None,
     };
-    let folder = tempfile_folder(&format!("{text}{scenario}"))?;
+    // A folder of its own for every case, inside the workspace so that the family is found.
+    let folder = tempfile_folder(&(&text, scenario))?;
     let write = |name, text: &str| {
         let file = folder.join(name);
         std::fs::write(&file, text).map_err(|e| e.to_string())?;
         Ok::<_, String>(file)
     };
-    let files = [
-        ("FILE", write("machine.toml", &text)?),
-        ("SCENARIO", write("scenario.toml", scenario)?),
-    ];
+    let mut files = vec![("FILE", write("machine.toml", &text)?)];
+    if let Some(text) = scenario {
+        files.push(("SCENARIO", write("scenario.toml", text)?));
+    }
     let arguments = given.texts("arguments")?;
     let output = Command::new(env!("CARGO_BIN_EXE_stillpoint"))
         .args(arguments.iter().map(|argument| {
@@ -94,11 +95,10 @@ pub fn run(given: &Given<'_>) -> Result<Table, String> {
     Ok(answer)
 }
 
-fn tempfile_folder(text: &str) -> Result<std::path::PathBuf, String> {
-    use std::hash::{DefaultHasher, Hash, Hasher};
+fn tempfile_folder(texts: &impl Hash) -> Result<std::path::PathBuf, String> {
     let mut hasher = DefaultHasher::new();
     (
-        text,
+        texts,
         std::process::id(),
         format!("{:?}", std::thread::current().id()),
     )

@@ -373,6 +373,9 @@ impl Channel {
             Latched::A => Stop::A,
             Latched::Locked => Stop::Locked,
         };
+        // An internal STOP D is told as SS2E, and D and E as a selection of SOS: the control has to brake (4.5.2, 9.3).
+        let ss2e = told.ss2.ss2e_active || arbiter.stop == Stop::D;
+        let sos_selected = told.sos.selected || matches!(arbiter.stop, Stop::D | Stop::E);
         // In the acceptance test mode the setpoint acts again once the axis stands in SOS.
         let moves = told.mode.setpoint_enabled && arbiter.stop <= Stop::C;
         let directions = told.setpoint.map(|s| [s.positive, s.negative]);
@@ -391,10 +394,9 @@ impl Channel {
             sto: sto.shown,
             ss1: told.ss1.active || ss1.active || arbiter.stop == Stop::B,
             ss2: told.ss2.ss2_active || arbiter.stop == Stop::C && arbiter.off3,
-            // An internal STOP D is told as SS2E, and D and E as a selection of SOS: the control has to brake (4.5.2, 9.3).
-            ss2e: told.ss2.ss2e_active || arbiter.stop == Stop::D,
+            ss2e,
             sos: told.sos.active,
-            sos_selected: told.sos.selected || matches!(arbiter.stop, Stop::D | Stop::E),
+            sos_selected,
             sos_violated: told.sos.violated,
             sos_reference: told.sos_reference.0,
             sls: told.sls.active,
@@ -413,11 +415,7 @@ impl Channel {
             function: told.function,
             pulses_off: self.shared.path_off,
             off3: arbiter.off3 || told.ss1.off3 || told.ss2.off3 || ss1.off3,
-            control_brakes: (told.sos.selected
-                || arbiter.sos
-                || told.ss2.ss2e_active
-                || matches!(arbiter.stop, Stop::D | Stop::E))
-                && !moves
+            control_brakes: (sos_selected || arbiter.sos || ss2e) && !moves
                 || told.ss1.active
                 || ss1.active
                 || off1

@@ -158,10 +158,17 @@ impl Service {
         }
         if let Some(brake) = &mut self.brake {
             // With p10203 = 2 the test stop alone asks for it.
-            let by_test_stop = values.test_request.by_test_stop;
-            let select = match by_test_stop {
-                true => request.select,
-                false => read.is(Flag::BrakeTest),
+            let (select, start, choice) = match values.test_request.by_test_stop {
+                true => (request.select, request.start, request.choice),
+                false => (
+                    read.is(Flag::BrakeTest),
+                    read.is(Flag::BrakeTestStart),
+                    brake_test::Choice {
+                        second_brake: read.is(Flag::SecondBrake),
+                        negative: read.is(Flag::NegativeTorque),
+                        second_sequence: read.is(Flag::SecondSequence),
+                    },
+                ),
             };
             self.stands = match select && seen.speed == Speed(0) {
                 true => self.stands.saturating_add(1),
@@ -169,18 +176,8 @@ impl Service {
             };
             told.brake = brake.step(&brake_test::Inputs {
                 select,
-                start: match by_test_stop {
-                    true => request.start,
-                    false => read.is(Flag::BrakeTestStart),
-                },
-                choice: match by_test_stop {
-                    true => request.choice,
-                    false => brake_test::Choice {
-                        second_brake: read.is(Flag::SecondBrake),
-                        negative: read.is(Flag::NegativeTorque),
-                        second_sequence: read.is(Flag::SecondSequence),
-                    },
-                },
+                start,
+                choice,
                 external_closed: read.is(Flag::ExternalClosed),
                 pulses: seen.pulses,
                 slow: seen.speed <= values.slow,

@@ -11,7 +11,7 @@ config! {
     /// The parameters.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub struct Config {
-        apart: Cycles,
+        pub(crate) apart: Cycles,
     }
 }
 
@@ -25,11 +25,6 @@ impl Config {
             return Err(ConfigError::NoDelay);
         }
         Ok(Self { apart })
-    }
-
-    /// So many cycles of different results are a defect.
-    pub const fn apart(&self) -> Cycles {
-        self.apart
     }
 }
 
@@ -146,7 +141,7 @@ fields! {
 }
 
 /// A monitor of this channel finds a defect, whatever the other one tells.
-fn alone(s: &Inputs) -> bool {
+pub(crate) const fn alone(s: &Inputs) -> bool {
     s.values_apart || s.gear_too_long || s.too_wide || s.implausible
 }
 
@@ -223,10 +218,10 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
     } else {
         state
     };
-    let since = match inputs.own != inputs.other && !inputs.power_on {
-        true if before.since < config.apart => Cycles::new(before.since.count() + 1),
-        true => config.apart,
-        false => Cycles::ZERO,
+    let since = if inputs.own != inputs.other && !inputs.power_on {
+        Cycles::new(before.since.count().saturating_add(1)).min(config.apart)
+    } else {
+        Cycles::ZERO
     };
     let found = if since == config.apart || inputs.values_apart {
         Defect::Channels

@@ -241,9 +241,7 @@ variants! { sinamics::cross_check:
     /// A difference is found a cycle late.
     "cross-check-late" |state, config, inputs| {
         let (after, mut outputs) = cross_check::transition(state, config, inputs);
-        if state.since < config.apart() && !(inputs.values_apart || inputs.gear_too_long || inputs.too_wide || inputs.implausible) {
-            outputs.found = false;
-        }
+        outputs.found &= state.since == config.apart || cross_check::alone(inputs);
         (after, outputs)
     }
 
