@@ -51,6 +51,7 @@ const SINAMICS_FUNCTIONS: &[&str] = &[
 /// Their control and their telegrams.
 const SINAMICS_CONTROL: &[&str] = &[
     "spec/families/sinamics-s120/terminals.toml",
+    "spec/families/sinamics-s120/cross-check.toml",
     "spec/families/sinamics-s120/sto.toml",
     "spec/families/sinamics-s120/inputs.toml",
     "spec/families/sinamics-s120/acknowledgement.toml",
