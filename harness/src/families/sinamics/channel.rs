@@ -1,7 +1,7 @@
 //! One channel of a drive: the Basic Functions in their cycle, the Extended ones in theirs, acknowledgement, and what the drive may do. And the
 //! pair of them.
 
-use stillpoint_monitors::kernel::{Distance, Position, Speed};
+use stillpoint_monitors::kernel::{Cycles, Distance, Position, Speed};
 use stillpoint_monitors::sinamics::basic_stop::Latched;
 use stillpoint_monitors::sinamics::cross_check::Results;
 use stillpoint_monitors::sinamics::level::{Function, Stop};
@@ -150,33 +150,57 @@ impl Channel {
         }
     }
 
-    /// The bits that count: of the last telegram, or substitute values; the stop of a failure, and whether there is one in this cycle.
-    fn bits(&mut self, read: &Read, acknowledge: bool) -> (Read, Stop, bool) {
-        let Some(communication) = &mut self.communication else {
-            self.valid = true;
-            return (*read, Stop::None, false);
-        };
+    /// What was sent last, whether it counts or not.
+    fn sent(&mut self, read: &Read) -> Read {
+        if self.communication.is_none() {
+            return *read;
+        }
         if read.is(Flag::Telegram) {
             self.received = *read;
         }
+        read.with_bits_of(&self.received)
+    }
+
+    /// The bits that count: of the last telegram, or substitute values; and what the communication asks for.
+    ///
+    /// A failure that stops the drive along the ramp, or only after ESR, leaves what was selected until the pulses are off: a substitute
+    /// value would select STO at once, and there would be no ramp and no retraction (5.5.1, 5.5.2; reading).
+    fn bits(
+        &mut self,
+        values: &Values,
+        sent: Read,
+        fresh: bool,
+        acknowledge: bool,
+    ) -> (Read, communication::Outputs) {
+        let Some(communication) = &mut self.communication else {
+            self.valid = true;
+            return (sent, communication::Outputs::default());
+        };
         let told = self.functions.as_ref().map(Functions::told);
         let said = communication.step(&communication::Inputs {
             power_on: false,
-            telegram: read.is(Flag::Telegram) && read.is(Flag::PoweredUp),
+            telegram: fresh && sent.is(Flag::PoweredUp),
             disturbed: false,
             undelayed: told.is_some_and(|told| told.undelayed),
             acknowledge,
         });
         self.valid = said.valid;
-        let bits = match said.valid {
-            true => read.with_bits_of(&self.received),
+        // Without SS1 the Basic Functions have no ramp.
+        let ramp = values.extended.is_some() || values.ss1_basic.time > Cycles::ZERO;
+        let stop_b = said.request == Stop::B && ramp;
+        let mut bits = match said.valid || said.esr || stop_b && self.torque {
+            true => sent,
             // No limit of SLS is transferred: the last one stays (the manual has no substitute value for it).
             false => {
-                let limit = self.received.of(Number::Limit);
-                read.with_bits_of(&Read::default().number(Number::Limit, limit))
+                let limit = sent.of(Number::Limit);
+                sent.with_bits_of(&Read::default().number(Number::Limit, limit))
             }
         };
-        (bits, said.request, said.fault && !said.valid)
+        // The Basic Functions have no STOP B: their ramp is that of SS1, which stays selected until the failure is acknowledged.
+        if stop_b && values.extended.is_none() {
+            bits = bits.flags(&[(Flag::Ss1, false)]);
+        }
+        (bits, said)
     }
 
     /// POWER ON: what the other channel hears of it is new, too.
@@ -197,31 +221,36 @@ impl Channel {
             .map_or(Distance(0), |before| position.distance(before));
         let speed = Speed(speed);
         self.before = Some(position);
-        let level = match self.communication {
-            Some(_) if !read.is(Flag::Telegram) => self.received.is(Flag::Ack),
-            _ => read.is(Flag::Ack),
+        let sent = self.sent(read);
+        let edge = |edge: &mut acknowledgement_edge::Monitor, level| {
+            let said = edge.step(&acknowledgement_edge::Inputs {
+                power_on: false,
+                valid: self.valid,
+                stable: true,
+                level,
+            });
+            said.acknowledge
         };
-        let edge = self.edge.step(&acknowledgement_edge::Inputs {
-            power_on: false,
-            valid: self.valid,
-            stable: true,
-            level,
-        });
-        let edge = edge.acknowledge;
-        let (bits, communication, silent) = self.bits(read, edge);
+        let selected = Basic::selects(values, &sent);
+        let ss1 = values.extended.is_some() && !sent.is(Flag::Ss1);
+        let reselected = edge(&mut self.reselection, selected || ss1);
+        let edge = edge(&mut self.edge, sent.is(Flag::Ack));
+        let edges = acknowledgement::Inputs {
+            profisafe_edge: edge,
+            reselected,
+            standard: read.is(Flag::General),
+            ..Default::default()
+        };
+        let acknowledges = edges.acknowledge(&values.acknowledgement);
+        let fresh = read.is(Flag::Telegram);
+        let (bits, communication) = self.bits(values, sent, fresh, edge || acknowledges);
         // The Extended Functions have a stop of their own for it; without them it is F01611 (5.5.1).
-        let silent = silent && values.extended.is_none();
+        let silent = communication.fault && !communication.valid && values.extended.is_none();
         let (held, defect) = (self.held, self.brake_defect);
-        let (selection, ss1, basic, terminals_differ) =
+        let (selection, ss1, basic, terminals) =
             (self.basic).step(values, &bits, other, edge, [held, defect, silent]);
         let ss1_selected = values.extended.is_some() && !bits.is(Flag::Ss1);
         let any = selection.sto || selection.ss1 || ss1_selected;
-        let reselected = self.reselection.step(&acknowledgement_edge::Inputs {
-            power_on: false,
-            valid: self.valid,
-            stable: true,
-            level: any,
-        });
         let switches = matches!(
             self.restart.state().phase,
             restart::Phase::Ready | restart::Phase::Run
@@ -240,12 +269,9 @@ impl Channel {
             ),
             _ => (bare::Told::default(), position, speed),
         };
-        let edges = acknowledgement::Inputs {
-            profisafe_edge: edge,
-            reselected: reselected.acknowledge,
-            standard: read.is(Flag::General),
-            ..Default::default()
-        };
+        // Without an encoder, while the start phase lasts, and with one that has failed the speed may be any.
+        let encoder_fault = read.is(Flag::EncoderFault);
+        let unknown = encoder_fault || self.bare.is_some() && self.torque && !bare.known;
         let seen = Seen {
             position,
             speed,
@@ -254,16 +280,19 @@ impl Channel {
             basic_ss1: ss1.active && !ss1.sto,
             basic_sto: ss1.sto,
             drive_on: self.torque,
-            communication,
+            unknown,
+            tolerated: terminals.tolerated,
+            encoder_fault,
+            communication: communication.request,
             positions: [self.shared.position, other.position],
             results: [self.shared.results, other.results],
             other_agrees: other.agrees,
             second: self.second,
             wrong: bare.wrong,
-            acknowledges: edges.acknowledge(&values.acknowledgement),
+            acknowledges,
         };
         let mut messages = Messages::default()
-            .with(Message::BasicF, terminals_differ || silent)
+            .with(Message::BasicF, terminals.fault || silent)
             .with(Message::Brake, self.brake_defect)
             .with(Message::Crosscheck, bare.no_current);
         let raised = self.functions.as_mut().map(|f| f.watch(&bits, &seen));
@@ -322,7 +351,7 @@ impl Channel {
         let unselected = self.bare.as_ref().is_some_and(Bare::unselected);
         let inhibits = off || service.tests || bare.internal && !unselected;
         // OFF1 brakes: the pulses go off when the axis stands.
-        let off1 = self.torque && !read.is(Flag::On) && speed != Speed(0);
+        let off1 = self.torque && !read.is(Flag::On) && (unknown || speed != Speed(0));
         let restart = self.restart.step(&restart::Inputs {
             power_on: false,
             sto: inhibits || !self.sto.state().started,
@@ -414,6 +443,7 @@ impl Channel {
             braking_limit: told.braking_limit,
             function: told.function,
             pulses_off: self.shared.path_off,
+            esr: communication.esr || arbiter.esr,
             off3: arbiter.off3 || told.ss1.off3 || told.ss2.off3 || ss1.off3,
             control_brakes: (sos_selected || arbiter.sos || ss2e) && !moves
                 || told.ss1.active

@@ -192,6 +192,9 @@ pub(super) fn outputs(axis: &Axis, side: usize, said: &Said) -> Vec<(Port, Value
     if values::enables(axis, ControlPath::profisafe) {
         all.push(on("telegram_valid", said.valid));
     }
+    if axis.has("ESR") {
+        all.push(on("ESR", said.esr));
+    }
     all.push(on("internal_event", said.event));
     all.push(on("path_test_due", said.service.path_due));
     if values::extended(axis) {

@@ -40,6 +40,8 @@ pub(super) struct Said {
     pub braking_limit: Speed,
     pub function: Function,
     pub pulses_off: bool,
+    /// S_ZSW1B.14: the control is to retract.
+    pub esr: bool,
     /// The drive brakes along OFF3.
     pub off3: bool,
     /// The control is to brake, or to hold the axis: SOS, SS1E, SS2E, STOP D and E.

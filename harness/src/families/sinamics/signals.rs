@@ -63,6 +63,8 @@ pub(super) enum Flag {
     SecondSequence,
     /// The external brake reports closed.
     ExternalClosed,
+    /// The encoder has failed.
+    EncoderFault,
     /// Without encoder: the minimum current p9588 flows.
     Current,
     /// Without encoder: current and voltage agree on an actual value.
@@ -127,7 +129,7 @@ const REFERENCED: &str = "referencing";
 const EXTERNAL: &str = "external brake";
 
 /// Every input: its name, and what it needs.
-static INPUTS: [(Input, &str, &str); 37] = {
+static INPUTS: [(Input, &str, &str); 38] = {
     use Flag::*;
     use Input::{Flag as F, Number as N};
     [
@@ -166,6 +168,7 @@ static INPUTS: [(Input, &str, &str); 37] = {
         (F(NegativeTorque), "SBT_negative", SBT),
         (F(SecondSequence), "SBT_sequence_2", SBT),
         (F(ExternalClosed), "external_brake_closed", EXTERNAL),
+        (F(EncoderFault), "encoder_fault", ENCODER),
         (F(Current), "minimum_current", BARE),
         (F(Plausible), "plausible", BARE),
     ]

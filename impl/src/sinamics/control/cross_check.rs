@@ -112,6 +112,8 @@ fields! {
     pub struct Inputs {
         /// POWER ON.
         pub power_on: bool,
+        /// The tolerance time of the terminals runs: what depends on them is not compared (S120-CTRL-507).
+        pub tolerated: bool,
         /// The results of this channel in the cycle before.
         pub own: Results,
         /// Those of the other one.
@@ -145,6 +147,11 @@ pub(crate) const fn alone(s: &Inputs) -> bool {
     s.values_apart || s.gear_too_long || s.too_wide || s.implausible
 }
 
+/// The results of the channels are not the same, and nothing says that they may differ.
+fn counts(s: &Inputs) -> bool {
+    differ(s) && !s.tolerated && !s.power_on
+}
+
 /// The results of the channels are not the same.
 fn differ(s: &Inputs) -> bool {
     let (own, other) = (&s.own, &s.other);
@@ -162,18 +169,23 @@ fn differ(s: &Inputs) -> bool {
 monitor! { sinamics::cross_check;
     /// Results that have differed for the time are a defect of the channels, whichever result it is.
     difference_is_found ["S120-CTRL-503", "S120-STOP-505", "S120-PF-27"]:
-        when |s| differ(&s.inputs) && !s.inputs.power_on && s.after.since == s.config.apart
+        when |s| counts(&s.inputs) && s.after.since == s.config.apart
             => s.outputs.found && s.outputs.defect == Defect::Channels;
 
     /// Each cycle of a difference counts, up to the time.
     difference_counts ["S120-STOP-505"]:
-        when |s| differ(&s.inputs) && !s.inputs.power_on && s.before.since < s.config.apart
+        when |s| counts(&s.inputs) && s.before.since < s.config.apart
             => s.after.since.count() == s.before.since.count() + 1;
 
     /// Equal results begin the time anew: channels that are apart by a cycle are no defect.
     agreement_begins_anew ["S120-CTRL-503"]:
         when |s| !differ(&s.inputs) || s.inputs.power_on
             => s.after.since.is_zero();
+
+    /// So does the tolerance time of the terminals, in which one channel stops and the other one does not.
+    tolerance_compares_nothing ["S120-CTRL-507"]:
+        when |s| s.inputs.tolerated
+            => s.after.since.is_zero() && (s.outputs.found == alone(&s.inputs));
 
     /// What a monitor of this channel finds acts at once.
     own_finding_acts_at_once ["S120-STOP-505", "S120-GEAR-004", "S120-SP-005"]:
@@ -183,7 +195,7 @@ monitor! { sinamics::cross_check;
     /// Nothing is found without a cause.
     nothing_is_found_without_a_cause ["S120-STOP-505"]:
         when |s| s.outputs.found
-            => alone(&s.inputs) || differ(&s.inputs) && s.after.since == s.config.apart && !s.inputs.power_on;
+            => alone(&s.inputs) || counts(&s.inputs) && s.after.since == s.config.apart;
 
     /// The defect says what it was, and stays until another one is found.
     defect_is_told ["S120-GEAR-004", "S120-SP-005"]:
@@ -218,7 +230,7 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
     } else {
         state
     };
-    let since = if inputs.own != inputs.other && !inputs.power_on {
+    let since = if inputs.own != inputs.other && !inputs.tolerated && !inputs.power_on {
         Cycles::new(before.since.count().saturating_add(1)).min(config.apart)
     } else {
         Cycles::ZERO
@@ -250,7 +262,8 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
 mod tests {
     use super::*;
 
-    /// S120-CTRL-503, S120-STOP-505: two cycles apart are none, three are; each result counts.
+    /// S120-CTRL-503, S120-STOP-505: two cycles apart are none, three are; each result counts. S120-CTRL-507: none while terminals may
+    /// differ.
     #[test]
     fn each_result_counts_after_the_time() {
         let none = Results::default();
@@ -296,6 +309,12 @@ mod tests {
                 [false, false, false, false, false, true, true, false],
                 "{other:?}"
             );
+            let tolerated = Inputs {
+                tolerated: true,
+                other,
+                ..Inputs::default()
+            };
+            assert!((0..9).all(|_| !check.step(&tolerated).found));
         }
         assert_eq!(Config::new(Cycles::ZERO), Err(ConfigError::NoDelay));
     }

@@ -106,6 +106,12 @@ variants! { sinamics::sls_ramp:
         sls_ramp::transition(state, config, inputs)
     }
 
+    /// The limit of the telegram has no effect.
+    "sls-ramp-ignores-the-telegram" |state, config, inputs| {
+        let inputs = sls_ramp::Inputs { telegram: i16::MAX, ..*inputs };
+        sls_ramp::transition(state, config, &inputs)
+    }
+
     /// A higher limit waits for the ramp.
     "sls-ramp-higher-waits" |state, config, inputs| {
         let (mut after, outputs) = sls_ramp::transition(state, config, inputs);

@@ -1,7 +1,6 @@
 //! The contract of SLS.
 
-use super::setting::WHOLE;
-use super::{Config, Inputs, Level, Outputs, Phase, Request, Slsd, State, transition};
+use super::{Config, Inputs, Level, Outputs, Phase, Request, Slsd, State, WHOLE, transition};
 use crate::kernel::{Cycles, Speed};
 use crate::sinamics::types::Stop;
 

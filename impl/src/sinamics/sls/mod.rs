@@ -1,8 +1,8 @@
 //! Safely limited speed (SLS) of one channel, with encoder or with SAM (p9506 = 0, 2, 3): four levels, one speed limit each.
 //!
 //! A lower limit takes effect after p9551, a higher one at once; until then the old one is monitored. The limit of level 1 may come
-//! from the telegram (p9501.24); the limit of a value that is none is 0, for the manual names only its stop. Without selection (p9512.4) level 1 is monitored for ever. With SBR and no encoder
-//! (p9506 = 1) see [`crate::sinamics::sls_ramp`].
+//! from the telegram (p9501.24); the limit of a value that is none is 0, for the manual names only its stop. Without selection (p9512.4) level 1 is
+//! monitored for ever. With SBR and no encoder (p9506 = 1) see [`crate::sinamics::sls_ramp`].
 //!
 //! A stop that the function has raised ends in SOS: then its status goes off and nothing is compared, until SOS lets go.
 //! Reading AF-30 is a choice of the configuration, the recommended one first.
@@ -11,6 +11,7 @@ mod laws;
 mod setting;
 
 pub use laws::*;
+pub(in crate::sinamics) use setting::{WHOLE, asked};
 pub use setting::{Level, Request, Slsd};
 
 use crate::kernel::{ConfigError, Cycles, Speed};
@@ -62,6 +63,11 @@ impl Config {
     /// The limit of a level, as a parameter.
     pub const fn limit(&self, level: Level) -> Speed {
         level.of(self.limits)
+    }
+
+    /// The limit that is asked for, at once, whatever is monitored: what the setpoint is limited by (S120-SLS-008).
+    pub fn asked(&self, inputs: &Inputs) -> Speed {
+        setting::request(self, inputs).0.limit
     }
 
     /// The stop of a level.

@@ -69,7 +69,7 @@ impl Request {
 }
 
 /// The denominator of the limit in a telegram: 100 % (S120-SLS-009).
-pub(super) const WHOLE: u64 = 32_767;
+pub(in crate::sinamics) const WHOLE: u64 = 32_767;
 
 /// The limit of a telegram, rounded down; none where the value is outside 1 to 32767 (S120-SLS-009).
 pub(super) const fn of_telegram(value: i16, first: Speed) -> Option<Speed> {
@@ -80,7 +80,29 @@ pub(super) const fn of_telegram(value: i16, first: Speed) -> Option<Speed> {
     Some(Speed((first.0 as u64 * value as u64 / WHOLE) as u32))
 }
 
-/// What is asked for, and whether the telegram's value is wrong: then no limit but 0 is safe.
+/// A level with its limit as a parameter, or with the part of it that a telegram gives; and whether the telegram's value is wrong: then
+/// no limit but 0 is safe.
+pub(in crate::sinamics) const fn asked(
+    parameter: Request,
+    by_telegram: bool,
+    telegram: i16,
+) -> (Request, bool) {
+    if !by_telegram || parameter.level.0 != Level::FIRST.0 {
+        return (parameter, false);
+    }
+    match of_telegram(telegram, parameter.limit) {
+        Some(limit) => (
+            Request {
+                level: parameter.level,
+                limit,
+            },
+            false,
+        ),
+        None => (Request::NONE, true),
+    }
+}
+
+/// What is asked for, and whether the telegram's value is wrong.
 pub(super) fn request(config: &Config, inputs: &Inputs) -> (Request, bool) {
     let level = if config.unselected {
         Level::FIRST
@@ -91,13 +113,8 @@ pub(super) fn request(config: &Config, inputs: &Inputs) -> (Request, bool) {
         level,
         limit: config.limit(level),
     };
-    if !config.by_telegram || config.unselected || level != Level::FIRST {
-        return (parameter, false);
-    }
-    match of_telegram(inputs.telegram, parameter.limit) {
-        Some(limit) => (Request { level, limit }, false),
-        None => (Request::NONE, true),
-    }
+    let by_telegram = config.by_telegram && !config.unselected;
+    asked(parameter, by_telegram, inputs.telegram)
 }
 
 /// The state after a cycle in which this is asked for.

@@ -26,6 +26,12 @@ use super::values::{BrakingMonitor, Extended};
 pub(super) struct Seen {
     pub position: Position,
     pub speed: Speed,
+    /// The speed is not known: it counts as one that no standstill is.
+    pub unknown: bool,
+    /// The terminals may differ.
+    pub tolerated: bool,
+    /// The encoder has failed.
+    pub encoder_fault: bool,
     /// STO is selected, and SS1 of the Extended Functions.
     pub sto: bool,
     pub ss1: bool,
@@ -166,6 +172,11 @@ impl Functions {
         let before = self.told.arbiter;
         let selected = |flag| !bits.is(flag);
         let speed = seen.speed;
+        // What ends at standstill does not end where nobody knows the speed.
+        let braked = match seen.unknown {
+            true => speed.max(self.config.shutdown),
+            false => speed,
+        };
         let told = &mut self.told;
         told.ss1 = self.ss1.step(&ss1::Inputs {
             selected: seen.ss1,
@@ -173,7 +184,7 @@ impl Functions {
             sto: seen.sto || seen.basic_sto || before.stop >= Stop::A,
             drive_on: seen.drive_on,
             ramp_violated: self.violated,
-            speed,
+            speed: braked,
         });
         if let Some(ss2) = &mut self.ss2 {
             told.ss2 = ss2.step(&ss2::Inputs {
@@ -208,21 +219,23 @@ impl Functions {
         });
         told.sos_reference = self.sos.state().reference;
         let bit = |k: u32| bits.of(Number::Level) >> k & 1 == 1;
-        let level_of = Level::from_bits(bit(1), bit(0));
+        let limited = sls::Inputs {
+            selected: selected(Flag::Sls),
+            level: Level::from_bits(bit(1), bit(0)),
+            telegram: i16::try_from(bits.of(Number::Limit)).unwrap_or(0),
+            drive_on: seen.drive_on,
+            sos_after_stop: before.sos,
+            speed,
+        };
         let mut sls_braking = false;
+        told.sls_asked = self.config.sls.asked(&limited);
         told.sls = match &mut self.sls {
-            Limit::Delayed(sls) => sls.step(&sls::Inputs {
-                selected: selected(Flag::Sls),
-                level: level_of,
-                telegram: i16::try_from(bits.of(Number::Limit)).unwrap_or(0),
-                drive_on: seen.drive_on,
-                sos_after_stop: before.sos,
-                speed,
-            }),
+            Limit::Delayed(sls) => sls.step(&limited),
             Limit::Ramp(sls) => {
                 let said = sls.step(&sls_ramp::Inputs {
-                    selected: selected(Flag::Sls),
-                    level: level_of,
+                    selected: limited.selected,
+                    level: limited.level,
+                    telegram: limited.telegram,
                     speed,
                 });
                 sls_braking = said.ramp_violated;
@@ -231,7 +244,7 @@ impl Functions {
                     level: said.level,
                     limit: said.limit,
                     violated: said.violated,
-                    wrong_value: false,
+                    wrong_value: said.wrong_value,
                     demand: said.demand,
                 }
             }
@@ -263,7 +276,7 @@ impl Functions {
         }
         told.ssm = self.ssm.step(&ssm::Inputs {
             speed,
-            pulses: seen.drive_on,
+            pulses: seen.drive_on && !seen.unknown,
         });
         let braking = told.ss1.monitored || told.ss2.off3 || before.ramp_watched;
         let (violated, ramp) = match &mut self.ramp {
@@ -271,7 +284,7 @@ impl Functions {
                 let said = sam.step(&sam::Inputs {
                     braking,
                     speed,
-                    encoder_fault: false,
+                    encoder_fault: seen.encoder_fault,
                 });
                 told.braking_limit = said.limit;
                 (said.violated, level(said.demand))
@@ -336,6 +349,7 @@ impl Functions {
         let told = &self.told;
         let check = self.check.step(&cross_check::Inputs {
             power_on: false,
+            tolerated: seen.tolerated,
             own: seen.results[0],
             other: seen.results[1],
             values_apart: apart.exceeded,
@@ -348,6 +362,13 @@ impl Functions {
         // The end of STOP B is the arbiter's: SS1 raises none of its own.
         let raised = [
             (seen.communication, "no valid telegram"),
+            (
+                match seen.encoder_fault {
+                    true => level(self.config.encoder_stop),
+                    false => Stop::None,
+                },
+                "the encoder has failed",
+            ),
             (
                 ramp.max(stop_a(told.ss2.violated || told.ss1.violated)),
                 "braking is not as SAM or SBR allows",
@@ -428,7 +449,7 @@ impl Functions {
             remaining: raised.request,
             difference: raised.difference,
             function: told.function,
-            standstill: seen.speed < self.config.shutdown,
+            standstill: seen.speed < self.config.shutdown && !seen.unknown,
             acknowledge,
         });
         told.cause = match (arbiter.initiated, raised.request) {
@@ -469,13 +490,18 @@ impl Functions {
         told.undelayed = told.sls.active && low(config.sls_codes[level])
             || told.sdi.iter().any(|s| s.active) && low(config.sdi_code)
             || told.slp.active && low(config.slp_codes[usize::from(told.slp_second)]);
-        let level = usize::try_from(bits.of(Number::Level)).unwrap_or(0);
+        // A function without selection limits like one that is selected, and so does the direction of a retraction.
+        let [sls, positive, negative] = config.unselected;
+        let blocks = |unselected, flag, retracts: bool| {
+            config.sdi.is_some() && (unselected || selected(flag) || retracts)
+        };
+        let slp = &told.slp;
         told.setpoint = self.setpoint.as_mut().map(|setpoint| {
             setpoint.step(&setpoint_limit::Inputs {
-                sls: selected(Flag::Sls),
-                limit: config.limits[level.min(3)],
-                sdi_positive: config.sdi.is_some() && selected(Flag::SdiPositive),
-                sdi_negative: config.sdi.is_some() && selected(Flag::SdiNegative),
+                sls: sls || selected(Flag::Sls),
+                limit: told.sls_asked,
+                sdi_positive: blocks(positive, Flag::SdiPositive, slp.sdi_positive),
+                sdi_negative: blocks(negative, Flag::SdiNegative, slp.sdi_negative),
                 acceptance: told.mode.active,
                 stop_f: arbiter.fault,
             })

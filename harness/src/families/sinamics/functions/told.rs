@@ -52,6 +52,8 @@ pub(in super::super) struct Told {
     pub sos_reference: Position,
     pub mode: acceptance_mode::Outputs,
     pub sls: sls::Outputs,
+    /// The limit of SLS that is asked for, whether it is monitored yet or not.
+    pub sls_asked: Speed,
     pub sdi: [sdi::Outputs; 2],
     pub slp: slp::Outputs,
     pub slp_second: bool,

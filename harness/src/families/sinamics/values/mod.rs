@@ -78,6 +78,10 @@ pub(super) struct Extended {
     /// Without encoder.
     /// The last: a function without selection is monitored.
     pub bare: Option<(start_phase::Config, encoderless::Config, bool)>,
+    /// SLS and SDI, positive and negative, are monitored without selection.
+    pub unselected: [bool; 3],
+    /// p9516.4: the stop of a failed encoder.
+    pub encoder_stop: Stop,
     /// p9563 by level: its code.
     pub sls_codes: [i64; 4],
     /// Positive and negative.
@@ -266,12 +270,12 @@ impl Reader<'_> {
                 communication::Config::from_millis(watchdog, esr, profisafe, stop_b, cycle);
             fit("F_WD_Time and p9580", config)
         };
-        let tolerance = basic("p9650");
-        let terminals = by_terminals && !tolerance.is_zero();
+        // Terminals may always be apart for the cycle after which one channel hears of the other.
+        let tolerance = basic("p9650").max(Cycles::new(basic_cycles));
         Ok(Values {
             basic_cycles,
             selection: basic_selection::Config::new(by_terminals, bits, delayed),
-            terminals: match terminals {
+            terminals: match by_terminals {
                 true => Some(fit("p9650", terminal_pair::Config::new(tolerance))?),
                 false => None,
             },
@@ -323,6 +327,7 @@ impl Reader<'_> {
             ["p9556", "p9552", "p9553", "p9554", "p9555"].map(|name| self.time(name));
         let limits = [0, 1, 2, 3].map(|k| self.speed("p9531", k));
         let unselected = enables(self.axis, ControlPath::without_selection);
+        let always = ["p9512_4", "p9512_12", "p9512_13"].map(|name| unselected && self.is(name));
         let mut responses = [Stop::None; 4];
         for (k, response) in responses.iter_mut().enumerate() {
             *response = self.stop("p9563", k)?;
@@ -333,7 +338,7 @@ impl Reader<'_> {
             self.time("p9551"),
             encoder,
             has(BY_TELEGRAM),
-            unselected && self.is("p9512_4"),
+            always[0],
             Default::default(),
         );
         let shutdown = self.speed("p9560", 0);
@@ -378,7 +383,12 @@ impl Reader<'_> {
             sls: fit("p9531 and p9563", sls)?,
             sls_ramp: match kind == Braking::BareSbr && !unselected {
                 true => {
-                    let ramp = sls_ramp::Config::new(limits, responses, self.ramp()?);
+                    let ramp = sls_ramp::Config::new(
+                        limits,
+                        responses,
+                        self.ramp()?,
+                        has(BY_TELEGRAM),
+                    );
                     Some(fit("p9531 and p9563", ramp)?)
                 }
                 false => None,
@@ -402,11 +412,13 @@ impl Reader<'_> {
                 true => None,
                 false => Some(self.bare(unselected)?),
             },
+            unselected: always,
+            encoder_stop: self.encoder_stop(),
             sls_codes: [0, 1, 2, 3].map(|k| codes("p9563", k)),
             sdi: match has(SDI) {
                 true => Some([
-                    self.sdi(Permitted::Positive, unselected && self.is("p9512_12"))?,
-                    self.sdi(Permitted::Negative, unselected && self.is("p9512_13"))?,
+                    self.sdi(Permitted::Positive, always[1])?,
+                    self.sdi(Permitted::Negative, always[2])?,
                 ]),
                 false => None,
             },
@@ -473,6 +485,13 @@ impl Reader<'_> {
         Cycles::new(us / cycle_us(self.machine))
     }
 
+    fn encoder_stop(&self) -> Stop {
+        match self.is("p9516_4") {
+            true => Stop::B,
+            false => Stop::A,
+        }
+    }
+
     fn braking(&self, kind: Braking) -> Fit<BrakingMonitor> {
         if kind.ramp() {
             return Ok(BrakingMonitor::Sbr(self.ramp()?));
@@ -486,7 +505,7 @@ impl Reader<'_> {
             ratio.max(1),
             self.speed("p9568", 0),
             self.speed("p9546", 0),
-            Stop::A,
+            self.encoder_stop(),
             Default::default(),
             Default::default(),
         );

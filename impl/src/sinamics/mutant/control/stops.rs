@@ -229,6 +229,12 @@ variants! { sinamics::cross_check:
         cross_check::transition(state, config, &inputs)
     }
 
+    /// What the terminals may differ in is a defect.
+    "cross-check-ignores-the-tolerance" |state, config, inputs| {
+        let inputs = cross_check::Inputs { tolerated: false, ..*inputs };
+        cross_check::transition(state, config, &inputs)
+    }
+
     /// The time of a difference goes on where the channels were equal in between.
     "cross-check-adds-up" |state, config, inputs| {
         let (mut after, outputs) = cross_check::transition(state, config, inputs);

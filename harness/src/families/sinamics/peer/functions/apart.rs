@@ -306,7 +306,8 @@ fn sls_ramp(p: &Params, mutant: Option<Mutant>) -> Refusable {
     let limits = [higher, lower, lower, lower];
     let delay = upto(p.value("t_delay").max(2));
     Same::<sls_ramp::Monitor>::new(p, mutant)
-        .config(sls_ramp::Config::new(limits, [stop; 4], sbr_config(p)?)?)
+        .config(sls_ramp::Config::new(limits, [stop; 4], sbr_config(p)?, false)?)
+        .constants(&[("telegram", 0)])
         .made("level", &["second"], first)
         .named(&[
             ("n", "speed"),
@@ -322,6 +323,7 @@ fn sls_ramp(p: &Params, mutant: Option<Mutant>) -> Refusable {
         .hidden(&[
             "outputs.level",
             "outputs.limit",
+            "wrong_value",
             "now",
             "next",
             "state.ramp",
