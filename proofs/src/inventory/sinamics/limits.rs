@@ -18,10 +18,11 @@ inventory! {
         bound: "one step from the initial state",
         caveat: "the exact part under Kani of limits of 10 bits",
     }]
-    [contract s120_sls_ramp_contract on sinamics::sls_ramp {
-        property: "every clause of SLS without encoder and with SBR: ramp, takeover, old limit, higher limit, stops",
-        tries: "limits.0 limits.3: 4; limits.1: 2; limits.2: 6; responses.0: 4 5; responses.1: 5; responses.2 responses.3: 4; config.ramp.reference: 1 3; time: 1 2; delay: 2; resolution: 1; ramp.left: 0..2; ramp.ramp: 0 2 4 5; rest: 0 1; settling: 0..2; speed: 0..6",
-        caveat: "a few limits and ramps; others only under Kani and in samples",
+    [contract [kani(solver(minisat), stub(stillpoint_monitors::sinamics::sls::setting::of_telegram, crate::arbitrary::sinamics::sls::any_of_telegram)) parts(19: telegram = 2, rest = 1 | 3 | 4 | 5 | 6 | 7 | 8 | 9 | 10 | 11 | 12 | 13 | 14 | 15 | 16 | 17 | 18 | 19)] s120_sls_ramp_contract on sinamics::sls_ramp {
+        property: "every clause of SLS without encoder and with SBR: ramp, takeover, old limit, higher limit, telegram, stops",
+        tries: "limits.0 limits.3: 4; limits.1: 2; limits.2: 6; responses.0: 4 5; responses.1: 5; responses.2 responses.3: 4; config.ramp.reference: 1 3; time: 1 2; delay: 2; resolution: 1; ramp.left: 0..2; ramp.ramp: 0 2 4 5; rest: 0 1; settling: 0..2; now.value.level: 0 1; now.value.limit: 2 4; next.value.level: 0 2; next.value.limit: 0 2; telegram: 0 16384; speed: 0..6",
+        few: [("limits", 0, 63)] in parts [2],
+        caveat: "a few limits and ramps; others only under Kani and in samples; the quotient of the telegram is s120_sls_of_telegram",
     }]
     [contract [kani(solver(kissat)) parts(7: first = 1, second = 2, third = 3, fourth = 4, fifth = 5, sixth = 6, seventh = 7)] s120_setpoint_limit_contract on sinamics::setpoint_limit {
         property: "every clause of the setpoint limit: part of SLS, blocked directions, acceptance test, STOP F",
