@@ -306,3 +306,17 @@ fn a_parameter_that_no_test_reads_is_a_fault_of_the_catalogue() {
         "{said}"
     );
 }
+
+/// A result names its test, and a changed parameter the tests to be repeated: two of one name would be one.
+#[test]
+fn two_tests_of_one_name_are_a_fault_of_the_catalogue() {
+    let replace = [(CATALOGUE, "\"ENCODER-FAULT-{axis}\"", "\"ENCODER-{axis}\"")];
+    let machine = copied("s120-acceptance-twice", GANTRY, FAMILY, &replace);
+    let output = stillpoint(&["acceptance", &machine]);
+    assert_eq!(status(&output), 2);
+    let said = messages(&output);
+    assert!(
+        said.contains("two acceptance tests of this machine are called ENCODER-X1"),
+        "{said}"
+    );
+}

@@ -162,6 +162,9 @@ impl Machine {
                 tests.push(plan.test(&file, &ground)?);
             }
         }
+        let mut check = file.check();
+        unique(&mut check, &tests);
+        check.findings.finish(())?;
         let untested = data.untested.into_iter();
         Ok(Protocol {
             source: data.source,
@@ -175,6 +178,20 @@ impl Machine {
             tests,
             untested: untested.map(|(k, v)| (k.into_inner(), v)).collect(),
         })
+    }
+}
+
+/// A test is named in results and in what has to be repeated: no name stands for two.
+fn unique(check: &mut Check, tests: &[Test]) {
+    for (place, test) in tests.iter().enumerate() {
+        if tests[..place].iter().any(|other| other.id == test.id) {
+            check.findings.add(
+                None,
+                format!("two acceptance tests of this machine are called {}", test.id),
+                "",
+                "call one of them otherwise, or let their `when` exclude each other",
+            );
+        }
     }
 }
 
