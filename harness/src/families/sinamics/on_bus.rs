@@ -16,8 +16,8 @@ use crate::families::values::cell;
 /// What a drive reads in a cycle beside its telegram.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Around {
-    /// The position of both encoders, in increments.
-    pub position: i32,
+    /// The position of each channel, in increments.
+    pub positions: [i32; 2],
     /// ON/OFF1.
     pub on: bool,
 }
@@ -67,15 +67,14 @@ impl OnBus {
 
     /// One cycle: what has come from the host, if anything has, and what the drive answers.
     pub fn step(&mut self, received: Option<&[u8]>, around: Around) -> Frame {
-        let read = received
-            .and_then(|bytes| Received::decode(self.telegram, bytes).ok())
-            .map_or_else(
-                || Read::at_rest(around.position).flags(&[(Flag::Telegram, false)]),
-                |received| selected(&received, around.position),
-            )
-            .flags(&[(Flag::On, around.on)])
-            .only(&self.inputs);
-        let both = [read; 2];
+        let received = received.and_then(|bytes| Received::decode(self.telegram, bytes).ok());
+        let both = around.positions.map(|position| {
+            let read = match &received {
+                Some(received) => selected(received, position),
+                None => Read::at_rest(position).flags(&[(Flag::Telegram, false)]),
+            };
+            read.flags(&[(Flag::On, around.on)]).only(&self.inputs)
+        });
         let pair = self
             .pair
             .get_or_insert_with(|| Pair::new(&self.values, true, &both));
