@@ -342,6 +342,9 @@ impl Seen {
         }
         if let Some(ranges) = axis.slp.filter(|_| cycle.tells("SLP active")) {
             let second = !told.short && cycle.tells("SLP active position range");
+            let asked = !told.short && cycle.word.asks("SLP position range");
+            let chosen = self.failed || second == asked;
+            cycle.must(chosen, "not the range of SLP that is selected");
             let [lower, upper] = ranges[usize::from(second)];
             let within = (lower - 1..=upper + 1).contains(&self.position);
             cycle.needs_event(!within, "outside the range of SLP");
