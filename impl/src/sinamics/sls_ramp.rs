@@ -140,11 +140,7 @@ fields! {
 
 /// What is asked for: it waits for the ramp, or is monitored. See `selection_is_asked_for`.
 fn asked(s: &Step) -> Speed {
-    s.after
-        .next
-        .or(s.after.now)
-        .unwrap_or(Request::NONE)
-        .limit
+    s.after.next.or(s.after.now).unwrap_or(Request::NONE).limit
 }
 
 /// The limit of the telegram counts.
@@ -409,7 +405,10 @@ mod tests {
         };
         for speed in [99, 99, 99, 90, 80, 70, 60] {
             let outputs = run.step(&half(speed));
-            assert!(outputs.braking && outputs.limit == Speed(100), "{speed}: {outputs:?}");
+            assert!(
+                outputs.braking && outputs.limit == Speed(100),
+                "{speed}: {outputs:?}"
+            );
         }
         assert_eq!(run.step(&half(50)).limit, Speed(50));
         let none = Inputs {

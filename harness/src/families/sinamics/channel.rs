@@ -1,17 +1,16 @@
 //! One channel of a drive: the Basic Functions in their cycle, the Extended ones in theirs, acknowledgement, and what the drive may do. And the
 //! pair of them.
 
-use stillpoint_monitors::kernel::{Cycles, Distance, Position, Speed};
+use stillpoint_monitors::kernel::{Distance, Position, Speed};
 use stillpoint_monitors::sinamics::basic_stop::Latched;
 use stillpoint_monitors::sinamics::cross_check::Results;
 use stillpoint_monitors::sinamics::level::{Function, Stop};
-use stillpoint_monitors::sinamics::{
-    acknowledgement, acknowledgement_edge, communication, restart, sbc, sto,
-};
+use stillpoint_monitors::sinamics::{acknowledgement, acknowledgement_edge, restart, sbc, sto};
 
 use super::bare::{self, Bare};
 use super::basic::Basic;
 use super::functions::{Functions, Seen};
+use super::link::{self, Link};
 use super::messages::{Message, Messages};
 use super::said::Said;
 use super::service::{self, Service};
@@ -41,16 +40,13 @@ struct Channel {
     functions: Option<Functions>,
     bare: Option<Bare>,
     service: Service,
-    communication: Option<communication::Monitor>,
+    link: Link,
     edge: acknowledgement_edge::Monitor,
     reselection: acknowledgement_edge::Monitor,
     acknowledgement: acknowledgement::Monitor,
     sto: sto::Monitor,
     sbc: Option<sbc::Monitor>,
     restart: restart::Monitor,
-    /// The last safety telegram.
-    received: Read,
-    valid: bool,
     torque: bool,
     /// The Extended Functions keep the pulses off: terminals that differ are no fault.
     held: bool,
@@ -81,18 +77,6 @@ impl Channel {
             ),
             false => acknowledgement_edge::Monitor::new(acknowledgement_edge::Config),
         };
-        let communication = |config: communication::Config| match running {
-            true => {
-                let mut monitor = communication::Monitor::new(config);
-                // The telegram before.
-                let _ = monitor.step(&communication::Inputs {
-                    telegram: true,
-                    ..Default::default()
-                });
-                monitor
-            }
-            false => communication::Monitor::new(config),
-        };
         Self {
             second,
             basic: Basic::new(values, running),
@@ -102,7 +86,7 @@ impl Channel {
                 .and_then(|config| config.bare)
                 .map(|config| Bare::new(config, running, position)),
             service: Service::new(values, running),
-            communication: values.communication.map(communication),
+            link: Link::new(values, running, read),
             edge: edge(),
             reselection: edge(),
             acknowledgement: acknowledgement::Monitor::new(values.acknowledgement),
@@ -128,11 +112,6 @@ impl Channel {
                 ),
                 false => restart::Monitor::new(restart::Config),
             },
-            received: match running {
-                true => *read,
-                false => Read::default().number(Number::Limit, i16::MAX.into()),
-            },
-            valid: running,
             torque: running,
             held: false,
             brake_defect: false,
@@ -148,59 +127,6 @@ impl Channel {
                 ..Shared::default()
             },
         }
-    }
-
-    /// What was sent last, whether it counts or not.
-    fn sent(&mut self, read: &Read) -> Read {
-        if self.communication.is_none() {
-            return *read;
-        }
-        if read.is(Flag::Telegram) {
-            self.received = *read;
-        }
-        read.with_bits_of(&self.received)
-    }
-
-    /// The bits that count: of the last telegram, or substitute values; and what the communication asks for.
-    ///
-    /// A failure that stops the drive along the ramp, or only after ESR, leaves what was selected until the pulses are off: a substitute
-    /// value would select STO at once, and there would be no ramp and no retraction (5.5.1, 5.5.2; reading).
-    fn bits(
-        &mut self,
-        values: &Values,
-        sent: Read,
-        fresh: bool,
-        acknowledge: bool,
-    ) -> (Read, communication::Outputs) {
-        let Some(communication) = &mut self.communication else {
-            self.valid = true;
-            return (sent, communication::Outputs::default());
-        };
-        let told = self.functions.as_ref().map(Functions::told);
-        let said = communication.step(&communication::Inputs {
-            power_on: false,
-            telegram: fresh && sent.is(Flag::PoweredUp),
-            disturbed: false,
-            undelayed: told.is_some_and(|told| told.undelayed),
-            acknowledge,
-        });
-        self.valid = said.valid;
-        // Without SS1 the Basic Functions have no ramp.
-        let ramp = values.extended.is_some() || values.ss1_basic.time > Cycles::ZERO;
-        let stop_b = said.request == Stop::B && ramp;
-        let mut bits = match said.valid || said.esr || stop_b && self.torque {
-            true => sent,
-            // No limit of SLS is transferred: the last one stays (the manual has no substitute value for it).
-            false => {
-                let limit = sent.of(Number::Limit);
-                sent.with_bits_of(&Read::default().number(Number::Limit, limit))
-            }
-        };
-        // The Basic Functions have no STOP B: their ramp is that of SS1, which stays selected until the failure is acknowledged.
-        if stop_b && values.extended.is_none() {
-            bits = bits.flags(&[(Flag::Ss1, false)]);
-        }
-        (bits, said)
     }
 
     /// POWER ON: what the other channel hears of it is new, too.
@@ -221,11 +147,11 @@ impl Channel {
             .map_or(Distance(0), |before| position.distance(before));
         let speed = Speed(speed);
         self.before = Some(position);
-        let sent = self.sent(read);
+        let sent = self.link.sent(read);
         let edge = |edge: &mut acknowledgement_edge::Monitor, level| {
             let said = edge.step(&acknowledgement_edge::Inputs {
                 power_on: false,
-                valid: self.valid,
+                valid: self.link.valid(),
                 stable: true,
                 level,
             });
@@ -242,8 +168,17 @@ impl Channel {
             ..Default::default()
         };
         let acknowledges = edges.acknowledge(&values.acknowledgement);
-        let fresh = read.is(Flag::Telegram);
-        let (bits, communication) = self.bits(values, sent, fresh, edge || acknowledges);
+        let told = self.functions.as_ref().map(Functions::told);
+        let (bits, communication) = self.link.bits(
+            values,
+            sent,
+            &link::Seen {
+                fresh: read.is(Flag::Telegram),
+                torque: self.torque,
+                undelayed: told.is_some_and(|told| told.undelayed),
+                acknowledge: edge || acknowledges,
+            },
+        );
         // The Extended Functions have a stop of their own for it; without them it is F01611 (5.5.1).
         let silent = communication.fault && !communication.valid && values.extended.is_none();
         let (held, defect) = (self.held, self.brake_defect);
@@ -333,7 +268,7 @@ impl Channel {
                 pulses: self.torque,
                 paths_off: [self.shared.path_off, other.path_off],
                 path_error: self.path_error,
-                valid: self.valid,
+                valid: self.link.valid(),
             },
         );
         messages = messages.with(Message::BrakeTestInterrupted, service.brake.interrupted);
@@ -455,7 +390,7 @@ impl Channel {
             setpoint: told.setpoint.map_or(Speed(u32::MAX), |s| s.absolute),
             directions,
             brake_open: brake.open,
-            valid: self.valid,
+            valid: self.link.valid(),
             event: acknowledged.event || basic.entered,
             value: self.value,
             bare,

@@ -12,6 +12,7 @@ mod bare;
 mod basic;
 mod channel;
 mod functions;
+mod link;
 mod messages;
 pub mod on_bus;
 mod outputs;

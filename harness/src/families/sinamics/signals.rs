@@ -16,7 +16,7 @@ pub(super) enum Flag {
     PoweredUp,
     /// The terminal of this channel for the Basic Functions: 0 selects.
     Terminal,
-    /// A valid safety telegram comes in this cycle.
+    /// A valid safety telegram comes in this cycle, of PROFIsafe or of the TM54F.
     Telegram,
     Sto,
     Ss1,
@@ -117,7 +117,8 @@ pub(super) const PLACE: &str = "position";
 
 /// What an input needs: a function of the axis, or one of these.
 const TERMINALS: &str = "terminals";
-const PROFISAFE: &str = "PROFIsafe";
+/// PROFIsafe, or DRIVE-CLiQ to a TM54F.
+const LINK: &str = "link";
 const SELECTED: &str = "bits";
 /// Extended Functions that need an encoder, and what is read without one.
 const ENCODER: &str = "encoder";
@@ -137,7 +138,7 @@ static INPUTS: [(Input, &str, &str); 38] = {
         (F(PoweredUp), "powered_up", ""),
         (N(Number::Position), PLACE, ""),
         (F(Terminal), "terminal", TERMINALS),
-        (F(Telegram), "telegram", PROFISAFE),
+        (F(Telegram), "telegram", LINK),
         (F(Sto), "STO", SELECTED),
         (F(Ss1), "SS1", SELECTED),
         (F(Ss2), "SS2", ENCODER),
@@ -179,7 +180,7 @@ pub(super) fn inputs(axis: &Axis) -> Vec<Input> {
     let has = |needs: &str| match needs {
         "" => true,
         TERMINALS => values::enables(axis, ControlPath::terminals),
-        PROFISAFE => values::enables(axis, ControlPath::profisafe),
+        LINK => values::enables(axis, ControlPath::profisafe) || values::tm54f(axis),
         SELECTED => values::bits(axis),
         ENCODER => values::extended(axis) && values::encoder(axis),
         BARE => values::extended(axis) && !values::encoder(axis),

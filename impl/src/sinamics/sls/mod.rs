@@ -11,8 +11,8 @@ mod laws;
 mod setting;
 
 pub use laws::*;
-pub(in crate::sinamics) use setting::{WHOLE, asked};
 pub use setting::{Level, Request, Slsd};
+pub(in crate::sinamics) use setting::{WHOLE, asked};
 
 use crate::kernel::{ConfigError, Cycles, Speed};
 use crate::sinamics::types::Stop;

@@ -187,7 +187,10 @@ fn unique(check: &mut Check, tests: &[Test]) {
         if tests[..place].iter().any(|other| other.id == test.id) {
             check.findings.add(
                 None,
-                format!("two acceptance tests of this machine are called {}", test.id),
+                format!(
+                    "two acceptance tests of this machine are called {}",
+                    test.id
+                ),
                 "",
                 "call one of them otherwise, or let their `when` exclude each other",
             );

@@ -306,7 +306,12 @@ fn sls_ramp(p: &Params, mutant: Option<Mutant>) -> Refusable {
     let limits = [higher, lower, lower, lower];
     let delay = upto(p.value("t_delay").max(2));
     Same::<sls_ramp::Monitor>::new(p, mutant)
-        .config(sls_ramp::Config::new(limits, [stop; 4], sbr_config(p)?, false)?)
+        .config(sls_ramp::Config::new(
+            limits,
+            [stop; 4],
+            sbr_config(p)?,
+            false,
+        )?)
         .constants(&[("telegram", 0)])
         .made("level", &["second"], first)
         .named(&[
