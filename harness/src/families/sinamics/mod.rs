@@ -83,6 +83,8 @@ const WORDS: Words = Words {
         "SBT_torque",
         "internal_STO",
         "start_window",
+        "encoder_fault",
+        "ESR",
         "internal_event",
         outputs::TORQUE,
         "brake_open",
