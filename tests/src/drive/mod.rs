@@ -167,7 +167,8 @@ pub fn run(data: &[u8]) -> Count {
             2 => (control, speed, limit) = (free, 0, i16::MAX),
             3 => control.raw ^= 1 << place(words(short)[0], "Internal Event ACK"),
             // One of the encoders jumps, for these cycles.
-            4 if what / 16 == 0 => apart = (i32::from(fast) - 128) * 1_000,
+            // Not where a gear stage may change meanwhile: the channels would be aligned as they are then (S120-GEAR-002).
+            4 if what / 16 == 0 && !limited => apart = (i32::from(fast) - 128) * 1_000,
             5 => limit = i16::from_be_bytes([bit, fast]),
             _ => {}
         }
