@@ -216,7 +216,9 @@ impl Channel {
             basic_sto: ss1.sto,
             drive_on: self.torque,
             unknown,
-            tolerated: terminals.tolerated,
+            // A stop that one channel alone has latched is a difference by itself, and nothing could ever acknowledge it.
+            tolerated: terminals.tolerated
+                || acknowledges && self.shared.results.stop != other.results.stop,
             encoder_fault,
             communication: communication.request,
             positions: [self.shared.position, other.position],
