@@ -207,6 +207,12 @@ impl Channel {
         // Without an encoder, while the start phase lasts, and with one that has failed the speed may be any.
         let encoder_fault = read.is(Flag::EncoderFault);
         let unknown = encoder_fault || self.bare.is_some() && self.torque && !bare.known;
+        let own = self.shared.results;
+        let mut heard = other.results;
+        if acknowledges {
+            // A stop that one channel alone has latched is a difference by itself, and nothing could ever acknowledge it.
+            (heard.stop, heard.sos) = (own.stop, own.sos);
+        }
         let seen = Seen {
             position,
             speed,
@@ -216,13 +222,11 @@ impl Channel {
             basic_sto: ss1.sto,
             drive_on: self.torque,
             unknown,
-            // A stop that one channel alone has latched is a difference by itself, and nothing could ever acknowledge it.
-            tolerated: terminals.tolerated
-                || acknowledges && self.shared.results.stop != other.results.stop,
+            tolerated: terminals.tolerated,
             encoder_fault,
             communication: communication.request,
             positions: [self.shared.position, other.position],
-            results: [self.shared.results, other.results],
+            results: [own, heard],
             other_agrees: other.agrees,
             second: self.second,
             wrong: bare.wrong,
