@@ -275,7 +275,11 @@ impl Functions {
             }
         }
         told.ssm = self.ssm.step(&ssm::Inputs {
-            speed,
+            // Nobody may take the axis of a failed encoder for a slow one.
+            speed: match seen.encoder_fault {
+                true => Speed(u32::MAX),
+                false => speed,
+            },
             pulses: seen.drive_on && !seen.unknown,
         });
         let braking = told.ss1.monitored || told.ss2.off3 || before.ramp_watched;
