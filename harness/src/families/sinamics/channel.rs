@@ -176,7 +176,7 @@ impl Channel {
                 fresh: read.is(Flag::Telegram),
                 torque: self.torque,
                 undelayed: told.is_some_and(|told| told.undelayed),
-                acknowledge: edge || acknowledges,
+                acknowledge: acknowledges,
             },
         );
         // The Extended Functions have a stop of their own for it; without them it is F01611 (5.5.1).

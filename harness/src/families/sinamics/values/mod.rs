@@ -282,7 +282,7 @@ impl Reader<'_> {
                 // DRIVE-CLiQ is cyclic: a telegram that does not come is a failure in its cycle.
                 false => communication::Config::new(
                     Cycles::new(1),
-                    Cycles::new(esr * 1_000 / p9500),
+                    self.within(esr * 1_000),
                     false,
                     stop_b,
                 ),
