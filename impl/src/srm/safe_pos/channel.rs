@@ -1,7 +1,7 @@
 //! The rows of the position: faults, validation, commands.
 
 use super::{Config, Inputs, Phase, State, SyncPos2};
-use crate::srm::common::rises;
+use crate::srm::common::{rises, um};
 
 /// The positions with their offsets, exact.
 #[derive(Clone, Copy, Debug)]
@@ -25,7 +25,7 @@ impl Positions {
 
     /// POS1 and POSSI are in a window.
     pub(super) fn motor_near(&self, window: i32) -> bool {
-        (1_000 * self.one - self.motor).abs() <= 1_000 * i64::from(window)
+        (um(self.one) - self.motor).abs() <= um(i64::from(window))
     }
 
     /// POS1 and POS2 are in a window.
@@ -40,7 +40,7 @@ pub(super) fn steps(state: &State, config: &Config, inputs: &Inputs) -> bool {
     let change = (i64::from(inputs.pos1) - i64::from(state.last1)).abs();
     // The narrow factor first: a model checker adds once for each of its bits.
     let permitted = i64::from(config.t_sample) * i64::from(config.v_max);
-    inputs.pos1_valid && state.seen1 && 30_000 * change > permitted
+    inputs.pos1_valid && state.seen1 && 30 * um(change) > permitted
 }
 
 /// The reference has survived, as far as the encoders tell.
@@ -77,7 +77,7 @@ fn cleared(state: State) -> State {
 /// POSSI, and where it is asked for POS2, moved to POS1; none where an offset is no DInt.
 fn aligned(state: State, inputs: &Inputs, both: bool) -> Option<State> {
     let one = Positions::of(&state, inputs).one;
-    let off_si = i32::try_from(1_000 * one - i64::from(inputs.possi)).ok()?;
+    let off_si = i32::try_from(um(one) - i64::from(inputs.possi)).ok()?;
     let off2 = if both {
         i32::try_from(one + i64::from(inputs.pos2)).ok()?
     } else {

@@ -1,7 +1,7 @@
 //! The contract of F_SAFE_POS.
 
 use super::{Config, CountWatch, Direction, Inputs, Outputs, Phase, State, SyncPos2, transition};
-use crate::srm::common::{ErrReact, remainder};
+use crate::srm::common::{ErrReact, remainder, um};
 
 /// ACK has become 1.
 fn acknowledges(s: &Step) -> bool {
@@ -28,7 +28,7 @@ fn jump(s: &Step) -> bool {
     let way = (i64::from(s.inputs.pos1) - i64::from(s.before.last1)).abs();
     s.before.seen1
         && s.inputs.pos1_valid
-        && 30_000 * way > i64::from(s.config.t_sample) * i64::from(s.config.v_max)
+        && 30 * um(way) > i64::from(s.config.t_sample) * i64::from(s.config.v_max)
 }
 
 /// An encoder that is needed is invalid, or POS1 has jumped.
@@ -48,7 +48,7 @@ fn first(s: &Step, state: &State) -> i64 {
 /// finds the same sums at once, and does not find that two different orders are the same number.
 fn motor_within(s: &Step, state: &State, window: i32) -> bool {
     let motor = i64::from(s.inputs.possi) + i64::from(state.off_si);
-    (1_000 * first(s, state) - motor).abs() <= 1_000 * i64::from(window)
+    (um(first(s, state)) - motor).abs() <= um(i64::from(window))
 }
 
 /// POS1 and POS2 with the offsets of a state are within a window.
@@ -85,11 +85,31 @@ fn commanded(s: &Step) -> bool {
     references(s) || syncs(s) || acknowledges(s) && survives(s)
 }
 
+/// The reference is validated: all encoders are back, and no command ends the fault.
+fn validates(s: &Step) -> bool {
+    !encoder_fault(s)
+        && (s.before.phase == Phase::EncoderFault || s.before.phase.faulty() && !commanded(s))
+}
+
+/// It is, and tells so.
+fn is_validated(s: &Step) -> bool {
+    let phase = if survives(s) {
+        Phase::Valid
+    } else {
+        Phase::Invalid
+    };
+    s.after.phase == phase
+        && s.outputs.error
+        && s.outputs.diag & 0x200 == 0x200
+        && !s.outputs.pos_valid
+        && !s.outputs.v_valid
+}
+
 /// POS1 and POSSI have gone different ways in the window of the call before.
 fn drift(s: &Step) -> i64 {
     let first = i64::from(s.inputs.pos1) - i64::from(s.before.window1);
     let motor = i64::from(s.inputs.possi) - i64::from(s.before.window_si);
-    (1_000 * first - motor).abs()
+    (um(first) - motor).abs()
 }
 
 /// How far the counter has gone since the last sample, modulo 2^16.
@@ -199,20 +219,26 @@ monitor! { srm::safe_pos;
         when |s| s.after.off1 != s.before.off1
             => references(&s) && !encoder_fault(&s);
 
-    /// After a fault the reference is validated with all encoders back: to be acknowledged, or not valid with the bit that says why.
+    /// With all encoders back after a fault the reference is validated, whatever is commanded: to be acknowledged, or not valid.
     fault_is_validated ["SRM-POS-006", "SRM-POS-007", "SRM-POS-008", "SRM-POS-015", "SRM-POS-032", "SRM-ACK-003"]:
-        when |s| !encoder_fault(&s) && (s.before.phase == Phase::EncoderFault
-            || s.before.phase.faulty() && !commanded(&s))
-            => s.outputs.error && s.outputs.diag & 0x200 == 0x200 && !s.outputs.pos_valid && !s.outputs.v_valid
-                && s.after.phase == if survives(&s) { Phase::Valid } else { Phase::Invalid }
-                && (survives(&s) || !s.before.was_ref
-                    || s.outputs.diag & 0x1C00 & if s.config.pos_config {
-                        0x1000
-                    } else if s.before.si_failed {
-                        0x400
-                    } else {
-                        0x800
-                    } != 0);
+        when |s| !encoder_fault(&s) && s.before.phase == Phase::EncoderFault
+            => is_validated(&s);
+
+    /// From then on it is validated in each call, until a command ends the fault.
+    validation_goes_on ["SRM-POS-006", "SRM-POS-007", "SRM-POS-008", "SRM-POS-015", "SRM-POS-032", "SRM-ACK-003"]:
+        when |s| validates(&s) && s.before.phase != Phase::EncoderFault
+            => is_validated(&s);
+
+    /// A reference that has not survived it has the bit that says why.
+    lost_reference_has_its_bit ["SRM-POS-006", "SRM-POS-008", "SRM-POS-015", "SRM-ACK-003"]:
+        when |s| s.before.was_ref && validates(&s) && !survives(&s)
+            => s.outputs.diag & 0x1C00 & if s.config.pos_config {
+                0x1000
+            } else if s.before.si_failed {
+                0x400
+            } else {
+                0x800
+            } != 0;
 
     /// A reference that has survived is acknowledged: all is valid, from the offset of POS1 on; POSSI is moved where it had failed.
     survivor_is_acknowledged ["SRM-POS-009", "SRM-POS-016", "SRM-POS-018", "SRM-POS-028", "SRM-POSV-013"]:
@@ -271,12 +297,12 @@ monitor! { srm::safe_pos;
     valid_velocity_is_plausible ["SRM-POSV-006", "SRM-POSV-007", "SRM-POSV-015", "SRM-P-09", "SRM-P-76"]:
         when |s| s.outputs.v_valid
             => s.outputs.safe_v <= s.config.v_max
-                && (!s.before.phase.formed() || drift(&s) <= 1_000 * i64::from(s.config.v_disc_window));
+                && (!s.before.phase.formed() || drift(&s) <= um(i64::from(s.config.v_disc_window)));
 
     /// A drift beyond the window is a velocity fault; position and reference are untouched.
     drift_acts_at_once ["SRM-POSV-007", "SRM-POSV-009", "SRM-POSV-010", "SRM-P-12"]:
         when |s| s.before.phase.formed() && s.after.phase.formed()
-            && drift(&s) > 1_000 * i64::from(s.config.v_disc_window)
+            && drift(&s) > um(i64::from(s.config.v_disc_window))
             => !s.outputs.v_valid && s.outputs.error && s.outputs.diag & 0x40 == 0x40
                 && s.outputs.pos_valid == (!s.after.above && !s.after.below && free(&s));
 

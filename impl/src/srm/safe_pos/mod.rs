@@ -118,7 +118,7 @@ impl Config {
         }
     }
 
-    /// For so many calls the counter may stand.
+    /// For so many calls the counter may stand: less than a number of calls can be, so that one more is told from it.
     pub const fn standing(&self) -> u32 {
         let (drive, own) = (self.possi_t_sample, self.t_sample);
         let cycle = if drive > 0 && own > 0 {
@@ -126,7 +126,12 @@ impl Config {
         } else {
             1
         };
-        cycle.saturating_add(self.count_margin.count())
+        let calls = cycle.saturating_add(self.count_margin.count());
+        if calls == u32::MAX {
+            u32::MAX - 1
+        } else {
+            calls
+        }
     }
 }
 

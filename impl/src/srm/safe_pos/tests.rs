@@ -248,3 +248,21 @@ fn parameters_have_their_bits() {
         assert_eq!((outputs.diag, outputs.error), (0x80 | bits, bits != 0));
     }
 }
+
+/// SRM-POSV-016: whatever the margin is, a counter that stands for longer is found.
+#[test]
+fn a_standing_counter_is_found_with_the_greatest_margin() {
+    let config = Config {
+        count_margin: Cycles::new(u32::MAX),
+        ..config(false)
+    };
+    let state = State {
+        phase: Phase::Synced,
+        seen_si: true,
+        count: 7,
+        still: config.standing(),
+        ..State::INITIAL
+    };
+    let (after, outputs) = next(state, &config, &inputs(0, 0, 0, 7));
+    assert!(after.phase.formed() && !outputs.v_valid && outputs.diag & 0x40 == 0x40);
+}

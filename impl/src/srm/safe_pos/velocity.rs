@@ -1,6 +1,7 @@
 //! The velocity from the counter of the telegram, and the drift of POS1 and POSSI.
 
 use super::{Config, CountWatch, Inputs, State};
+use crate::srm::common::um;
 
 /// The counter of an input: signed, 16 bits.
 pub(super) const fn counter(inputs: &Inputs) -> i32 {
@@ -63,8 +64,8 @@ pub(super) fn drifts(state: &State, after: &mut State, config: &Config, inputs: 
     let entered = !state.phase.formed();
     let way1 = i64::from(inputs.pos1) - i64::from(state.window1);
     let way_si = i64::from(inputs.possi) - i64::from(state.window_si);
-    let drift = 1_000 * way1 - way_si;
-    let differ = !entered && drift.abs() > 1_000 * i64::from(config.v_disc_window);
+    let drift = um(way1) - way_si;
+    let differ = !entered && drift.abs() > um(i64::from(config.v_disc_window));
     let calls = state.window_calls.saturating_add(1);
     if entered || calls >= config.window() {
         (after.window1, after.window_si, after.window_calls) = (inputs.pos1, inputs.possi, 0);

@@ -106,7 +106,8 @@ pub(crate) fn few_standing(config: &safe_pos::Config) -> u32 {
         (3, 1) => 3,
         _ => 1,
     };
-    config.count_margin.count().saturating_add(cycle)
+    let calls = config.count_margin.count().saturating_add(cycle);
+    calls - u32::from(calls == u32::MAX)
 }
 
 /// `interpolation::between` for points and places of 4 bits.
@@ -181,4 +182,10 @@ pub(crate) fn few_velocities(way: i64, count: i64, cycle: i32) -> Option<i32> {
         _ => parts.div_ceil(9),
     };
     Some(i32::from(velocity))
+}
+
+/// `common::um` for millimetres of 1024 um: a shift in the place of a product. What is compared with what does not depend on the factor.
+#[allow(dead_code, reason = "named by an attribute of Kani only")]
+pub(crate) fn binary_um(mm: i64) -> i64 {
+    mm << 10
 }
