@@ -214,6 +214,18 @@ fn a_slow_plc_breaks_a_guarantee_that_is_to_hold_after_a_fault() {
     assert!(broken("PLC_CYCLE_MAX = \"80 ms\""));
 }
 
+/// Without the drive bus an axis may go on for ESR before its pulses go off, whatever stop has begun.
+#[test]
+fn the_delay_of_a_dead_drive_bus_is_in_a_guarantee_that_is_to_hold_after_a_fault() {
+    let path = root().join(MILLING);
+    let broken = |delay: &str| {
+        let by = format!("[control]\nSAFE_PULSE_DIS_TIME_BUSFAIL = \"{delay}\"");
+        is_violated(&path, &changed(MILLING, "[control]", &by), "table")
+    };
+    assert!(!broken("200 ms"));
+    assert!(broken("220 ms"));
+}
+
 /// Where one contact is all there is, the broken guarantee names the fault that breaks it, and no other run is broken.
 #[test]
 fn the_fault_that_breaks_a_guarantee_is_named() {
