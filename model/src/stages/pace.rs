@@ -6,9 +6,9 @@ use std::time::Duration;
 const TRIED: u64 = 512;
 const MANY: u64 = 1 << 18;
 const WORTH: u64 = 12;
-/// States in stages before they are judged, or nanoseconds.
-const JUDGED: u64 = 8192;
-const LONG: u64 = 2_000_000_000;
+/// States in stages before they are judged, or nanoseconds of all threads together.
+const JUDGED: u64 = 1024;
+const LONG: u64 = 250_000_000;
 
 /// What some states took.
 #[derive(Clone, Copy, Debug, Default)]
@@ -35,8 +35,8 @@ pub(crate) struct Pace {
     plain: Spent,
     vectors: u64,
     staged: Spent,
-    /// How often in a row stages were the slower way.
-    slower: u32,
+    /// Nanoseconds a state, when stages were judged last.
+    last: Option<u64>,
 }
 
 impl Pace {
@@ -67,14 +67,15 @@ impl Pace {
         (states >= TRIED || self.vectors >= MANY) && self.vectors / states >= WORTH
     }
 
-    /// Whether stages turn out to be the slower way. What is learned in the first states pays later: so twice in a row.
+    /// Whether stages turn out to be the slower way. What is learned in the first states pays later, and where it does it shows soon:
+    /// a state takes much less than before.
     pub(crate) fn gives_up(&mut self) -> bool {
         if self.staged.states < JUDGED && self.staged.nanoseconds < LONG {
             return false;
         }
-        let slower = self.staged.rate() > self.plain.rate();
-        self.staged = Spent::default();
-        self.slower = if slower { self.slower + 1 } else { 0 };
-        self.slower >= 2
+        let rate = std::mem::take(&mut self.staged).rate();
+        let improves = self.last.is_none_or(|last| rate * 5 < last * 3);
+        self.last = Some(rate);
+        rate > self.plain.rate() && !improves
     }
 }

@@ -8,8 +8,8 @@ mod conditions;
 mod desk;
 mod plan;
 
-use std::collections::HashMap;
-
+use foldhash::fast::FixedState;
+use indexmap::IndexSet;
 use stillpoint_lang::bind::Bound;
 use stillpoint_model::{Condition, Fault, Outcome, Stages};
 
@@ -36,21 +36,22 @@ pub(crate) fn stages(bound: &Bound, conditions: &[Condition]) -> Option<Box<dyn 
 /// What a stage may leave to the next one, numbered.
 #[derive(Default)]
 struct Classes {
-    numbers: HashMap<Box<[i32]>, u32>,
-    values: Vec<Box<[i32]>>,
+    values: IndexSet<Box<[i32]>, FixedState>,
     bytes: u64,
 }
 
 impl Classes {
     fn number(&mut self, values: Box<[i32]>) -> u32 {
-        if let Some(number) = self.numbers.get(&values) {
-            return *number;
+        let bytes = size_of_val(&*values) as u64 + 48;
+        let (number, fresh) = self.values.insert_full(values);
+        if fresh {
+            self.bytes += bytes;
         }
-        let number = self.values.len() as u32;
-        self.bytes += 2 * size_of_val(&*values) as u64 + 64;
-        self.values.push(values.clone());
-        self.numbers.insert(values, number);
-        number
+        number as u32
+    }
+
+    fn values(&self, number: u32) -> &[i32] {
+        &self.values[number as usize]
     }
 }
 
@@ -91,8 +92,8 @@ impl Stages for Staged {
             classes,
         } = self;
         let own = &plan.stages[stage];
-        let values = classes[stage].values[class as usize].clone();
-        desk.start(before, own, &plan.boundaries[stage], &values);
+        let values = classes[stage].values(class);
+        desk.start(before, own, &plan.boundaries[stage], values);
         let mut vectors = 0;
         loop {
             vectors += 1;
@@ -120,7 +121,7 @@ impl Stages for Staged {
 
     fn conditions(&self, class: u32) -> u128 {
         let last = self.plan.stages.len();
-        let values = &self.classes[last].values[class as usize];
+        let values = self.classes[last].values(class);
         let holds = |mark: &Mark| match mark {
             Mark::Fixed(holds) => *holds,
             Mark::At(place) => values[*place] != 0,
