@@ -222,8 +222,23 @@ fn the_delay_of_a_dead_drive_bus_is_in_a_guarantee_that_is_to_hold_after_a_fault
         let by = format!("[control]\nSAFE_PULSE_DIS_TIME_BUSFAIL = \"{delay}\"");
         is_violated(&path, &changed(MILLING, "[control]", &by), "table")
     };
-    assert!(!broken("200 ms"));
-    assert!(broken("220 ms"));
+    assert!(!broken("120 ms"));
+    assert!(broken("160 ms"));
+}
+
+/// Of two contacts the NCK may have the later one: without a fault the PLC has seen the first one meanwhile, one of its cycles late.
+#[test]
+fn the_discrepancy_of_two_contacts_counts_without_a_fault_too() {
+    const REQUEST: &str = "within  = \"950 ms\"\nsignal  = \"20 ms\"\ncontacts = 2\ndiscrepancy = \"20 ms\"\nafter   = \"any single fault of a channel or contact\"\n";
+    let path = root().join(MILLING);
+    let broken = |discrepancy: &str| {
+        let by = format!(
+            "within = \"840 ms\"\nsignal = \"20 ms\"\ncontacts = 2\ndiscrepancy = \"{discrepancy}\"\n"
+        );
+        is_violated(&path, &changed(MILLING, REQUEST, &by), "emergency_stop")
+    };
+    assert!(!broken("0 ms"));
+    assert!(broken("80 ms"));
 }
 
 /// Where one contact is all there is, the broken guarantee names the fault that breaks it, and no other run is broken.

@@ -8,6 +8,7 @@ mod claimed_times;
 mod conversion;
 mod crane_ways;
 mod db18;
+mod explored;
 mod fuzz;
 mod guarantees;
 mod interface;
