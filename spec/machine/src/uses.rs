@@ -217,8 +217,13 @@ mod tests {
             reads(&window.systems, "guarded (guaranteed.toml)"),
             "{window:?}"
         );
-        let tolerance = of("sinumerik-840d", "SLIP_VELO_TOL");
-        assert!(tolerance.systems.is_empty(), "{tolerance:?}");
+        let slip = of("sinumerik-840d", "SLIP_VELO_TOL");
+        assert!(
+            reads(&slip.systems, "guarded (guaranteed.toml)"),
+            "{slip:?}"
+        );
+        let alarm = of("sinumerik-840d", "PARK_ALARM_SUPPRESS");
+        assert!(alarm.systems.is_empty(), "{alarm:?}");
         assert_eq!(of("sinumerik-840d", "NO_SUCH"), Uses::default());
     }
 }

@@ -3,7 +3,7 @@
 use super::Example;
 
 /// The rule by its text, the pattern, what stands in the guarantee beside the signal, the signal, its time-out.
-const RULES: [(&str, &str, &str, &str, &str); 7] = [
+const RULES: [(&str, &str, &str, &str, &str); 8] = [
     (
         "the contact that asks for the stop comes from an F module",
         "stop_request",
@@ -45,6 +45,13 @@ const RULES: [(&str, &str, &str, &str, &str); 7] = [
         "door = \"front\"",
         "key = \"INSE[4]\"",
         "",
+    ),
+    (
+        "the mode comes from an F module",
+        "travel_limits",
+        "from = \"-99 mm\", to = \"99 mm\", reaches = \"1 mm/min\", within = \"1 s\", signal = \"112 ms\"",
+        "mode = \"INSE[4]\"",
+        "bus_timeout",
     ),
     (
         "the contactors are switched by an F module",
@@ -132,5 +139,28 @@ pub(super) fn examples() -> Vec<Example> {
         let with = |value: &str| machine(pattern, &format!("{others}, {value}"), "");
         (*rule, with(bad), with(good))
     });
-    all.chain(values).collect()
+    all.chain(values).chain(of_axes()).collect()
+}
+
+/// Rules about a guarantee and an input or output of its axis.
+fn of_axes() -> [Example; 2] {
+    let way = "stop = \"STOP A\", within = \"1 s\", contact = \"INSE[5]\", travel = \"44.333 mm\"";
+    let way = machine("stop_request", way, "");
+    let free = "SVSS_DISABLE_INPUT = \"OUTSI[6]\", SS_DISABLE_INPUT";
+    let lock = "door = \"front\", unlock = \"OUTSE[5]\", standstill = \"INSI[1]\", after = \"any single fault of a channel or contact\"";
+    let fed = "VELO_X_STATUS_OUTPUT = \"INSI[1]\", SS_DISABLE_INPUT";
+    let lock = machine("guard_lock", lock, "").replace("SS_DISABLE_INPUT", fed);
+    let delay = "SAFE_PULSE_DIS_TIME_BUSFAIL = \"12 ms\", PLC_CYCLE_MAX";
+    [
+        (
+            "SBH/SG of the axis may be de-selected",
+            way.replace("SS_DISABLE_INPUT", free),
+            way,
+        ),
+        (
+            "the lock waits for \"n < n_x\"",
+            lock.replace("PLC_CYCLE_MAX", delay),
+            lock,
+        ),
+    ]
 }
