@@ -1,7 +1,6 @@
 //! Table against monitor: the same outputs in every reachable pair, and each deliberately wrong monitor is found.
 
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
 use stillpoint_engine::subject::{self, Readings};
@@ -17,34 +16,112 @@ use stillpoint_model::{Options, Until};
 use stillpoint_monitors::mutant::Mutant;
 use stillpoint_show::diagram::Diagram;
 use stillpoint_tests::peer::each;
-use stillpoint_tests::{exceptions, root, specification_files};
+use stillpoint_tests::{exceptions, root};
 
-/// The tables compared: all that ship, then those of the milling machine, whose file names every function of its family. What
-/// several files use is compared with the parameters of the first one, so a file stands before those that put it together with
-/// others: by the number of files that it uses.
-fn compared_files() -> Vec<PathBuf> {
-    let mut files = specification_files();
-    files.retain(|file| table(file).contains_key("system"));
-    files.sort_by_cached_key(|file| (used(file).len(), file.clone()));
-    files.push(root().join("spec/machines/milling-840d.toml"));
-    files
-}
+/// The tables compared: those of a machine, or with the parameters of their systems. What several files use is compared with
+/// the parameters of the first one, so the file of a machine's own table stands before those that put it together with others.
+const FILES: [&[&str]; 4] = [OTHERS, SINAMICS_FUNCTIONS, SINAMICS_CONTROL, IEC];
 
-/// The files that a table uses, also through others.
-fn used(file: &Path) -> BTreeSet<PathBuf> {
-    let table = table(file);
-    let names = table.get("use").and_then(toml::Value::as_array);
-    let names = names.into_iter().flatten().filter_map(toml::Value::as_str);
-    let direct = names.map(|name| file.with_file_name(name));
-    direct
-        .flat_map(|file| used(&file).into_iter().chain([file]))
-        .collect()
-}
+/// The functions of a drive of the family sinamics-s120.
+const SINAMICS_FUNCTIONS: &[&str] = &[
+    "spec/families/sinamics-s120/sto.toml",
+    "spec/families/sinamics-s120/ss1-basic.toml",
+    "spec/families/sinamics-s120/ss1.toml",
+    "spec/families/sinamics-s120/sbc.toml",
+    "spec/families/sinamics-s120/ss2.toml",
+    "spec/families/sinamics-s120/sos.toml",
+    "spec/families/sinamics-s120/sam.toml",
+    "spec/families/sinamics-s120/sbr.toml",
+    "spec/families/sinamics-s120/sls.toml",
+    "spec/families/sinamics-s120/sls-ramp.toml",
+    "spec/families/sinamics-s120/ssm.toml",
+    "spec/families/sinamics-s120/sdi.toml",
+    "spec/families/sinamics-s120/slp.toml",
+    "spec/families/sinamics-s120/referencing.toml",
+    "spec/families/sinamics-s120/sp.toml",
+    "spec/families/sinamics-s120/actual-value.toml",
+    "spec/families/sinamics-s120/gear.toml",
+    "spec/families/sinamics-s120/setpoint-limit.toml",
+    "spec/families/sinamics-s120/encoderless.toml",
+    "spec/families/sinamics-s120/start-phase.toml",
+    "spec/families/sinamics-s120/drive-test.toml",
+    "spec/families/sinamics-s120/sbt.toml",
+];
 
-fn table(file: &Path) -> toml::Table {
-    let text = std::fs::read_to_string(file).expect("a table");
-    toml::from_str(&text).expect("a table")
-}
+/// Their control and their telegrams.
+const SINAMICS_CONTROL: &[&str] = &[
+    "spec/families/sinamics-s120/terminals.toml",
+    "spec/families/sinamics-s120/cross-check.toml",
+    "spec/families/sinamics-s120/sto.toml",
+    "spec/families/sinamics-s120/inputs.toml",
+    "spec/families/sinamics-s120/acknowledgement.toml",
+    "spec/families/sinamics-s120/arbiter.toml",
+    "spec/families/sinamics-s120/restart.toml",
+    "spec/families/sinamics-s120/communication.toml",
+    "spec/families/sinamics-s120/io-test.toml",
+    "spec/families/sinamics-s120/buffer.toml",
+    "spec/families/sinamics-s120/acceptance-mode.toml",
+    "spec/families/sinamics-s120/commissioning.toml",
+    "spec/families/sinamics-s120/enabling.toml",
+    "spec/families/sinamics-s120/words.toml",
+];
+
+/// Functions of IEC 61800-5-2.
+const IEC: &[&str] = &[
+    "spec/families/iec-61800-5-2/window.toml",
+    "spec/families/iec-61800-5-2/motor-temperature.toml",
+    "spec/families/iec-61800-5-2/cam.toml",
+    "spec/families/iec-61800-5-2/increment.toml",
+];
+
+/// The other families.
+const OTHERS: &[&str] = &[
+    "spec/families/sinumerik-840d/axis.toml",
+    "spec/families/sinumerik-840d/bus.toml",
+    "spec/families/sinumerik-840d/setpoint.toml",
+    "spec/families/sinumerik-840d/profisafe.toml",
+    "spec/families/sinumerik-840d/brake-test.toml",
+    "spec/families/sinumerik-840d/brake-control.toml",
+    "spec/families/sinumerik-840d/acceptance-mode.toml",
+    "spec/families/sinumerik-840d/alarm-display.toml",
+    "spec/families/sinumerik-840d/comparison-signals.toml",
+    "spec/families/sinumerik-840d/esr.toml",
+    "spec/machines/milling-840d.toml",
+    "spec/families/sinumerik-840d/relay.toml",
+    "spec/families/sinumerik-840d/spl.toml",
+    "spec/families/sinumerik-840d/spl-communication.toml",
+    "spec/families/sinumerik-840d/spl-start.toml",
+    "spec/families/sinumerik-840d/spl-test.toml",
+    "spec/families/heidenhain-fs/stop.toml",
+    "spec/families/heidenhain-fs/group.toml",
+    "spec/families/heidenhain-fs/interface.toml",
+    "spec/families/heidenhain-fs/compared.toml",
+    "spec/families/heidenhain-fs/mode.toml",
+    "spec/families/heidenhain-fs/monitors.toml",
+    "spec/families/heidenhain-fs/operation.toml",
+    "spec/families/heidenhain-fs/outputs.toml",
+    "spec/families/heidenhain-fs/reference.toml",
+    "spec/families/heidenhain-fs/selftest.toml",
+    "spec/families/heidenhain-fs/cutout.toml",
+    "spec/families/heidenhain-fs/status-bits.toml",
+    "spec/families/heidenhain-fs/fields.toml",
+    "spec/families/heidenhain-fs/link.toml",
+    "spec/families/heidenhain-fs/splc.toml",
+    "spec/families/heidenhain-fs/doors.toml",
+    "spec/families/heidenhain-fs/faults.toml",
+    "spec/families/srm-fblocks/position.toml",
+    "spec/families/srm-fblocks/safe-pos.toml",
+    "spec/families/srm-fblocks/slp.toml",
+    "spec/families/srm-fblocks/endzone.toml",
+    "spec/families/srm-fblocks/interpolation.toml",
+    "spec/families/srm-fblocks/sbr.toml",
+    "spec/families/srm-fblocks/brake.toml",
+    "spec/families/srm-fblocks/brake-start.toml",
+    "spec/families/srm-fblocks/load.toml",
+    "spec/families/srm-fblocks/calibration.toml",
+    "spec/families/srm-fblocks/math.toml",
+    "spec/families/srm-fblocks/parameters.toml",
+];
 
 /// What has a monitor: the names of family and machine or system. Families use the same names for different machines.
 type Name = (&'static str, String);
@@ -54,28 +131,16 @@ fn name(pairing: &Pairing) -> Name {
     (family.name, pairing.machine.clone())
 }
 
-/// Everything that has a monitor: with the parameters of the systems of its own table, else with those of the first file that has
-/// it, else with those of the milling machine or its own default ones.
+/// Everything that has a monitor: with the parameters of the systems of the first file that has it, else with those of the
+/// milling machine or its own default ones.
 static ALL: LazyLock<Vec<Pairing>> = LazyLock::new(|| {
-    let files: Vec<(String, Vec<Pairing>)> = compared_files()
-        .iter()
-        .map(|file| {
-            let subject = subject::load(file, &Readings::new()).unwrap_or_else(|e| panic!("{e}"));
-            let spec = table(file)
-                .get("spec")
-                .map_or("", |s| s.as_str().expect("a name"))
-                .to_owned();
-            (spec, pairings(&subject).unwrap_or_else(|e| panic!("{e}")))
-        })
-        .collect();
-    let own = |spec: &str, p: &Pairing| p.bound.system.name == format!("{spec}/{}", p.machine);
     let mut all: Vec<Pairing> = Vec::new();
-    for wanted in [true, false] {
-        for (spec, pairings) in &files {
-            let known: BTreeSet<Name> = all.iter().map(name).collect();
-            let new = |p: &&Pairing| own(spec, p) == wanted && !known.contains(&name(p));
-            all.extend(pairings.iter().filter(new).cloned());
-        }
+    for file in FILES.concat() {
+        let subject =
+            subject::load(&root().join(file), &Readings::new()).unwrap_or_else(|e| panic!("{e}"));
+        let more = pairings(&subject).unwrap_or_else(|e| panic!("{e}"));
+        let known: BTreeSet<Name> = all.iter().map(name).collect();
+        all.extend(more.into_iter().filter(|p| !known.contains(&name(p))));
     }
     all
 });
