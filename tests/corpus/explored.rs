@@ -64,6 +64,10 @@ fn what_is_explored_for_a_machine_has_the_parameters_that_it_is_given() {
             let system = system.unwrap_or_else(|e| panic!("{e}"));
             let known: BTreeSet<&str> = system.params.iter().map(|p| &*p.var.name).collect();
             names += known.len();
+            if text("system") == "setpoint" {
+                let percent = &explore["param"]["percent"];
+                assert_eq!(percent.as_str(), Some("DES_VELO_LIMIT"), "{path:?}");
+            }
             for name in given(explore).difference(&known) {
                 let (file, system) = (text("file"), text("system"));
                 wrong.push(format!(
