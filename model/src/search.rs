@@ -234,6 +234,7 @@ impl Staging {
             self.over = false;
             self.active = true;
             self.watched = watched;
+            self.pace.anew();
             model.pays.store(true, Ordering::Relaxed);
         }
     }
