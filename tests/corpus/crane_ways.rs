@@ -7,8 +7,11 @@ use stillpoint_tests::root;
 
 const CRANE: &str = "spec/machines/storage-crane.toml";
 
-/// From the call that finds it to the drive that brakes, in seconds: cycle of the drive, cycle of the program, runtime of the blocks, delay.
-const DEAD: f64 = 0.012 + 0.020 + 0.004 + 0.100;
+/// From the call that finds it to the drive that brakes, in seconds: cycle of the drive, `signal`, cycle of the program, its runtime, delay.
+const DEAD: f64 = 0.012 + 0.020 + CYCLE + 0.007 + 0.100;
+
+/// T_SAMPLE, s.
+const CYCLE: f64 = 0.020;
 
 /// What the ways depend on, in mm and mm/s.
 struct Axis {
@@ -99,9 +102,9 @@ fn violated(text: &str, from: &str, to: String, name: &str) -> bool {
 fn a_crane_stops_where_its_values_say_and_is_as_fast_as_they_say() {
     let text = std::fs::read_to_string(root().join(CRANE)).expect("the crane");
     let file: toml::Table = text.parse().expect("TOML");
-    // The default SBR_MAXTOL_POS; two windows and POS_STARTUP_TOL of two encoders, the window of POS2 of three.
-    let travel = Axis::new(&file, "X", 200.0 + 2.0 * 50.0 + 10.0);
-    let hoist = Axis::new(&file, "Y", 200.0 + 20.0);
+    // SBR_MAXTOL_POS; two windows and POS_STARTUP_TOL of two encoders, the window of POS2 of three; half a step of the ramp.
+    let travel = Axis::new(&file, "X", 80.0 + 2.0 * 50.0 + 10.0 + 4000.0 * CYCLE / 2.0);
+    let hoist = Axis::new(&file, "Y", 200.0 + 20.0 + 1000.0 * CYCLE / 2.0);
     for (axis, from, name) in [
         (&travel, "beyond  = \"700 mm\"", "aisle"),
         (&hoist, "beyond  = \"400 mm\"", "mast"),
@@ -124,11 +127,11 @@ fn a_crane_stops_where_its_values_say_and_is_as_fast_as_they_say() {
 /// Behind the end of its range, where SLP finds it, an axis may be as fast as V_MAX.
 #[test]
 fn an_axis_with_slp_stops_where_its_values_say() {
-    let text = "family = \"srm-fblocks\"\n[axis.X]\nkind = \"linear\"\nfunctions = [\"safe position\", \"SLP\", \"ramp\"]\n\
+    let text = "family = \"srm-fblocks\"\n[control]\nRUNTIME = \"7 ms\"\n[axis.X]\nkind = \"linear\"\nfunctions = [\"safe position\", \"SLP\", \"ramp\"]\n\
                 V_MAX = \"30000 mm/min\"\nSBR_V_MAX = \"30000 mm/min\"\nSBR_T_RAMP = \"1 s\"\nSBR_MAXTOL_V = \"3000 mm/min\"\n\
                 SBR_MAXTOL_POS = \"100 mm\"\nX_NEGATIVE = \"1000 mm\"\nX_POSITIVE = \"99000 mm\"\n\
-                [guarantee.stops]\npattern = \"stops_in_time\"\naxes = [\"X\"]\nbeyond = \"900 mm\"\ndelay = \"100 ms\"\n";
-    let (way, off) = (500.0 * DEAD + 250.0, 100.0 + 110.0);
+                [guarantee.stops]\npattern = \"stops_in_time\"\naxes = [\"X\"]\nbeyond = \"900 mm\"\nsignal = \"20 ms\"\ndelay = \"100 ms\"\n";
+    let (way, off) = (500.0 * DEAD + 250.0, 100.0 + 110.0 + 500.0 * CYCLE / 2.0);
     let with = |mm: f64| {
         let beyond = format!("beyond = \"{mm} mm\"");
         violated(text, "beyond = \"900 mm\"", beyond, "stops")

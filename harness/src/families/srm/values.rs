@@ -183,7 +183,7 @@ pub(super) fn load(axis: &Axis, t_sample: i32) -> load_monitor::Config {
     }
 }
 
-/// F_LOAD_MONITOR: the test of the measurement, with a constant load: a machine file has no CAL_MODE.
+/// F_LOAD_MONITOR: the test of the measurement.
 pub(super) fn calibration(axis: &Axis, t_sample: i32) -> load_calibration::Config {
     let load = load(axis, t_sample);
     load_calibration::Config {
@@ -193,7 +193,7 @@ pub(super) fn calibration(axis: &Axis, t_sample: i32) -> load_calibration::Confi
         t_settle: load.t_settle,
         cal_value: load.cal_value,
         maxtol_cal: load.maxtol_cal,
-        cal_mode: false,
+        cal_mode: plain(&axis.values, "LOAD_CAL_MODE") != 0,
         wrong_elsewhere: load.parameter_bits() != 0,
     }
 }
