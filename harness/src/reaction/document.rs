@@ -178,11 +178,7 @@ fn chain(judged: &Judged, machine: &Machine, result: &Result) -> Block {
         "Basis",
         "Requirement",
     ];
-    let mut speed = format!(
-        "Over-travel at {} ({})",
-        dimensions.speed.show(result.motion.speed),
-        result.speed_text
-    );
+    let mut speed = format!("Over-travel at {} ({})", result.speed(), result.speed_text);
     if result.motion.acceleration != 0 {
         let a = dimensions.acceleration.show(result.motion.acceleration);
         speed.push_str(&format!(", accelerating by {a} until the stop works"));
@@ -200,7 +196,7 @@ fn chain(judged: &Judged, machine: &Machine, result: &Result) -> Block {
                 "{} ({} cycles), over-travel {}{more}",
                 time(end.time),
                 cycles(end.time, machine.monitoring_cycle),
-                way(dimensions.way, end.way)
+                result.way(end)
             )),
         ]
     });

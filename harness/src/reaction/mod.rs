@@ -340,13 +340,13 @@ impl Judged {
         let dimensions = chain.kind.dimensions();
         let ends = ends.map(|(outcome, end)| {
             json!({
-                "title": outcome.title, "time_us": end.time, "over_travel": way(dimensions.way, end.way),
+                "title": outcome.title, "time_us": end.time, "over_travel": result.way(end),
                 "rest_to_be_measured": end.open,
             })
         });
         json!({
             "name": chain.name, "title": chain.title, "axis": chain.axis,
-            "speed": dimensions.speed.show(result.motion.speed), "speed_text": result.speed_text,
+            "speed": result.speed(), "speed_text": result.speed_text,
             "acceleration": dimensions.acceleration.show(result.motion.acceleration),
             "steps": steps.collect::<Vec<_>>(), "outcomes": ends.collect::<Vec<_>>(),
         })
@@ -372,6 +372,24 @@ fn time(us: i128) -> String {
 /// A way as a reader writes it.
 fn way(dimension: Dimension, value: i128) -> String {
     dimension.show(i64::try_from(value).unwrap_or(i64::MAX))
+}
+
+impl Result {
+    /// The way to this end; of a speed that nobody stated none is known.
+    fn way(&self, end: &End) -> String {
+        match self.motion.speed {
+            0 => "?".to_owned(),
+            _ => way(self.chain.kind.dimensions().way, end.way),
+        }
+    }
+
+    /// The speed from which the ways are.
+    fn speed(&self) -> String {
+        match self.motion.speed {
+            0 => "a speed that is not stated".to_owned(),
+            speed => self.chain.kind.dimensions().speed.show(speed),
+        }
+    }
 }
 
 /// Microseconds in monitoring cycles, with one decimal, rounded up.

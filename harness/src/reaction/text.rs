@@ -62,7 +62,7 @@ fn chain(out: &mut String, judged: &Judged, machine: &Machine, result: &Result) 
     let _ = writeln!(
         out,
         "    at {} ({}){}",
-        dimensions.speed.show(result.motion.speed),
+        result.speed(),
         result.speed_text,
         match result.motion.acceleration {
             0 => String::new(),
@@ -80,7 +80,7 @@ fn chain(out: &mut String, judged: &Judged, machine: &Machine, result: &Result) 
             time(end.time),
             cycles(end.time, machine.monitoring_cycle),
             outcome.title,
-            way(dimensions.way, end.way),
+            result.way(end),
         );
     }
 }

@@ -124,7 +124,7 @@ fn values_and_times_are_those_of_the_machine() {
 fn the_acceptance_test_mode_is_limited_in_time() {
     let machine = gantry(
         "s120-acceptance-mode",
-        &[("p9507_0 = true", "p9507_0 = true\np9558 = \"25 s\"")],
+        &[("p9507_0 = false", "p9507_0 = false\np9558 = \"25 s\"")],
     );
     let json = json(&machine, &[]);
     let mode = test(&json, "ACCEPTANCE-MODE-X1");
@@ -166,6 +166,11 @@ fn the_configuration_decides_what_is_seen() {
         "s120-acceptance-stops",
         &[
             (stops, other),
+            // Without encoder there is no SOS.
+            (
+                "STW_SOS = \"head_sos\"\nSTW_SLS = \"head_sls\"\nSTW_SS1 = \"head_ss1\"\nSTW_ACK = \"event_ack\"\np9601  = \"C\"",
+                "STW_SLS = \"head_sls\"\nSTW_SS1 = \"head_ss1\"\nSTW_ACK = \"event_ack\"\np9601  = \"C\"",
+            ),
             (blind, &no_encoder),
             (last, "[\"motion monitoring\", \"SDI\"]"),
             // Without encoder there is neither SOS nor SS2 behind the door.
