@@ -6,7 +6,7 @@ use stillpoint_engine::verdict_name;
 use stillpoint_machine::Machine;
 use stillpoint_show::document::{Block, Document, Inline, Table, Tone};
 
-use super::{Judged, Proof, Result, basis, cycles, time, way};
+use super::{Judged, Proof, Result, basis, cycles, time};
 use crate::report::grouped;
 
 /// The document of all chains.
@@ -99,7 +99,7 @@ fn overview(judged: &Judged, machine: &Machine) -> Block {
         ];
         for end in &result.ends {
             let more = if end.open { " +" } else { "" };
-            let over = way(chain.kind.dimensions().way, end.way);
+            let over = result.way(end);
             row.push(vec![Inline::Text(format!("{}{more}", time(end.time)))]);
             row.push(vec![Inline::Text(format!("{over}{more}"))]);
         }

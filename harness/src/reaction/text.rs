@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use stillpoint_machine::Machine;
 
-use super::{Judged, Proof, Result, basis, cycles, time, way};
+use super::{Judged, Proof, Result, basis, cycles, time};
 
 /// Each chain with its summands, then its ends.
 pub fn text(judged: &Judged, machine: &Machine) -> String {
