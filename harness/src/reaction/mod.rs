@@ -369,17 +369,15 @@ fn time(us: i128) -> String {
     Dimension::Time.show(i64::try_from(us).unwrap_or(i64::MAX))
 }
 
-/// A way as a reader writes it.
-fn way(dimension: Dimension, value: i128) -> String {
-    dimension.show(i64::try_from(value).unwrap_or(i64::MAX))
-}
-
 impl Result {
     /// The way to this end; of a speed that nobody stated none is known.
     fn way(&self, end: &End) -> String {
         match self.motion.speed {
             0 => "?".to_owned(),
-            _ => way(self.chain.kind.dimensions().way, end.way),
+            _ => {
+                let way = i64::try_from(end.way).unwrap_or(i64::MAX);
+                self.chain.kind.dimensions().way.show(way)
+            }
         }
     }
 
