@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use stillpoint_lang::catalogue::{Catalogue, requirement_id};
 use stillpoint_lang::diag::{Result, nearest};
 use stillpoint_machine::data::{Allowed, Datum, FamilyData, Told};
-use stillpoint_machine::uses::{Uses, uses};
+use stillpoint_machine::uses::{Readers, Uses};
 
 use crate::report::wrapped;
 
@@ -119,9 +119,11 @@ pub fn whole(folder: &Path, datum: &Datum, catalogue: &Catalogue) -> Result<Stri
         functions,
         rules,
         warnings,
+        patterns,
         systems,
-    } = uses(folder, &datum.name)?;
+    } = Readers::load(folder)?.of(&datum.name);
     line("functions:", &functions.join("; "));
+    line("decides:", &patterns.join(", "));
     let mut part = |head: &str, list: &[(String, String)]| {
         if !list.is_empty() {
             let _ = writeln!(out, "  {head}:");
@@ -160,13 +162,14 @@ pub fn to_json(datum: &Datum, read: Option<(&Path, &Catalogue)>) -> Result<Value
         "rotary": allowed(datum.rotary.as_ref().unwrap_or(&datum.linear)), "requirements": datum.ids,
     });
     if let (Some((folder, catalogue)), Some(object)) = (read, out.as_object_mut()) {
-        let uses = uses(folder, &datum.name)?;
+        let uses = Readers::load(folder)?.of(&datum.name);
         let pairs = |list: &[(String, String)], names: [&str; 2]| -> Value {
             let one = |(a, b): &(String, String)| json!({ names[0]: a, names[1]: b });
             list.iter().map(one).collect()
         };
         let more = [
             ("functions", json!(uses.functions)),
+            ("guarantees", json!(uses.patterns)),
             ("rules", pairs(&uses.rules, ["text", "fix"])),
             ("warnings", pairs(&uses.warnings, ["id", "text"])),
             ("systems", pairs(&uses.systems, ["system", "text"])),

@@ -13,6 +13,13 @@ const DEAD: f64 = 0.012 + 0.020 + CYCLE + 0.007 + 0.100;
 /// T_SAMPLE, s.
 const CYCLE: f64 = 0.020;
 
+/// V_DISC_WINDOW in each V_SYNC_INTERVALL, mm/s: so much farther the axis may go than the encoder of its motor tells.
+const SLIP: f64 = 20.0 / 1.0;
+
+/// The intervals in which it does so beside those that the way takes: it may have drifted the other way before, which counts twice, and
+/// the last one has only begun.
+const MORE: f64 = 3.0 * 1.0;
+
 /// What the ways depend on, in mm and mm/s.
 struct Axis {
     points: Vec<(f64, f64)>,
@@ -59,7 +66,9 @@ impl Axis {
 
     /// How far it goes from one velocity until the ramp, and with it the axis, is down to the other one.
     fn way(&self, from: f64, to: f64) -> f64 {
-        from * DEAD + (from * from - to * to).max(0.0) / (2.0 * self.braking) + self.off
+        let time = DEAD + (from - to).max(0.0) / self.braking;
+        let told = from * DEAD + (from * from - to * to).max(0.0) / (2.0 * self.braking);
+        told + self.off + SLIP * (MORE + time)
     }
 
     /// Every remaining distance up to beyond the last point, and the velocity there.
@@ -75,7 +84,7 @@ impl Axis {
     /// The least velocity to which it is down, wherever it was found, before this distance; in mm/min.
     fn speed(&self, distance: f64) -> f64 {
         let kept = |speed: &u32| {
-            let slow = f64::from(*speed) / 60.0;
+            let slow = (f64::from(*speed) / 60.0 - SLIP).max(0.0);
             let down = (slow - self.faster).max(0.0);
             self.everywhere()
                 .all(|(x, v)| v <= slow || self.way(v, down) <= x - distance)
@@ -106,8 +115,8 @@ fn a_crane_stops_where_its_values_say_and_is_as_fast_as_they_say() {
     let travel = Axis::new(&file, "X", 80.0 + 2.0 * 50.0 + 10.0 + 4000.0 * CYCLE / 2.0);
     let hoist = Axis::new(&file, "Y", 200.0 + 20.0 + 1000.0 * CYCLE / 2.0);
     for (axis, from, name) in [
-        (&travel, "beyond  = \"700 mm\"", "aisle"),
-        (&hoist, "beyond  = \"400 mm\"", "mast"),
+        (&travel, "beyond  = \"880 mm\"", "aisle"),
+        (&hoist, "beyond  = \"500 mm\"", "mast"),
     ] {
         let least = axis.beyond().ceil();
         let with = |mm: f64| violated(&text, from, format!("beyond = \"{mm} mm\""), name);
@@ -117,7 +126,7 @@ fn a_crane_stops_where_its_values_say_and_is_as_fast_as_they_say() {
     let least = travel.speed(100.0);
     let with = |speed: f64| {
         let speed = format!("speed = \"{speed} mm/min\"");
-        violated(&text, "speed    = \"64000 mm/min\"", speed, "transfer")
+        violated(&text, "speed    = \"69000 mm/min\"", speed, "transfer")
     };
     // Ways are whole millimetres there.
     assert!(!with(least + 150.0), "{least} mm/min and 150");
@@ -131,7 +140,10 @@ fn an_axis_with_slp_stops_where_its_values_say() {
                 V_MAX = \"30000 mm/min\"\nSBR_V_MAX = \"30000 mm/min\"\nSBR_T_RAMP = \"1 s\"\nSBR_MAXTOL_V = \"3000 mm/min\"\n\
                 SBR_MAXTOL_POS = \"100 mm\"\nX_NEGATIVE = \"1000 mm\"\nX_POSITIVE = \"99000 mm\"\n\
                 [guarantee.stops]\npattern = \"stops_in_time\"\naxes = [\"X\"]\nbeyond = \"900 mm\"\nsignal = \"20 ms\"\ndelay = \"100 ms\"\n";
-    let (way, off) = (500.0 * DEAD + 250.0, 100.0 + 110.0 + 500.0 * CYCLE / 2.0);
+    let (way, off) = (
+        500.0 * DEAD + 250.0,
+        100.0 + 110.0 + 500.0 * CYCLE / 2.0 + SLIP * (MORE + DEAD + 1.0),
+    );
     let with = |mm: f64| {
         let beyond = format!("beyond = \"{mm} mm\"");
         violated(text, "beyond = \"900 mm\"", beyond, "stops")
@@ -139,6 +151,6 @@ fn an_axis_with_slp_stops_where_its_values_say() {
     assert!(!with((way + off).round() + 1.0));
     assert!(with((way + off).round() - 1.0));
     // A buffer behind the last position that is permitted is no way to stop on.
-    let near = text.replace("X_NEGATIVE = \"1000 mm\"", "X_NEGATIVE = \"400 mm\"");
+    let near = text.replace("X_NEGATIVE = \"1000 mm\"", "X_NEGATIVE = \"500 mm\"");
     assert!(violated(&near, "900 mm", "900 mm".into(), "stops"));
 }

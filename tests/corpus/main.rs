@@ -30,3 +30,4 @@ mod structured_text;
 mod tables;
 mod trace;
 mod truth_tables;
+mod unread;

@@ -55,7 +55,7 @@ impl Machine {
     }
 
     /// Every value that the file gives and that can be turned.
-    fn knobs(&self) -> Vec<Knob> {
+    pub fn knobs(&self) -> Vec<Knob> {
         let family = &self.basis.family;
         let mut list = Vec::new();
         let mut add = |owner: String, params: Params<'_>, settings: &Settings, kind: AxisKind| {

@@ -1,4 +1,4 @@
-//! One parameter of a family as its users call it, and what reads it: rules, warnings, explored systems, safety functions.
+//! One parameter of a family as its users call it, and what reads it: rules, warnings, guarantees, explored systems, safety functions.
 
 use std::path::Path;
 
@@ -7,8 +7,9 @@ use stillpoint_lang::diag::Result;
 use stillpoint_lang::syntax::ast::Expr;
 
 use super::data::Datum;
-use super::family::{Binding, Explore, Family};
+use super::family::{Binding, Explore, Family, Rule};
 use super::ground::{DataFile, read_names};
+use super::guarantee::Pattern;
 use super::{family_file, warnings};
 
 /// What reads a parameter.
@@ -20,7 +21,9 @@ pub struct Uses {
     pub rules: Vec<(String, String)>,
     /// Warnings: name, and what is unusual.
     pub warnings: Vec<(String, String)>,
-    /// Explored systems: `stop (axis.toml)`, and what each shows.
+    /// The patterns of guarantees whose answer it decides.
+    pub patterns: Vec<String>,
+    /// Systems that are explored whatever a file guarantees: `stop (axis.toml)`, and what each shows.
     pub systems: Vec<(String, String)>,
 }
 
@@ -30,46 +33,70 @@ struct Pages {
     page: Vec<Page>,
 }
 
-#[derive(Deserialize)]
+#[derive(Debug, Deserialize)]
 struct Page {
     title: String,
     parameters: Vec<String>,
 }
 
-/// What reads the parameter `name` of the family in `folder`.
-///
-/// # Errors
-/// The files of the family are wrong.
-pub fn uses(folder: &Path, name: &str) -> Result<Uses> {
-    let family = family_file::load(folder)?;
-    let reads = |names: Vec<String>| family.resolved(names).contains(name);
-    let rules = family.rules.iter();
-    let rules = rules.filter(|r| reads(read_names(&r.when.expr)));
-    let patterns = family.patterns.values().flat_map(|p| &p.explore);
-    let systems = family.explore.iter().chain(patterns);
-    let systems =
-        systems.filter(|e| reads(of_system(e, &read_names)) || reads(of_wires(e).collect()));
-    let known = warnings::catalogue(folder)?.into_iter();
-    let known = known.filter(|w| w.reads.iter().any(|n| n == name));
-    Ok(Uses {
-        functions: functions(&family, name)?,
-        rules: rules.map(|r| (r.text.clone(), r.fix.clone())).collect(),
-        warnings: known.map(|w| (w.id, w.text)).collect(),
-        systems: systems
-            .map(|e| (format!("{} ({})", e.system, e.file), e.text.clone()))
-            .collect(),
-    })
+/// The data of a family that read its parameters.
+#[derive(Debug)]
+pub struct Readers {
+    family: Family,
+    warnings: Vec<warnings::Known>,
+    pages: Vec<Page>,
 }
 
-fn functions(family: &Family, name: &str) -> Result<Vec<String>> {
-    const FILE: &str = "pages.toml";
-    if !stillpoint_lang::files::is_file(&family.folder.join(FILE)) {
-        return Ok(Vec::new());
+impl Readers {
+    /// Those of the family in `folder`.
+    ///
+    /// # Errors
+    /// The files of the family are wrong.
+    pub fn load(folder: &Path) -> Result<Self> {
+        const FILE: &str = "pages.toml";
+        let family = family_file::load(folder)?;
+        let pages = match stillpoint_lang::files::is_file(&folder.join(FILE)) {
+            true => {
+                DataFile::read(folder, FILE, "pages")?
+                    .parse::<Pages>()?
+                    .page
+            }
+            false => Vec::new(),
+        };
+        Ok(Self {
+            family,
+            warnings: warnings::catalogue(folder)?,
+            pages,
+        })
     }
-    let pages: Pages = DataFile::read(&family.folder, FILE, "pages")?.parse()?;
-    let pages = pages.page.into_iter();
-    let pages = pages.filter(|p| p.parameters.iter().any(|n| n == name));
-    Ok(pages.map(|p| p.title).collect())
+
+    /// What reads the parameter of this name.
+    pub fn of(&self, name: &str) -> Uses {
+        let family = &self.family;
+        let reads = |names: Vec<String>| family.resolved(names).contains(name);
+        let ruled = |rule: &&Rule| reads(read_names(&rule.when.expr));
+        let explored =
+            |e: &&Explore| reads(of_system(e, &read_names)) || reads(of_wires(e).collect());
+        let decides = |pattern: &Pattern| {
+            pattern.explore.iter().any(|e| explored(&e)) || pattern.rules.iter().any(|r| ruled(&r))
+        };
+        let rules = family.rules.iter().filter(ruled);
+        let patterns = family.patterns.iter().filter(|(_, p)| decides(p));
+        let systems = family.explore.iter().filter(explored);
+        let known = self.warnings.iter();
+        let known = known.filter(|w| w.reads.iter().any(|n| n == name));
+        let pages = self.pages.iter();
+        let pages = pages.filter(|p| p.parameters.iter().any(|n| n == name));
+        Uses {
+            functions: pages.map(|p| p.title.clone()).collect(),
+            rules: rules.map(|r| (r.text.clone(), r.fix.clone())).collect(),
+            warnings: known.map(|w| (w.id.clone(), w.text.clone())).collect(),
+            patterns: patterns.map(|(name, _)| name.clone()).collect(),
+            systems: systems
+                .map(|e| (format!("{} ({})", e.system, e.file), e.text.clone()))
+                .collect(),
+        }
+    }
 }
 
 /// The signals that a program in an explored system is connected to.
@@ -202,7 +229,8 @@ mod tests {
     #[test]
     fn what_reads_a_parameter_is_told_through_named_expressions_too() {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../families");
-        let of = |family: &str, name: &str| uses(&folder.join(family), name).expect("a family");
+        let readers = |family: &str| Readers::load(&folder.join(family)).expect("a family");
+        let of = |family: &str, name: &str| readers(family).of(name);
         let time = of("heidenhain-fs", "SMP525");
         let reads = |list: &[(String, String)], word: &str| list.iter().any(|(a, _)| a == word);
         assert!(reads(&time.warnings, "ss1-longer-than-ss2"), "{time:?}");
@@ -213,15 +241,10 @@ mod tests {
             reads(&window.warnings, "standstill-window-wide"),
             "{window:?}"
         );
-        assert!(
-            reads(&window.systems, "guarded (guaranteed.toml)"),
-            "{window:?}"
-        );
+        let decides = |uses: &Uses, name: &str| uses.patterns.iter().any(|p| p == name);
+        assert!(decides(&window, "door_speed"), "{window:?}");
         let slip = of("sinumerik-840d", "SLIP_VELO_TOL");
-        assert!(
-            reads(&slip.systems, "guarded (guaranteed.toml)"),
-            "{slip:?}"
-        );
+        assert!(decides(&slip, "door_speed"), "{slip:?}");
         let alarm = of("sinumerik-840d", "PARK_ALARM_SUPPRESS");
         assert!(alarm.systems.is_empty(), "{alarm:?}");
         assert_eq!(of("sinumerik-840d", "NO_SUCH"), Uses::default());
