@@ -178,7 +178,7 @@ fn alike(file: &str, name: &str, least: u64) {
 
 fn task(spec: &Spec, bound: Bound, title: String) -> Task {
     let analysis = spec
-        .analyse(&bound, &mut stillpoint_lang::analysis::Known::default())
+        .analyse(&bound, &stillpoint_lang::analysis::Known::default())
         .unwrap_or_else(|e| panic!("{e}"));
     Task {
         title,

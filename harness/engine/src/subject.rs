@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
 use stillpoint_lang::analysis::{Analysis, Known};
 use stillpoint_lang::bind::{BindError, Bound};
@@ -115,11 +115,13 @@ pub fn has_key(text: &str, key: &str) -> bool {
         })
 }
 
+/// The guards that this process has examined: a machine file with one value changed has those of the file.
+static EXAMINED: LazyLock<Known> = LazyLock::new(Known::default);
+
 fn of_spec(path: &Path, text: Arc<str>, readings: &Readings) -> Result<Subject> {
     let spec = Spec::from_text(path, text.clone())?;
     let names: Vec<String> = spec.systems().map(str::to_owned).collect();
     let mut tasks = Vec::new();
-    let mut known = Known::default();
     let mut errors = Vec::new();
     for name in &names {
         let system = match spec.system(name, None) {
@@ -130,7 +132,7 @@ fn of_spec(path: &Path, text: Arc<str>, readings: &Readings) -> Result<Subject> 
             }
         };
         let bound = bind(path, &text, system, &BTreeMap::new(), readings)?;
-        match spec.analyse(&bound, &mut known) {
+        match spec.analyse(&bound, &EXAMINED) {
             Ok(analysis) => tasks.push(Task {
                 title: bound.system.text.clone(),
                 axes: Vec::new(),
@@ -190,7 +192,6 @@ pub fn of_runs(
     readings: &Readings,
 ) -> Result<Subject> {
     let mut tasks = Vec::new();
-    let mut known = Known::default();
     let mut specs: BTreeMap<_, Made> = BTreeMap::new();
     for run in runs {
         let (spec, loose) = match specs.entry((
@@ -206,7 +207,7 @@ pub fn of_runs(
         let system = spec.system(&run.system, cycle)?;
         let source: Arc<str> = Arc::from("");
         let bound = bind(&run.file, &source, system, &run.params, readings)?;
-        let analysis = spec.analyse(&bound, &mut known)?;
+        let analysis = spec.analyse(&bound, &EXAMINED)?;
         let loose = match loose.as_ref().filter(|_| is_of_paths(&bound)) {
             Some((spec, times)) => {
                 let system = spec.system(&run.system, cycle)?;
@@ -255,7 +256,7 @@ fn combinations(bound: &Bound) -> u128 {
 
 /// The loose system of an exploration whose programs have these times.
 fn loosely(spec: &Spec, bound: Bound, times: &[String]) -> Result<Loose> {
-    let analysis = spec.analyse(&bound, &mut Known::default())?;
+    let analysis = spec.analyse(&bound, &EXAMINED)?;
     let text = format!(
         "Nothing that this exploration tells the program starts {}: whether such a time is over is left open in each cycle, and what holds so holds.",
         times.join(", ")

@@ -3,6 +3,7 @@
 //! The guards' variables (state, ports, nothing else) are enumerated on demand: only what a guard really reads.
 
 use std::collections::BTreeSet;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use crate::bind::Bound;
 use crate::diag::{Diagnostic, Diagnostics, Result};
@@ -27,7 +28,7 @@ impl Spec {
     ///
     /// # Errors
     /// Uncovered cases of machines without `otherwise = "stay"`, overlaps in `exclusive` machines, bad keys.
-    pub fn analyse(&self, bound: &Bound, known: &mut Known) -> Result<Analysis> {
+    pub fn analyse(&self, bound: &Bound, known: &Known) -> Result<Analysis> {
         let mut out = Analysis::default();
         let mut errors: Vec<Diagnostic> = Vec::new();
         let mut first = 0;
@@ -65,13 +66,7 @@ impl Spec {
                 }
             };
             let (guards, reading) = Guards::of(bound, k, exclusive, stays);
-            let at = known.0.iter().position(|(other, _)| *other == guards);
-            let at = at.unwrap_or_else(|| {
-                let found = guards.examine();
-                known.0.push((guards, found));
-                known.0.len() - 1
-            });
-            match &known.0[at].1 {
+            match known.of(guards).found() {
                 None => out.skipped.push(instance.name.clone()),
                 Some(found) => {
                     let dead = found.fires.iter().enumerate().filter(|(_, hit)| !**hit);
@@ -117,7 +112,32 @@ impl Spec {
 
 /// What the guards of instances were found to do, so that those which are alike, such as the same machine in several axes, are examined once.
 #[derive(Debug, Default)]
-pub struct Known(Vec<(Guards, Option<Found>)>);
+pub struct Known(Mutex<Vec<Arc<Examined>>>);
+
+#[derive(Debug)]
+struct Examined {
+    guards: Guards,
+    found: OnceLock<Option<Found>>,
+}
+
+impl Known {
+    fn of(&self, guards: Guards) -> Arc<Examined> {
+        let mut known = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(one) = known.iter().find(|one| one.guards == guards) {
+            return one.clone();
+        }
+        let found = OnceLock::new();
+        let new = Arc::new(Examined { guards, found });
+        known.push(new.clone());
+        new
+    }
+}
+
+impl Examined {
+    fn found(&self) -> &Option<Found> {
+        self.found.get_or_init(|| self.guards.examine())
+    }
+}
 
 /// The guards of one instance, with state, wired ports and elements of parameters turned into inputs of an enumeration, which are numbered
 /// anew: alike in each instance and system whose guards read alike.

@@ -4,10 +4,9 @@
 use indexmap::IndexMap;
 use toml::Spanned;
 
-use super::Machine;
 use super::family::{Family, Formula};
 use super::family_file::Check;
-use super::ground::{About, DataFile, Ground, grounds};
+use super::ground::{About, DataFile, Ground, Subjects};
 use super::guarantee::About as Named;
 use super::template::{Template, Words};
 use stillpoint_lang::diag::Result;
@@ -58,18 +57,23 @@ impl Premise {
     ///
     /// # Errors
     /// A formula without a value, which is a fault of the family's data.
-    pub fn grounds<'a>(&self, file: &DataFile, machine: &'a Machine) -> Result<Vec<Ground<'a>>> {
+    pub fn grounds<'a>(
+        &self,
+        file: &DataFile,
+        subjects: &mut Subjects<'a>,
+    ) -> Result<Vec<Ground<'a>>> {
         let mut list = Vec::new();
-        let of_pattern = |subject: &Ground<'_>| {
+        let of_pattern = |subject: &&mut Ground<'_>| {
             let guarantee = subject.guarantee;
             guarantee.is_none_or(|g| self.patterns.contains(&g.pattern))
         };
-        for subject in grounds(machine, self.of).into_iter().filter(of_pattern) {
+        for subject in subjects.about(self.of).filter(of_pattern) {
             for k in &self.each {
-                let mut ground = subject.at(*k);
-                if ground.value(file, &self.when)? == 0 {
+                subject.count_to(*k);
+                if subject.value(file, &self.when)? == 0 {
                     continue;
                 }
+                let mut ground = subject.clone();
                 for (name, formula) in &self.lets {
                     let value = ground.value(file, formula)?;
                     ground.set(name, value);

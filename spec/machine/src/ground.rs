@@ -169,6 +169,28 @@ pub(super) struct Ground<'a> {
     pub values: Values,
 }
 
+/// The subjects of a machine, those of a kind made once for all entries about them.
+pub(super) struct Subjects<'a> {
+    machine: &'a Machine,
+    made: Vec<(About, Vec<Ground<'a>>)>,
+}
+
+impl<'a> Subjects<'a> {
+    pub fn of(machine: &'a Machine) -> Self {
+        let made = Vec::new();
+        Self { machine, made }
+    }
+
+    /// Those of a kind, in the order of the machine file.
+    pub fn about(&mut self, about: About) -> impl Iterator<Item = &mut Ground<'a>> {
+        if !self.made.iter().any(|(kind, _)| *kind == about) {
+            self.made.push((about, grounds(self.machine, about)));
+        }
+        let known = self.made.iter_mut().filter(move |(kind, _)| *kind == about);
+        known.flat_map(|(_, list)| list)
+    }
+}
+
 /// All subjects of a kind, in the order of the machine file.
 pub(super) fn grounds<'a>(machine: &'a Machine, about: About) -> Vec<Ground<'a>> {
     let whole = Ground {
@@ -342,12 +364,10 @@ impl<'a> Ground<'a> {
         self
     }
 
-    /// The same with `k` (from 0) and `n` (from 1).
-    pub fn at(&self, k: i64) -> Self {
-        let mut ground = self.clone();
-        ground.set("k", k);
-        ground.set("n", k + 1);
-        ground
+    /// Sets `k` (from 0) and `n` (from 1).
+    pub fn count_to(&mut self, k: i64) {
+        self.set("k", k);
+        self.set("n", k + 1);
     }
 
     /// Gives a name a value.

@@ -13,7 +13,7 @@ use super::entry::{Premise, Reader};
 use super::explore_file::ExploreData;
 use super::family::{Explore, Family, Formula};
 use super::family_file::Check;
-use super::ground::{About, DataFile, Ground, read_names};
+use super::ground::{About, DataFile, Ground, Subjects, read_names};
 use super::runs;
 use super::template::{Template, Words};
 use super::units::Dimension;
@@ -227,8 +227,9 @@ impl Machine {
         }
         check.findings.finish(())?;
         let mut chains = Vec::new();
+        let mut subjects = Subjects::of(self);
         for plan in &plans {
-            for ground in plan.premise.grounds(&file, self)? {
+            for ground in plan.premise.grounds(&file, &mut subjects)? {
                 chains.push(plan.chain(&file, &ground)?);
             }
         }

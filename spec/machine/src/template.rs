@@ -240,7 +240,8 @@ mod tests {
             return Err(check.findings.into_diagnostics().to_string());
         };
         let grounds = super::super::ground::grounds(&machine, About::Axis);
-        let ground = grounds.first().ok_or("no axis")?.at(1);
+        let mut ground = grounds.into_iter().next().ok_or("no axis")?;
+        ground.count_to(1);
         template.fill(&file, &ground).map_err(|e| e.to_string())
     }
 

@@ -18,7 +18,7 @@ pub fn load(text: &str, readings: &[(&str, &str)]) -> Result<Bound, Diagnostics>
         .map(|(a, b)| ((*a).to_owned(), (*b).to_owned()))
         .collect();
     let bound = Bound::new(system, &BTreeMap::new(), &readings).expect("the defaults fit");
-    spec.analyse(&bound, &mut stillpoint_lang::analysis::Known::default())?;
+    spec.analyse(&bound, &stillpoint_lang::analysis::Known::default())?;
     Ok(bound)
 }
 

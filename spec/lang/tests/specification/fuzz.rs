@@ -48,7 +48,7 @@ fn load(path: &Path, text: &str, analyse: bool) {
                 Err(error) => assert!(!error.to_string().is_empty()),
                 Ok(bound) if analyse => {
                     if let Err(errors) =
-                        spec.analyse(&bound, &mut stillpoint_lang::analysis::Known::default())
+                        spec.analyse(&bound, &stillpoint_lang::analysis::Known::default())
                     {
                         showable(&errors);
                     }

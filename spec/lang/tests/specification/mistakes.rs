@@ -201,7 +201,7 @@ fn cases_that_overlap_or_are_missing() {
     assert_eq!(
         spec.analyse(
             &b.expect("bound"),
-            &mut stillpoint_lang::analysis::Known::default()
+            &stillpoint_lang::analysis::Known::default()
         )
         .unwrap_or_else(|e| panic!("{e}"))
         .dead,

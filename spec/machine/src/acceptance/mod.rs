@@ -14,7 +14,7 @@ use toml::Spanned;
 use super::Machine;
 use super::family::Family;
 use super::family_file::Check;
-use super::ground::DataFile;
+use super::ground::{DataFile, Subjects};
 use plan::{Plan, TestData, plan};
 use stillpoint_lang::diag::Result;
 
@@ -157,8 +157,9 @@ impl Machine {
         complete(&mut check, family, &plans, &data.untested);
         check.findings.finish(())?;
         let mut tests = Vec::new();
+        let mut subjects = Subjects::of(self);
         for plan in &plans {
-            for ground in plan.premise.grounds(&file, self)? {
+            for ground in plan.premise.grounds(&file, &mut subjects)? {
                 tests.push(plan.test(&file, &ground)?);
             }
         }

@@ -16,7 +16,7 @@ use toml::Spanned;
 use super::entry::{Premise, Reader};
 use super::family::Family;
 use super::family_file::Check;
-use super::ground::{About, DataFile, Ground, read_names};
+use super::ground::{About, DataFile, Ground, Subjects, read_names};
 use super::place::WORDS;
 use super::template::{Template, Words};
 use super::{Machine, Shown};
@@ -152,8 +152,9 @@ pub(super) fn judge(machine: &Machine, path: &Path, source: &Arc<str>) -> Result
     let mut accepted = Accepted::read(path, source, machine, &ids)?;
     let mut found: Vec<(usize, Warning)> = Vec::new();
     if let Some(Catalogue { file, rules }) = &catalogue {
+        let mut subjects = Subjects::of(machine);
         for rule in rules {
-            for ground in rule.premise.grounds(file, machine)? {
+            for ground in rule.premise.grounds(file, &mut subjects)? {
                 let (at, mut warning) = rule.warning(file, &ground, source)?;
                 warning.accepted = accepted.reason(&rule.id, &ground);
                 found.push((at, warning));
