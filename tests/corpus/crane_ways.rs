@@ -133,6 +133,27 @@ fn a_crane_stops_where_its_values_say_and_is_as_fast_as_they_say() {
     assert!(with(least - 150.0), "{least} mm/min less 150");
 }
 
+/// Where an envelope begins flat the axis gets nearest to the buffer before its first point that permits motion.
+#[test]
+fn a_crane_stops_before_the_first_point_too() {
+    let text = std::fs::read_to_string(root().join(CRANE)).expect("the crane");
+    let line = |text: &str, key: &str, first: &str, then: &str| -> String {
+        let at = text.find(key).expect("the key");
+        let end = at + text[at..].find('\n').expect("a line");
+        let rest = format!(", \"{then}\"").repeat(16);
+        format!("{}{key} = [\"{first}\"{rest}]{}", &text[..at], &text[end..])
+    };
+    let text = line(&text, "EZ_X ", "0 mm", "3000 mm");
+    let text = line(&text, "EZ_V ", "0 mm/min", "6000 mm/min");
+    let file: toml::Table = text.parse().expect("TOML");
+    let travel = Axis::new(&file, "X", 80.0 + 2.0 * 50.0 + 10.0 + 4000.0 * CYCLE / 2.0);
+    let least = travel.beyond().ceil();
+    let from = "beyond  = \"880 mm\"";
+    let with = |mm: f64| violated(&text, from, format!("beyond = \"{mm} mm\""), "aisle");
+    assert!(!with(least + 1.0), "{least} mm and 1 mm");
+    assert!(with(least - 1.0), "{least} mm less 1 mm");
+}
+
 /// Behind the end of its range, where SLP finds it, an axis may be as fast as V_MAX.
 #[test]
 fn an_axis_with_slp_stops_where_its_values_say() {

@@ -267,6 +267,18 @@ pub(super) fn examples() -> Vec<(&'static str, String, String)> {
         limits(auxiliary),
         limits(""),
     ));
+    let turning = |modulo: &str| {
+        let axis = format!("kind = \"rotary\", SMP650 = \"9 deg\", SMP670 = \"-9 deg\"{modulo}");
+        let guarantee = "pattern = \"travel_limits\", axes = [\"X\"], from = \"-99 deg\", to = \"99 deg\", reaches = \"1 rev/min\", within = \"2 s\"";
+        format!(
+            "axis.X = {{ {axis} }}\ngroup.G.axes = [\"X\"]\nguarantee.asked = {{ {guarantee} }}"
+        )
+    };
+    list.push((
+        "the position of the axis begins anew after SMP555",
+        turning(", SMP555 = \"360 deg\""),
+        turning(""),
+    ));
     list
 }
 

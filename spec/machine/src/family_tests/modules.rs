@@ -143,11 +143,11 @@ pub(super) fn examples() -> Vec<Example> {
 }
 
 /// Rules about a guarantee and an input or output of its axis.
-fn of_axes() -> [Example; 2] {
+fn of_axes() -> [Example; 3] {
     let way = "stop = \"STOP A\", within = \"1 s\", contact = \"INSE[5]\", travel = \"44.333 mm\"";
     let way = machine("stop_request", way, "");
     let free = "SVSS_DISABLE_INPUT = \"OUTSI[6]\", SS_DISABLE_INPUT";
-    let lock = "door = \"front\", unlock = \"OUTSE[5]\", standstill = \"INSI[1]\", after = \"any single fault of a channel or contact\"";
+    let lock = "door = \"front\", unlock = \"OUTSE[5]\", standstill = \"INSI[1]\", speed = \"20 mm/min\", after = \"any single fault of a channel or contact\"";
     let fed = "VELO_X_STATUS_OUTPUT = \"INSI[1]\", SS_DISABLE_INPUT";
     let lock = machine("guard_lock", lock, "").replace("SS_DISABLE_INPUT", fed);
     let delay = "SAFE_PULSE_DIS_TIME_BUSFAIL = \"12 ms\", PLC_CYCLE_MAX";
@@ -158,8 +158,13 @@ fn of_axes() -> [Example; 2] {
             way,
         ),
         (
-            "the lock waits for \"n < n_x\"",
+            "the lock waits for \"n < n_x\", which stays as it was",
             lock.replace("PLC_CYCLE_MAX", delay),
+            lock.clone(),
+        ),
+        (
+            "the lock waits for \"n < n_x\", and n_x is above",
+            lock.replace("20 mm/min", "19 mm/min"),
             lock,
         ),
     ]

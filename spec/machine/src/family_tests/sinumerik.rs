@@ -187,7 +187,7 @@ fn alarms_exist() {
 }
 
 /// For each rule a machine that violates it and one beside it that does not: what stands in the file after the family.
-pub(super) const EXAMPLES: [(&str, &str, &str); 73] = [
+pub(super) const EXAMPLES: [(&str, &str, &str); 74] = [
     (
         "the monitoring cycle is longer than 25 ms",
         "control.SYSCLOCK_CYCLE_TIME = \"5 ms\"\ncontrol.SAFETY_SYSCLOCK_TIME_RATIO = 6\naxis.X = { kind = \"linear\" }",
@@ -292,6 +292,11 @@ pub(super) const EXAMPLES: [(&str, &str, &str); 73] = [
         "the variables of an input connection are no row",
         "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_IN_ADDRESS = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x050003FE]\ncontrol.PROFISAFE_IN_ASSIGN = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]\naxis.X = { kind = \"linear\" }",
         "control.PROFISAFE_MASTER_ADDRESS = 0x050007D2\ncontrol.PROFISAFE_IN_ADDRESS = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x050003FE]\ncontrol.PROFISAFE_IN_ASSIGN = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1001]\naxis.X = { kind = \"linear\" }",
+    ),
+    (
+        "the data block in the PLC is that of axis",
+        "axis.X = { kind = \"linear\", machine_axis = 2 }\naxis.Y = { kind = \"linear\", machine_axis = 2 }",
+        "axis.X = { kind = \"linear\", machine_axis = 2 }\naxis.Y = { kind = \"linear\", machine_axis = 1 }",
     ),
     (
         "a variable belongs to two input connections",
