@@ -255,29 +255,25 @@ pub(super) fn examples() -> Vec<(&'static str, String, String)> {
         asked(device),
         asked(&format!("{device}, device_discrepancy = \"1 ms\"")),
     ));
-    let limits = |kind: &str| {
-        let axis = format!("kind = \"linear\", SMP650 = \"9 mm\"{kind}");
-        let guarantee = "pattern = \"travel_limits\", axes = [\"X\"], from = \"-99 mm\", to = \"99 mm\", reaches = \"1 mm/min\", within = \"2 s\"";
+    let limits = |axis: &str, way: &str, speed: &str| {
+        let guarantee = format!(
+            "pattern = \"travel_limits\", axes = [\"X\"], from = \"-99 {way}\", to = \"99 {way}\", reaches = \"1 {speed}\", within = \"2 s\""
+        );
         format!(
-            "axis.X = {{ {axis} }}\ngroup.G.axes = [\"X\"]\nguarantee.asked = {{ {guarantee} }}"
+            "axis.X = {{ {axis}, SMP650 = \"9 {way}\" }}\ngroup.G.axes = [\"X\"]\nguarantee.asked = {{ {guarantee} }}"
         )
     };
+    let linear = "kind = \"linear\"";
     list.push((
         "only an NC axis has a safely limited position",
-        limits(auxiliary),
-        limits(""),
+        limits(&format!("{linear}{auxiliary}"), "mm", "mm/min"),
+        limits(linear, "mm", "mm/min"),
     ));
-    let turning = |modulo: &str| {
-        let axis = format!("kind = \"rotary\", SMP650 = \"9 deg\", SMP670 = \"-9 deg\"{modulo}");
-        let guarantee = "pattern = \"travel_limits\", axes = [\"X\"], from = \"-99 deg\", to = \"99 deg\", reaches = \"1 rev/min\", within = \"2 s\"";
-        format!(
-            "axis.X = {{ {axis} }}\ngroup.G.axes = [\"X\"]\nguarantee.asked = {{ {guarantee} }}"
-        )
-    };
+    let rotary = "kind = \"rotary\"";
     list.push((
         "the position of the axis begins anew after SMP555",
-        turning(", SMP555 = \"360 deg\""),
-        turning(""),
+        limits(&format!("{rotary}, SMP555 = \"360 deg\""), "deg", "rev/min"),
+        limits(rotary, "deg", "rev/min"),
     ));
     list
 }
