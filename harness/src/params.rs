@@ -1,18 +1,17 @@
 //! The parameters of a family for whoever writes a machine file: all of them in a list, or one whole.
 
 use std::fmt::Write;
-use std::path::Path;
 
 use serde_json::{Value, json};
 use stillpoint_lang::catalogue::{Catalogue, requirement_id};
-use stillpoint_lang::diag::{Result, nearest};
+use stillpoint_lang::diag::nearest;
 use stillpoint_machine::data::{Allowed, Datum, FamilyData, Told};
 use stillpoint_machine::uses::{Readers, Uses};
 
 use crate::report::wrapped;
 
 /// The parameters of the family, and the arguments of its guarantees, that a user may call so. `Err`: what to write instead.
-pub fn find<'a>(data: &'a FamilyData, word: &str) -> std::result::Result<Vec<&'a Datum>, String> {
+pub fn find<'a>(data: &'a FamilyData, word: &str) -> Result<Vec<&'a Datum>, String> {
     let all = || data.parameters.iter().chain(&data.arguments);
     let found: Vec<&Datum> = all().filter(|d| d.is_called(word)).collect();
     if !found.is_empty() {
@@ -99,10 +98,7 @@ fn arguments(told: &Told) -> String {
 }
 
 /// One parameter whole, as text.
-///
-/// # Errors
-/// The files of the family are wrong.
-pub fn whole(folder: &Path, datum: &Datum, catalogue: &Catalogue) -> Result<String> {
+pub fn whole(readers: &Readers, datum: &Datum, catalogue: &Catalogue) -> String {
     let mut out = format!("{}: {}\n", datum.name, text(datum));
     let mut line = |head: &str, text: &str| {
         if !text.is_empty() {
@@ -121,7 +117,7 @@ pub fn whole(folder: &Path, datum: &Datum, catalogue: &Catalogue) -> Result<Stri
         warnings,
         patterns,
         systems,
-    } = Readers::load(folder)?.of(&datum.name);
+    } = readers.of(&datum.name);
     line("functions:", &functions.join("; "));
     line("decides:", &patterns.join(", "));
     let mut part = |head: &str, list: &[(String, String)]| {
@@ -136,7 +132,7 @@ pub fn whole(folder: &Path, datum: &Datum, catalogue: &Catalogue) -> Result<Stri
     part("warned of", &warnings);
     part("explored in", &systems);
     part("requirements", &sources(datum, catalogue));
-    Ok(out)
+    out
 }
 
 /// The requirements that it implements, with their place in the manual.
@@ -151,18 +147,15 @@ fn sources(datum: &Datum, catalogue: &Catalogue) -> Vec<(String, String)> {
 }
 
 /// A parameter as JSON, with what reads it if that is wanted.
-///
-/// # Errors
-/// The files of the family are wrong.
-pub fn to_json(datum: &Datum, read: Option<(&Path, &Catalogue)>) -> Result<Value> {
+pub fn to_json(datum: &Datum, read: Option<(&Readers, &Catalogue)>) -> Value {
     let allowed = |a: &Allowed| json!({ "unit": a.units, "range": a.range, "default": a.default });
     let mut out = json!({
         "name": datum.name, "table": datum.table, "manual": datum.manual, "text": datum.text,
         "elements": datum.elements, "kinds": datum.kinds, "linear": allowed(&datum.linear),
         "rotary": allowed(datum.rotary.as_ref().unwrap_or(&datum.linear)), "requirements": datum.ids,
     });
-    if let (Some((folder, catalogue)), Some(object)) = (read, out.as_object_mut()) {
-        let uses = Readers::load(folder)?.of(&datum.name);
+    if let (Some((readers, catalogue)), Some(object)) = (read, out.as_object_mut()) {
+        let uses = readers.of(&datum.name);
         let pairs = |list: &[(String, String)], names: [&str; 2]| -> Value {
             let one = |(a, b): &(String, String)| json!({ names[0]: a, names[1]: b });
             list.iter().map(one).collect()
@@ -180,7 +173,7 @@ pub fn to_json(datum: &Datum, read: Option<(&Path, &Catalogue)>) -> Result<Value
         ];
         object.extend(more.map(|(key, value)| (key.to_owned(), value)));
     }
-    Ok(out)
+    out
 }
 
 fn header(table: &str) -> String {

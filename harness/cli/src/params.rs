@@ -7,6 +7,7 @@ use serde_json::Value;
 use stillpoint_harness::params;
 use stillpoint_lang::catalogue;
 use stillpoint_lang::diag::nearest;
+use stillpoint_machine::uses::Readers;
 use stillpoint_machine::{data, families};
 
 use super::{Failure, emit};
@@ -30,7 +31,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let Some(word) = &arguments.name else {
         if arguments.json {
             let list = data.parameters.iter().map(|d| params::to_json(d, None));
-            emit_json(list.collect::<Result<Vec<Value>, _>>()?.into());
+            emit_json(list.collect::<Vec<Value>>().into());
         } else {
             emit(&params::list(&name, &data));
         }
@@ -47,17 +48,18 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let found = params::find(&data, word)
         .map_err(|help| Failure::Other(format!("{name} has no parameter '{word}'; {help}")))?;
     let catalogue = catalogue::load(folder.parent().unwrap_or(Path::new(".")))?;
+    let readers = Readers::load(&folder)?;
     if arguments.json {
-        let read = Some((folder.as_path(), &catalogue));
+        let read = Some((&readers, &catalogue));
         let list = found.into_iter().map(|d| params::to_json(d, read));
-        emit_json(list.collect::<Result<Vec<Value>, _>>()?.into());
+        emit_json(list.collect::<Vec<Value>>().into());
         return Ok(0);
     }
     for (n, datum) in found.into_iter().enumerate() {
         if n > 0 {
             emit("\n");
         }
-        emit(&params::whole(&folder, datum, &catalogue)?);
+        emit(&params::whole(&readers, datum, &catalogue));
     }
     Ok(0)
 }
