@@ -6,12 +6,12 @@ use std::time::Instant;
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::ir;
 use stillpoint_model::{
-    Cluster, Error, Form, Judgement, Limits, Options, Progress, Property, Report, System, Twin,
-    explore, explore_together,
+    Cluster, Error, Judgement, Limits, Options, Progress, Property, Report, System, explore,
+    explore_together,
 };
 
-use crate::keep::beside;
-use crate::outcome::{Evaluator, Outcome, Pair, label, undecided};
+use crate::outcome::{Evaluator, Outcome, Pair, undecided};
+use crate::pairs::Claim;
 use crate::stated;
 use crate::table::{Generated, Interpreted, properties};
 
@@ -92,14 +92,9 @@ pub(crate) fn judge<S: System, P: System>(
     }
     let mut pairs = BTreeMap::new();
     for (k, property) in bound.system.properties.iter().enumerate() {
-        let ir::Form::Independent {
-            observe,
-            of,
-            condition,
-        } = &property.form
-        else {
+        if !matches!(property.form, ir::Form::Independent { .. }) {
             continue;
-        };
+        }
         // One time limit for all of them.
         let limits = Limits {
             time: options
@@ -114,14 +109,10 @@ pub(crate) fn judge<S: System, P: System>(
         };
         let claim = Claim {
             bound,
-            observe,
-            of,
-            condition: *condition,
-            id: label(property),
+            property,
             options,
-            cluster,
         };
-        let (outcome, pair) = claim.explore(paired)?;
+        let (outcome, pair) = claim.explore(paired, cluster)?;
         report.complete &= outcome.complete;
         report.resumable &= outcome.resumable;
         report.seconds += outcome.seconds;
@@ -137,7 +128,7 @@ pub(crate) fn judge<S: System, P: System>(
 }
 
 /// Explores alone, or together with others.
-fn search<S: System>(
+pub(crate) fn search<S: System>(
     system: &S,
     properties: &[Property],
     options: &Options,
@@ -147,54 +138,5 @@ fn search<S: System>(
     match cluster {
         None => explore(system, properties, options, progress),
         Some(cluster) => explore_together(system, properties, options, progress, cluster),
-    }
-}
-
-/// A claim about pairs of runs that differ in some inputs only.
-struct Claim<'a> {
-    bound: &'a Bound,
-    observe: &'a [usize],
-    of: &'a [usize],
-    condition: Option<usize>,
-    id: String,
-    options: &'a Options,
-    cluster: Option<&'a Cluster>,
-}
-
-impl Claim<'_> {
-    /// Explores all such pairs; a counterexample's first run stays in the judgement.
-    fn explore<S: System>(self, system: &S) -> Result<(Report, Pair), Error> {
-        let inputs = &self.bound.inputs;
-        let size = |k: usize| {
-            u32::try_from(i64::from(inputs[k].1) - i64::from(inputs[k].0) + 1).unwrap_or(u32::MAX)
-        };
-        let listed = self.of.iter().map(|k| (*k as u32, size(*k))).collect();
-        let twin = Twin::new(system, listed, self.condition, self.observe.to_vec());
-        let form = Form::Always {
-            when: Some(Twin::<S>::BOTH),
-            then: Twin::<S>::AGREE,
-        };
-        let options = Options {
-            checkpoint: self
-                .options
-                .checkpoint
-                .as_ref()
-                .map(|c| beside(c, &self.id)),
-            ..self.options.clone()
-        };
-        let property = Property { id: self.id, form };
-        let mut report = search(&twin, &[property], &options, &mut (), self.cluster)?;
-        let mut pair = Pair {
-            states: report.states,
-            second: None,
-        };
-        for judgement in &mut report.properties {
-            if let Some(trace) = judgement.trace.take() {
-                let [first, second] = twin.split(&trace);
-                pair.second = Some(second);
-                judgement.trace = Some(first);
-            }
-        }
-        Ok((report, pair))
     }
 }

@@ -11,6 +11,7 @@ pub mod keep;
 mod known;
 pub mod lines;
 mod outcome;
+pub mod pairs;
 pub mod readings;
 pub mod reduce;
 mod staged;

@@ -4,7 +4,8 @@
 //! together is told by conditions, as further atoms of the system. The result is a system like any other.
 
 use stillpoint_lang::bind::{Bound, Bounds};
-use stillpoint_lang::ir::{BinaryOp, Form, Node, Param, Space, State, Stmt, Ty, Var};
+use stillpoint_lang::ir::{BinaryOp, Form, Node, Param, Property, Space, State, Stmt, Ty, Var};
+use stillpoint_lang::twice::twice;
 
 use crate::export::range_of;
 
@@ -57,6 +58,26 @@ impl Every {
         builder.inputs()?;
         builder.bounds()?;
         Ok(builder.every)
+    }
+
+    /// Two runs side by side with the same parameters, and the state variables that each has by itself, see
+    /// [`stillpoint_lang::twice`].
+    pub(super) fn twice(&self, property: &Property) -> Option<(Self, Vec<(usize, usize)>)> {
+        let both = twice(&self.bound, property)?;
+        let of_both = |atoms: &[usize]| -> Vec<usize> {
+            let second = atoms.iter().map(|k| k + both.atoms);
+            atoms.iter().copied().chain(second).collect()
+        };
+        let every = Every {
+            parameters: self.parameters.clone(),
+            own: self.own,
+            always: of_both(&self.always),
+            start: of_both(&self.start),
+            assumed: of_both(&self.assumed),
+            within: vec![None],
+            bound: both.bound,
+        };
+        Some((every, both.pairs))
     }
 
     /// The parameters with their ranges, and how many configurations there are at most.

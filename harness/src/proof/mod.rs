@@ -7,6 +7,7 @@ mod decide;
 mod every;
 mod help;
 mod monitor;
+mod pairs;
 mod question;
 mod shown;
 mod text;
@@ -17,7 +18,7 @@ use std::time::{Duration, Instant};
 use stillpoint_certify::proof::clause::Clause;
 use stillpoint_engine::{label, run as explore};
 use stillpoint_lang::bind::Bound;
-use stillpoint_lang::ir::Form;
+use stillpoint_lang::ir::{Form, Property};
 use stillpoint_model::proof::{Budget, Invariant, Lit, Netlist, Run, Spent};
 use stillpoint_model::{Interrupt, Judgement, Limits, Options, Trace, Verdict};
 
@@ -124,7 +125,9 @@ pub fn judge(bound: &Bound, settings: &Settings) -> Vec<Judged> {
             true,
         );
     } else {
-        judge.prove(Asked::new(bound));
+        judge.prove(Asked::new(bound), &|property, settings| {
+            pairs::judge(bound, property, settings)
+        });
     }
     judge.out
 }
@@ -134,7 +137,9 @@ pub fn judge(bound: &Bound, settings: &Settings) -> Vec<Judged> {
 pub fn judge_every(every: &Every, settings: &Settings) -> Vec<Judged> {
     let mut judge = Judge::new(&every.bound, settings);
     judge.leave_to_explorer = false;
-    judge.prove(Asked::every(every));
+    judge.prove(Asked::every(every), &|property, settings| {
+        pairs::judge_every(every, property, settings)
+    });
     judge.out
 }
 
@@ -162,6 +167,12 @@ impl<'a> Judge<'a> {
         }
     }
 
+    /// The time that is left.
+    fn left(&self) -> Option<Duration> {
+        let until = self.budget.until?;
+        Some(until.saturating_duration_since(Instant::now()))
+    }
+
     fn entry(&self, id: String, text: &str) -> Judged {
         Judged {
             id,
@@ -177,7 +188,12 @@ impl<'a> Judge<'a> {
         }
     }
 
-    fn prove(&mut self, asked: Result<Asked, Unsupported>) {
+    /// `of_both` judges a property about two runs.
+    fn prove(
+        &mut self,
+        asked: Result<Asked, Unsupported>,
+        of_both: &dyn Fn(&Property, &Settings) -> Option<Judged>,
+    ) {
         let asked = match asked {
             Ok(asked) => asked,
             Err(why) => return self.unsupported(&why.0),
@@ -185,13 +201,36 @@ impl<'a> Judge<'a> {
         let mut left = Vec::new();
         // What may take long comes last, so that a limit leaves less open.
         let mut order: Vec<usize> = (0..asked.questions.len()).collect();
-        order.sort_by_key(|k| matches!(asked.questions[*k], Question::Never { duty: Some(_), .. }));
+        order.sort_by_key(|k| match asked.questions[*k] {
+            Question::Twice => 2,
+            Question::Never { duty: Some(_), .. } => 1,
+            _ => 0,
+        });
         let mut told = BTreeMap::new();
         for k in order {
             let (property, question) = (&self.bound.system.properties[k], &asked.questions[k]);
             let begin = Instant::now();
             let mut entry = self.entry(label(property), &property.text);
             match question {
+                Question::Twice => {
+                    let settings = Settings {
+                        time: self.left(),
+                        ..self.settings.clone()
+                    };
+                    match of_both(property, &settings) {
+                        Some(both) if matches!(both.verdict, Verdict::Holds | Verdict::Vacuous) => {
+                            // Its names are those of both runs, which no certificate knows.
+                            (entry.verdict, entry.engine) = (both.verdict, both.engine);
+                            (entry.length, entry.proof) = (both.length, both.proof);
+                        }
+                        // There may be more pairs of runs than it is about: one that breaks it shows nothing.
+                        other => {
+                            let why = other.and_then(|both| both.reason);
+                            entry.reason = Some(why.unwrap_or("it is about two runs".to_owned()));
+                            left.push(k);
+                        }
+                    }
+                }
                 Question::None(why) => {
                     entry.reason = Some((*why).to_owned());
                     left.push(k);
@@ -391,7 +430,7 @@ impl<'a> Judge<'a> {
             limits: Limits {
                 memory: self.settings.memory,
                 threads: self.settings.threads,
-                time: (self.budget.until).map(|t| t.saturating_duration_since(Instant::now())),
+                time: self.left(),
             },
             interrupt: self.settings.interrupt.clone(),
             ..Options::default()
@@ -472,6 +511,8 @@ pub fn has_engine(form: &Form) -> bool {
     match form {
         Form::Always { .. } | Form::Reachable { .. } | Form::Unless { .. } => true,
         Form::LeadsTo { within, .. } => within.is_some(),
-        Form::CanAlwaysReach { .. } | Form::Independent { .. } => false,
+        // Where the pairs of runs are no more than it is about.
+        Form::Independent { .. } => true,
+        Form::CanAlwaysReach { .. } => false,
     }
 }

@@ -26,6 +26,8 @@ pub(super) enum Question {
     },
     /// What shows it.
     Seen(Lit),
+    /// It is about two runs.
+    Twice,
     /// No engine here has an answer, and why.
     None(&'static str),
 }
@@ -204,7 +206,7 @@ impl<'a> Asked<'a> {
             Form::CanAlwaysReach { .. } => {
                 Question::None("what can always be reached is not decided by the worst run")
             }
-            Form::Independent { .. } => Question::None("independence is about two runs"),
+            Form::Independent { .. } => Question::Twice,
         })
     }
 

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 /// States made one by one before stages are tried, or input vectors, and the input vectors of each state that are worth it.
 const TRIED: u64 = 512;
-const MANY: u64 = 1 << 18;
+const MANY: u64 = 1 << 14;
 const WORTH: u64 = 12;
 /// States in stages before they are judged, or nanoseconds of all threads together.
 const JUDGED: u64 = 1024;

@@ -30,6 +30,7 @@ pub mod symmetry;
 pub mod syntax;
 mod text;
 pub mod timers;
+pub mod twice;
 mod written;
 
 pub use spec::{Spec, toml_error};
