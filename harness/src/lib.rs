@@ -23,4 +23,5 @@ pub mod report;
 pub mod simulate;
 pub mod states;
 pub mod sweep;
+pub mod theorems;
 pub mod timing;

@@ -151,6 +151,7 @@ fn prove(file: &Path, choice: Choice, every: bool) -> (String, Vec<Vec<Judged>>)
         choice,
         depth: 30,
         time: None,
+        each: None,
         memory: None,
         threads: 1,
         interrupt: None,

@@ -106,6 +106,7 @@ fn settings() -> Settings {
         choice: Choice::Pdr,
         depth: 0,
         time: Some(LIMIT),
+        each: None,
         memory: None,
         threads: 1,
         interrupt: None,

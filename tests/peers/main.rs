@@ -14,4 +14,6 @@ mod reductions;
 mod rumur;
 mod spin;
 mod stages;
+mod theorems;
+mod two_runs;
 mod yardstick;

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use clap::Args;
@@ -10,6 +11,7 @@ use stillpoint_engine::check::{Settings, check, exit_status, summarise};
 use stillpoint_engine::keep::Keep;
 use stillpoint_engine::readings::compare;
 use stillpoint_engine::subject::{self, Subject};
+use stillpoint_engine::theorems::Theorems;
 use stillpoint_harness::certificate;
 use stillpoint_harness::proof::Which;
 use stillpoint_harness::report::{self, About};
@@ -89,9 +91,15 @@ pub struct Arguments {
         requires = "engine"
     )]
     depth: usize,
+    /// The most wall time for each property, with --engine
+    #[arg(long, value_name = "DURATION", value_parser = values::duration, requires = "engine")]
+    each: Option<Duration>,
     /// Judge for every value of these parameters at once: NAME over its whole range or NAME=LO..HI, several with commas, or `all`
     #[arg(long, value_name = "all|NAME[=LO..HI],...", value_parser = prove::every, requires = "engine")]
     every: Option<Which>,
+    /// Explore also what is a theorem of the machine's family, see `stillpoint theorems`
+    #[arg(long)]
+    all: bool,
     #[command(flatten)]
     warnings: Warnings,
     #[command(flatten)]
@@ -116,6 +124,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
             engine,
             every: arguments.every.as_ref(),
             depth: arguments.depth,
+            each: arguments.each,
             certificate: arguments.certificate.as_deref(),
             limits: &arguments.limits,
             json: arguments.json,
@@ -163,6 +172,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         interrupt: Some(interrupt.handle()),
         // A certificate is about the system that whoever checks it makes of the file.
         exact: arguments.certificate.is_some(),
+        theorems: theorems(arguments, &subject)?,
         ..Settings::default()
     };
     let start = Instant::now();
@@ -246,6 +256,20 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
             .map_err(Failure::Other)?;
     }
     Ok(arguments.warnings.status(subject.machine.as_ref(), status))
+}
+
+/// The theorems of the machine's family, where a check may cite them.
+fn theorems(arguments: &Arguments, subject: &Subject) -> Result<Option<Arc<Theorems>>, Failure> {
+    // A certificate, a checkpoint and other processes are about whole explorations.
+    let whole = arguments.all
+        || arguments.certificate.is_some()
+        || arguments.checkpoint.is_some()
+        || arguments.resume.is_some()
+        || arguments.cluster.is_asked();
+    match subject.machine.as_ref().filter(|_| !whole) {
+        Some(machine) => Ok(Some(Arc::new(Theorems::load(machine.family_folder())?))),
+        None => Ok(None),
+    }
 }
 
 /// For which values of a parameter the guarantees hold.

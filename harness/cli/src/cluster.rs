@@ -57,6 +57,11 @@ impl Drop for Started {
 }
 
 impl ClusterOptions {
+    /// Whether several processes are to explore.
+    pub fn is_asked(&self) -> bool {
+        self.processes.is_some() || self.join.is_some()
+    }
+
     /// Meets the other processes, if any are wanted. `options` are those a started process needs besides the file.
     pub fn meet(
         &self,

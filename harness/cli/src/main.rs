@@ -18,6 +18,7 @@ mod progress;
 mod prove;
 mod reaction;
 mod simulate;
+mod theorems;
 mod trace;
 mod validate;
 mod values;
@@ -97,6 +98,11 @@ enum Command {
         after_help = "Exit status: 0; 1 if a family declared complete has open core requirements, an id is in no catalogue or a delegation leads nowhere; 2 bad input.\n\nExample: stillpoint trace --html matrix.html"
     )]
     Trace(trace::Arguments),
+    /// The theorems of a family: what holds of its tables for every value of their parameters; proves them anew
+    #[command(
+        after_help = "Exit status: 0; 2 bad input, nothing was written.\n\nExamples:\n  stillpoint theorems spec/families/sinumerik-840d\n  stillpoint theorems spec/families/sinumerik-840d --prove"
+    )]
+    Theorems(theorems::Arguments),
     /// Check whether the values of a machine file are plausible, and tell which are unusual, without exploring anything
     #[command(
         after_help = "Exit status: 0; 1 with --deny-warnings if a value is unusual and not accepted; 2 bad input.\n\nExamples:\n  stillpoint validate spec/machines/milling-840d.toml\n  stillpoint validate spec/machines/milling-840d.toml --deny-warnings"
@@ -166,6 +172,7 @@ fn main() -> ExitCode {
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Trace(arguments) => trace::run(&arguments),
         Command::Params(arguments) => params::run(&arguments),
+        Command::Theorems(arguments) => theorems::run(&arguments),
         Command::Validate(arguments) => validate::run(&arguments),
         Command::New(arguments) => new::run(&arguments),
         Command::Pages(arguments) => pages::run(&arguments),

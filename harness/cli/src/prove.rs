@@ -1,7 +1,7 @@
 //! `stillpoint check --engine`.
 
 use std::path::Path;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use clap::ValueEnum;
 use stillpoint_engine::subject::{Subject, Task};
@@ -51,6 +51,8 @@ pub struct Asked<'a> {
     /// Parameters that are to have every value.
     pub every: Option<&'a Which>,
     pub depth: usize,
+    /// The most wall time for a property.
+    pub each: Option<Duration>,
     pub certificate: Option<&'a Path>,
     pub limits: &'a LimitOptions,
     pub json: bool,
@@ -129,6 +131,7 @@ pub fn run(subject: &mut Subject, asked: &Asked) -> Result<u8, Failure> {
             choice: asked.engine.choice(),
             depth: asked.depth,
             time: asked.limits.time.map(|t| t.saturating_sub(start.elapsed())),
+            each: asked.each,
             memory: asked.limits.memory,
             threads: asked.limits.threads,
             interrupt: Some(interrupt.handle()),

@@ -18,6 +18,7 @@ use crate::known::{Known, identity};
 use crate::outcome::{Outcome, Reductions, label};
 use crate::reduce;
 use crate::subject::{Subject, Task};
+use crate::theorems::{Cited, Theorems};
 
 /// How to check.
 #[derive(Debug, Clone, Default)]
@@ -48,6 +49,8 @@ pub struct Settings {
     pub exact: bool,
     /// What other checks have explored, which need not be explored again; what this one explores is kept there.
     pub known: Option<Arc<Known>>,
+    /// The theorems of the family, which need not be explored; none: all is explored.
+    pub theorems: Option<Arc<Theorems>>,
 }
 
 impl Settings {
@@ -82,6 +85,10 @@ pub struct Checked {
     pub outcome: Outcome,
     /// The same was explored before, in this check or another one, and the outcome is that one's.
     pub again: bool,
+    /// Whether anything was explored: else all is known from theorems.
+    pub explored: bool,
+    /// Properties that are theorems of the family, by number: their verdict is no exploration's.
+    pub cited: Vec<usize>,
     /// Rules that never fired: (name, why).
     pub unfired: Vec<(String, Unfired)>,
     /// Witnesses that the values of the machine exclude, by property number.
@@ -154,18 +161,24 @@ pub fn check(
             checkpoint: settings.keep.as_ref().map(|k| k.of(number, &task.bound)),
             ..Options::default()
         };
+        let mut cited = Cited::take(settings.theorems.as_deref(), task);
         let found = match loosely {
             true => explored_loosely(task, &options, settings, &known, progress)?,
             false => None,
         };
         options.limits = settings.limits(start);
-        let (outcome, again) = match found {
+        let (mut outcome, again) = match found {
             Some(found) => found,
+            None if cited.all => (Cited::outcome(task), false),
             None => explored(task, &options, settings, &known, progress)?,
         };
+        cited.put_back(task, &mut outcome);
         let task = &subject.tasks[number];
         let machine = subject.machine.is_some();
-        let unfired = unfired(task, &outcome);
+        let unfired = match cited.all {
+            true => Vec::new(),
+            false => unfired(task, &outcome),
+        };
         let alone = settings.cluster.as_ref().is_none_or(|c| c.process() == 0);
         let excluded = match machine && alone {
             true => judge
@@ -189,6 +202,8 @@ pub fn check(
             unfired,
             excluded,
             decisive: decided,
+            explored: !cited.all,
+            cited: cited.properties,
         });
         if settings.until == Until::Violated && violated {
             break;

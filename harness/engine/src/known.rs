@@ -4,12 +4,12 @@
 //! before. All that decides an outcome is the system with its values, texts included, and how it is explored; its SHA-256 stands for it.
 
 use std::collections::HashMap;
-use std::hash::{Hash, Hasher};
+use std::hash::Hash;
 use std::sync::{Mutex, PoisonError};
 
-use sha2::{Digest, Sha256};
 use stillpoint_lang::bind::Bound;
 
+use crate::digest::All;
 use crate::outcome::Outcome;
 
 /// Stands for all that decides an outcome.
@@ -41,21 +41,8 @@ impl Known {
 
 /// What decides the outcome of exploring a system in this way.
 pub(crate) fn identity(bound: &Bound, how: &impl Hash) -> Identity {
-    let mut all = All(Sha256::new());
+    let mut all = All::default();
     bound.hash(&mut all);
     how.hash(&mut all);
-    all.0.finalize().into()
-}
-
-/// Takes in all that is hashed: no two values that differ may stand for one another.
-struct All(Sha256);
-
-impl Hasher for All {
-    fn write(&mut self, bytes: &[u8]) {
-        self.0.update(bytes);
-    }
-
-    fn finish(&self) -> u64 {
-        unreachable!("the whole of it is asked for")
-    }
+    all.digest()
 }

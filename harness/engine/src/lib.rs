@@ -5,6 +5,7 @@
 
 pub mod check;
 mod cycles;
+mod digest;
 pub mod excluded;
 mod explore;
 pub mod keep;
@@ -18,6 +19,7 @@ mod staged;
 mod stated;
 pub mod subject;
 pub mod table;
+pub mod theorems;
 
 pub use cycles::{Cycle, lazy, replay};
 pub use explore::{run, run_together};

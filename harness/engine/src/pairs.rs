@@ -8,7 +8,7 @@ use stillpoint_lang::bind::Bound;
 use stillpoint_lang::ir;
 use stillpoint_lang::twice::{Twice, twice};
 use stillpoint_model::{
-    Cluster, Error, Form, Options, Property, Report, System, Trace, Twin, Verdict, explore,
+    Cluster, Error, Form, Options, Property, Report, System, Trace, Twin, Verdict, Way, explore,
 };
 
 use crate::explore::search;
@@ -38,6 +38,7 @@ impl Claim<'_> {
     ) -> Result<(Report, Pair), Error> {
         // What processes share, and what is kept for later, belongs to the pairs themselves.
         let alone = cluster.is_none() && self.options.checkpoint.is_none();
+        let alone = alone && self.options.way != Way::Single;
         let both = twice(self.bound, self.property);
         if let Some(both) = both.filter(|both| alone && both.bound.combinations() >= MANY) {
             let found = self.explore_twice(&both)?;

@@ -57,6 +57,8 @@ pub struct Settings {
     pub depth: usize,
     /// Wall time for everything.
     pub time: Option<Duration>,
+    /// Of that for each property.
+    pub each: Option<Duration>,
     /// Bytes for the explorer.
     pub memory: Option<u64>,
     /// Threads of the explorer.
@@ -147,8 +149,12 @@ struct Judge<'a> {
     bound: &'a Bound,
     settings: &'a Settings,
     budget: Budget,
+    /// When all of it ends.
+    until: Option<Instant>,
     /// Whether properties without an engine are left to the explorer.
     leave_to_explorer: bool,
+    /// Whether it is asked too if a value leaves its range.
+    ranges: bool,
     out: Vec<Judged>,
 }
 
@@ -161,8 +167,10 @@ impl<'a> Judge<'a> {
         Judge {
             bound,
             settings,
+            until: budget.until,
             budget,
             leave_to_explorer: settings.choice == Choice::Auto,
+            ranges: true,
             out: Vec::new(),
         }
     }
@@ -171,6 +179,14 @@ impl<'a> Judge<'a> {
     fn left(&self) -> Option<Duration> {
         let until = self.budget.until?;
         Some(until.saturating_duration_since(Instant::now()))
+    }
+
+    /// Begins with a property.
+    fn begin(&mut self) -> Instant {
+        let now = Instant::now();
+        let own = self.settings.each.map(|each| now + each);
+        self.budget.until = self.until.into_iter().chain(own).min();
+        now
     }
 
     fn entry(&self, id: String, text: &str) -> Judged {
@@ -209,7 +225,7 @@ impl<'a> Judge<'a> {
         let mut told = BTreeMap::new();
         for k in order {
             let (property, question) = (&self.bound.system.properties[k], &asked.questions[k]);
-            let begin = Instant::now();
+            let begin = self.begin();
             let mut entry = self.entry(label(property), &property.text);
             match question {
                 Question::Twice => {
@@ -251,8 +267,8 @@ impl<'a> Judge<'a> {
         }
         left.sort_unstable();
         self.out.extend(told.into_values());
-        if asked.translated.fault != Lit::FALSE {
-            let begin = Instant::now();
+        if self.ranges && asked.translated.fault != Lit::FALSE {
+            let begin = self.begin();
             let mut entry = self.entry(
                 "range".to_owned(),
                 "no assignment leaves the range of its variable",
@@ -267,6 +283,7 @@ impl<'a> Judge<'a> {
             entry.seconds = begin.elapsed().as_secs_f64();
             self.out.push(entry);
         }
+        self.budget.until = self.until;
         if self.leave_to_explorer && !left.is_empty() {
             self.explore(&left, false);
         }

@@ -7,7 +7,7 @@ use stillpoint_show::document::{Block, Inline, Tone};
 use stillpoint_show::graph::Graph;
 
 use super::document::{Control, code, ids, paragraph, table, words};
-use super::{counted, grouped, params, reduced, reduction, storage_name};
+use super::{counted, grouped, params, reduced, reduction, storage_name, theorems};
 
 /// One row of figures for each exploration, then its parameters and abstractions.
 pub(super) fn blocks(subject: &Subject, checked: &[Checked]) -> Vec<Block> {
@@ -20,7 +20,7 @@ pub(super) fn blocks(subject: &Subject, checked: &[Checked]) -> Vec<Block> {
             Evaluator::Interpreter => "interpreter",
         };
         let told = |text: String| {
-            words(match reduced(done) {
+            words(match reduced(done) || !done.explored {
                 true => "not told".to_owned(),
                 false => text,
             })
@@ -33,7 +33,10 @@ pub(super) fn blocks(subject: &Subject, checked: &[Checked]) -> Vec<Block> {
             words(grouped(report.transitions)),
             words(report.depth.to_string()),
             told(grouped(u128::from(report.absorbing))),
-            words(format!("{evaluator}, {}", storage_name(report.storage))),
+            words(match done.explored {
+                true => format!("{evaluator}, {}", storage_name(report.storage)),
+                false => "theorems of the family".to_owned(),
+            }),
             vec![match report.complete {
                 true => Inline::Badge(Tone::Good, "complete".to_owned()),
                 false => Inline::Badge(Tone::Open, "not complete".to_owned()),
@@ -74,7 +77,8 @@ fn about(n: usize, task: &Task, done: &Checked) -> Block {
         ("Abstraction: ", &task.abstractions),
         ("Warning: ", &task.bound.system.warnings),
     ];
-    for (kind, items) in kinds {
+    // A theorem is about the tables as they are.
+    for (kind, items) in kinds.into_iter().filter(|_| done.explored) {
         points.extend(
             items
                 .iter()
@@ -86,6 +90,10 @@ fn about(n: usize, task: &Task, done: &Checked) -> Block {
             "Not analysed: guards of {skipped} read too many values"
         ))
     }));
+    let cited = theorems(done);
+    if !cited.is_empty() {
+        points.push(words(format!("{cited}")));
+    }
     if let Some(reduction) = &done.outcome.reduction {
         points.extend(
             reduction::lines(&task.bound, reduction)

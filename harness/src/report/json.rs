@@ -42,7 +42,7 @@ pub fn to_json(subject: &Subject, checked: &[Checked], summaries: &[Summary]) ->
                         .then(|| j.trace.as_ref().map(|t| steps(t, &task.bound)));
                     json!({
                         "id": p.id, "index": p.index, "text": p.text, "requirements": p.req,
-                        "verdict": verdict_name(j.verdict), "length": j.length, "bound": j.bound, "fastest": j.fastest,
+                        "verdict": verdict_name(j.verdict), "theorem": done.cited.contains(&k), "length": j.length, "bound": j.bound, "fastest": j.fastest,
                         "excluded": done.excluded.get(&k).map(excluded),
                         "refuted": done.outcome.refuted.get(&k),
                         "counterexample": counterexample.flatten(), "lines": lines, "decided_by": by,
@@ -74,6 +74,7 @@ pub fn to_json(subject: &Subject, checked: &[Checked], summaries: &[Summary]) ->
                 "readings": task.bound.readings().into_iter().collect::<BTreeMap<_, _>>(),
                 "states": report.states, "transitions": number(report.transitions),
                 "depth": report.depth, "seconds": report.seconds, "again": done.again,
+                "explored": done.explored,
                 "complete": report.complete,
                 "resumable": report.resumable,
                 "absorbing": (!reduced(done)).then_some(report.absorbing), "memory": report.memory,

@@ -13,6 +13,8 @@ pub mod topics;
 pub mod values;
 mod words;
 
+use std::collections::BTreeMap;
+
 use stillpoint_engine::check::{Checked, Summary, Unfired, exit_status};
 use stillpoint_engine::subject::Subject;
 use stillpoint_engine::{replay, verdict_name};
@@ -55,6 +57,28 @@ fn counts(summaries: &[Summary]) -> String {
     let excluded = summaries.iter().filter(|s| s.excluded).count();
     let excluded = (excluded > 0).then(|| format!("{excluded} excluded by your values"));
     counts.chain(excluded).collect::<Vec<_>>().join(", ")
+}
+
+/// How many properties are known from theorems alone, wherever they are judged.
+fn cited(subject: &Subject, checked: &[Checked]) -> usize {
+    let mut all = BTreeMap::new();
+    for (task, done) in subject.tasks.iter().zip(checked) {
+        let properties = task.bound.system.properties.iter().enumerate();
+        for (k, property) in properties.filter(|_| task.guarantee.is_none()) {
+            *all.entry(&property.id).or_insert(true) &= done.cited.contains(&k);
+        }
+    }
+    all.into_values().filter(|cited| *cited).count()
+}
+
+/// What of a run was not explored, as a sentence; empty if all was.
+fn theorems(done: &Checked) -> String {
+    let all = done.outcome.report.properties.len();
+    match (done.cited.len(), done.explored) {
+        (0, _) => String::new(),
+        (_, false) => "not explored: all its properties are theorems of the family".to_owned(),
+        (n, true) => format!("{n} of its {all} properties are theorems of the family"),
+    }
 }
 
 /// The timing diagram of a run, with a mark at its last cycle.

@@ -19,14 +19,20 @@ pub(super) struct Row<'a> {
     pub(super) verdict: Verdict,
     /// Why the values of the machine exclude it: one sentence for each different reason.
     pub(super) excluded: Vec<String>,
-    /// The runs (from 1) with the same fastest reaction and the same least bound.
-    runs: Vec<(Times, Vec<usize>)>,
+    /// The runs (from 1) of which the same is told.
+    runs: Vec<(Told, Vec<usize>)>,
     /// The shortest run that shows it, if one was kept, and the number of its task.
     pub(super) witness: Option<(usize, &'a Trace)>,
 }
 
-/// Cycles of the fastest reaction and of the least bound.
-type Times = (Option<u64>, Option<u64>);
+/// What is told of a run beside the verdict.
+#[derive(PartialEq)]
+enum Told {
+    /// Cycles of the fastest reaction and of the least bound.
+    Times(Option<u64>, Option<u64>),
+    /// It is not explored there: it is a theorem.
+    Theorem,
+}
 
 /// Every property once, with the runs in which it was judged; what is violated or open comes first.
 pub(super) fn rows<'a>(subject: &'a Subject, checked: &'a [Checked]) -> Vec<Row<'a>> {
@@ -72,11 +78,14 @@ pub(super) fn rows<'a>(subject: &'a Subject, checked: &'a [Checked]) -> Vec<Row<
                     row.witness = Some((n, trace));
                 }
             }
-            let bound = (judged.fastest, judged.bound);
-            match row.runs.iter_mut().find(|(b, _)| *b == bound) {
+            let told = match done.cited.contains(&k) {
+                true => Told::Theorem,
+                false => Told::Times(judged.fastest, judged.bound),
+            };
+            match row.runs.iter_mut().find(|(other, _)| *other == told) {
                 Some((_, runs)) if runs.last() == Some(&(n + 1)) => {} // another copy of an index
                 Some((_, runs)) => runs.push(n + 1),
-                None => row.runs.push((bound, vec![n + 1])),
+                None => row.runs.push((told, vec![n + 1])),
             }
         }
     }
@@ -92,20 +101,21 @@ pub(super) fn rows<'a>(subject: &'a Subject, checked: &'a [Checked]) -> Vec<Row<
 impl Row<'_> {
     /// How fast it is and in which runs, if there are several: `in 1 to 3 cycles run 1, 2`.
     pub(super) fn told(&self, several: bool, between: &str) -> Vec<String> {
-        let told = self.runs.iter().map(|(bound, runs)| {
+        let told = self.runs.iter().map(|(told, runs)| {
             let list: Vec<String> = runs.iter().map(usize::to_string).collect();
             let runs = if several {
                 format!("run {}", list.join(", "))
             } else {
                 String::new()
             };
-            let cycles = match bound {
-                (Some(0), Some(0)) => "in the same cycle".to_owned(),
-                (Some(a), Some(b)) if a == b => format!("in {}", counted(*a, "cycle")),
-                (Some(a), Some(b)) => format!("in {a} to {b} cycles"),
-                (Some(a), None) => format!("in {} or more", counted(*a, "cycle")),
-                (None, Some(b)) => format!("within {}", counted(*b, "cycle")),
-                (None, None) => String::new(),
+            let cycles = match told {
+                Told::Theorem => "theorem".to_owned(),
+                Told::Times(Some(0), Some(0)) => "in the same cycle".to_owned(),
+                Told::Times(Some(a), Some(b)) if a == b => format!("in {}", counted(*a, "cycle")),
+                Told::Times(Some(a), Some(b)) => format!("in {a} to {b} cycles"),
+                Told::Times(Some(a), None) => format!("in {} or more", counted(*a, "cycle")),
+                Told::Times(None, Some(b)) => format!("within {}", counted(*b, "cycle")),
+                Told::Times(None, None) => String::new(),
             };
             let both = !cycles.is_empty() && !runs.is_empty();
             format!("{cycles}{}{runs}", if both { between } else { "" })

@@ -14,8 +14,8 @@ use stillpoint_model::{Storage, Verdict};
 use super::properties::{Row, rows};
 use super::words::wrapped;
 use super::{
-    counted, counts, diagram, findings, grouped, params, reduced, reduction, result, storage_name,
-    topics, values, word,
+    cited, counted, counts, diagram, findings, grouped, params, reduced, reduction, result,
+    storage_name, theorems, topics, values, word,
 };
 use crate::guarantees::{answers, time, unasked};
 
@@ -204,12 +204,16 @@ fn headline(out: &mut String, subject: &Subject, checked: &[Checked], summaries:
     let list = counts(summaries);
     let _ = writeln!(
         out,
-        "{}{}, {} states, {} transitions, {}, {seconds:.1} s",
+        "{}{}{}, {} states, {} transitions, {}, {seconds:.1} s",
         counted(summaries.len() as u64, "property"),
         if list.is_empty() {
             String::new()
         } else {
             format!(" ({list})")
+        },
+        match cited(subject, checked) {
+            0 => String::new(),
+            n => format!(", {n} of them theorems of the family"),
         },
         grouped(states),
         grouped(transitions),
@@ -237,7 +241,8 @@ fn run(out: &mut String, n: usize, task: &Task, done: &Checked, all: bool) {
     if !params.is_empty() && all {
         wrapped(out, "  with ", &params.join(", "));
     }
-    for item in &task.abstractions {
+    // A theorem is about the tables as they are.
+    for item in task.abstractions.iter().filter(|_| done.explored) {
         wrapped(out, "  abstraction: ", item);
     }
     let storage = storage_name(report.storage);
@@ -248,7 +253,11 @@ fn run(out: &mut String, n: usize, task: &Task, done: &Checked, all: bool) {
     if let Some(reduction) = &done.outcome.reduction {
         reduction::text(out, &task.bound, reduction);
     }
-    if !reduced(done) {
+    let cited = theorems(done);
+    if !cited.is_empty() {
+        wrapped(out, "  ", &cited);
+    }
+    if done.explored && !reduced(done) {
         let _ = writeln!(
             out,
             "  {} states of {} ({storage}, {evaluator}), {} transitions, depth {}, {} absorbing, {}",

@@ -73,16 +73,19 @@ fn kept_by_cycles(
         if budget.spent() {
             return Err(Spent);
         }
-        let mut given: Vec<Term> = (kept.iter())
+        let given: Vec<Term> = (kept.iter())
             .map(|lit| encoding.term(&mut solver, &graph, *lit))
             .collect();
         let after: Vec<Term> = (next.iter())
             .map(|lit| encoding.term(&mut solver, &graph, *lit))
             .collect();
+        // One assumption for all of them: each by itself would be a level of the search, begun anew with every restart.
         let switch = solver.variable();
+        for term in given {
+            solver.clause([!switch, term]);
+        }
         solver.clause([!switch].into_iter().chain(after.iter().map(|t| !*t)));
-        given.push(switch);
-        if !solver.solve(&given)? {
+        if !solver.solve(&[switch])? {
             break;
         }
         let holds: Vec<bool> = after.iter().map(|t| solver.value(*t)).collect();

@@ -32,10 +32,12 @@ impl Budget {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Spent;
 
-/// Asks for the time now and then only.
+/// Asks for the time now and then only. Once it has said that the time is over it says so for ever: a search that was ended asks once more
+/// before it gives up, and would begin anew.
 pub(super) struct Watch {
     budget: Budget,
     asked: Cell<u32>,
+    over: Cell<bool>,
 }
 
 impl Watch {
@@ -43,6 +45,7 @@ impl Watch {
         Watch {
             budget: budget.clone(),
             asked: Cell::new(0),
+            over: Cell::new(false),
         }
     }
 }
@@ -51,7 +54,9 @@ impl Callbacks for Watch {
     fn stop(&self) -> bool {
         let asked = self.asked.get().wrapping_add(1);
         self.asked.set(asked);
-        asked % 1024 == 0 && self.budget.spent()
+        let over = self.over.get() || (asked % 16 == 0 && self.budget.spent());
+        self.over.set(over);
+        over
     }
 }
 
@@ -175,6 +180,8 @@ impl Encoding {
 
 #[cfg(test)]
 mod tests {
+    use std::time::Duration;
+
     use super::*;
 
     #[test]
@@ -209,6 +216,23 @@ mod tests {
         }
     }
 
+    /// One pigeon more than there are holes: by resolution that takes long.
+    fn pigeons(solver: &mut Solver, holes: usize) {
+        let all: Vec<Vec<Term>> = (0..=holes)
+            .map(|_| (0..holes).map(|_| solver.variable()).collect())
+            .collect();
+        for pigeon in &all {
+            solver.clause(pigeon.iter().copied());
+        }
+        for (one, pigeon) in all.iter().enumerate() {
+            for other in &all[..one] {
+                for (a, b) in pigeon.iter().zip(other) {
+                    solver.clause([!*a, !*b]);
+                }
+            }
+        }
+    }
+
     #[test]
     fn a_spent_budget_gives_no_answer() {
         let budget = Budget {
@@ -216,20 +240,19 @@ mod tests {
             interrupt: None,
         };
         let mut solver = Solver::new(&budget);
-        // Nine pigeons in eight holes.
-        let holes: Vec<Vec<Term>> = (0..9)
-            .map(|_| (0..8).map(|_| solver.variable()).collect())
-            .collect();
-        for pigeon in &holes {
-            solver.clause(pigeon.iter().copied());
-        }
-        for (one, pigeon) in holes.iter().enumerate() {
-            for other in &holes[..one] {
-                for (a, b) in pigeon.iter().zip(other) {
-                    solver.clause([!*a, !*b]);
-                }
-            }
-        }
+        pigeons(&mut solver, 8);
+        assert_eq!(solver.solve(&[]), Err(Spent));
+    }
+
+    /// The search asks again after it was told to end: without an answer that stays it goes on, here for ever.
+    #[test]
+    fn a_search_ends_when_its_time_is_over() {
+        let budget = Budget {
+            until: Some(Instant::now() + Duration::from_millis(20)),
+            interrupt: None,
+        };
+        let mut solver = Solver::new(&budget);
+        pigeons(&mut solver, 14);
         assert_eq!(solver.solve(&[]), Err(Spent));
     }
 }

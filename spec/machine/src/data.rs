@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::AxisKind;
-use super::family::{Param, Quantity};
+use super::family::{Explore, Param, Quantity};
 use super::family_file;
 use super::guarantee::About;
 use stillpoint_lang::diag::Result;
@@ -81,6 +81,17 @@ pub struct Allowed {
     pub range: String,
     /// The value where a machine file gives none.
     pub default: String,
+}
+
+/// The systems that every machine of the family in `folder` is explored with, whatever it guarantees: the specification file and the
+/// system's name in it.
+///
+/// # Errors
+/// Everything that is wrong in its `family.toml`.
+pub fn explored(folder: &Path) -> Result<Vec<(String, String)>> {
+    let family = family_file::load(folder)?;
+    let pair = |explore: &Explore| (explore.file.clone(), explore.system.clone());
+    Ok(family.explore.iter().map(pair).collect())
 }
 
 /// Reads the data of the family in `folder`.

@@ -1,0 +1,281 @@
+//! Theorems of a family: properties of its tables that hold for every value of their parameters. They are shown once, by the proof
+//! engines, and stand in the family's `theorems.toml`; a check of a machine cites them.
+//!
+//! A theorem belongs to its tables: a fingerprint of all that decides it stands beside it. Where one rule, range or expression is another
+//! one, the theorem is none, and the property is explored.
+
+use std::collections::BTreeMap;
+use std::hash::Hash;
+use std::path::Path;
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+use stillpoint_lang::bind::Bound;
+use stillpoint_lang::diag::{Diagnostic, Result};
+use stillpoint_lang::ir::{Property, Stated, System};
+use stillpoint_lang::{files, toml_error};
+use stillpoint_model::{Judgement, Report, Storage, Verdict};
+
+use crate::digest::All;
+use crate::outcome::{Evaluator, Outcome, label, undecided};
+use crate::subject::Task;
+
+/// The file in a family's folder.
+pub const FILE: &str = "theorems.toml";
+
+/// What stands there for the ranges of all assignments, in the place of a property.
+pub const RANGE: &str = "range";
+
+/// The theorems of a family.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Theorems {
+    /// By the name of the system.
+    #[serde(default, rename = "system")]
+    pub systems: BTreeMap<String, OfSystem>,
+}
+
+/// The theorems about one system.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct OfSystem {
+    /// The specification file, in the family's folder.
+    pub file: String,
+    /// The options of readings that were chosen.
+    #[serde(default)]
+    pub readings: BTreeMap<String, String>,
+    /// What holds, first over the widest ranges.
+    #[serde(default)]
+    pub proved: Vec<Proved>,
+    /// By the label of a property the fingerprint of what decides it, where the engines have not proved it.
+    #[serde(default)]
+    pub open: BTreeMap<String, String>,
+}
+
+/// What holds for every value of some ranges.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Proved {
+    /// The parameters with their ranges, and how many configurations these are.
+    pub every: String,
+    /// Parameters of which not the whole documented range is meant: least and greatest value.
+    #[serde(default)]
+    pub within: BTreeMap<String, (i64, i64)>,
+    /// Wall time of all proofs, in seconds.
+    pub seconds: f64,
+    /// By the label of a property the fingerprint of what decides it.
+    pub holds: BTreeMap<String, String>,
+}
+
+impl Proved {
+    /// Whether the values of a system are among these.
+    fn covers(&self, bound: &Bound) -> bool {
+        let params = bound.system.params.iter().zip(&bound.values);
+        let mut named = params.filter(|(p, _)| p.reading.is_none());
+        named.all(|(param, value)| {
+            let name = param.var.name.split('[').next().unwrap_or_default();
+            let within = self.within.get(name);
+            within.is_none_or(|(lo, hi)| (*lo..=*hi).contains(&i64::from(*value)))
+        })
+    }
+}
+
+impl Theorems {
+    /// Reads the theorems of the family in `folder`; none if it has no such file.
+    ///
+    /// # Errors
+    /// A file that cannot be read or is not of this form.
+    pub fn load(folder: &Path) -> Result<Self> {
+        let path = folder.join(FILE);
+        if !files::is_file(&path) {
+            return Ok(Self::default());
+        }
+        let name = path.display().to_string();
+        let text = files::read_to_string(&path).map_err(|e| {
+            Diagnostic::new(&name, &Arc::from(""), None, format!("cannot be read: {e}"))
+                .help("write it anew: stillpoint theorems FAMILY")
+        })?;
+        toml::from_str(&text).map_err(|e| toml_error(&name, &Arc::from(text), &e).into())
+    }
+
+    /// The numbers of the properties of a system that are theorems, and whether it is one too that no value leaves its range.
+    pub fn of(&self, bound: &Bound) -> (Vec<usize>, bool) {
+        let system = &bound.system;
+        let Some(known) = self.systems.get(&system.name) else {
+            return (Vec::new(), false);
+        };
+        if bound.readings().into_iter().collect::<BTreeMap<_, _>>() != known.readings {
+            return (Vec::new(), false);
+        }
+        let tables = tables(system);
+        let covering: Vec<&Proved> = known.proved.iter().filter(|p| p.covers(bound)).collect();
+        let holds = |label: &str, property| {
+            let mut own = covering
+                .iter()
+                .filter_map(|proved| proved.holds.get(label))
+                .peekable();
+            own.peek().is_some() && {
+                let print = fingerprint(&tables, system, property);
+                own.any(|own| *own == print)
+            }
+        };
+        let properties = system.properties.iter().enumerate();
+        let cited = properties.filter(|(_, property)| {
+            property.stated == Stated::default() && holds(&label(property), Some(property))
+        });
+        (cited.map(|(k, _)| k).collect(), holds(RANGE, None))
+    }
+}
+
+/// What of a task need not be explored.
+pub(crate) struct Cited {
+    /// Its properties that are theorems, by number.
+    pub(crate) properties: Vec<usize>,
+    /// Whether there is nothing else to be known about it.
+    pub(crate) all: bool,
+    /// All properties of the task, while some are taken out.
+    whole: Vec<Property>,
+}
+
+impl Cited {
+    /// Takes out of a task what is known of it; its own guarantees never are.
+    pub(crate) fn take(theorems: Option<&Theorems>, task: &mut Task) -> Self {
+        let own = task.guarantee.is_some() || task.loose.is_some();
+        let known = theorems.filter(|_| !own).map(|all| all.of(&task.bound));
+        let (properties, range) = known.unwrap_or_default();
+        let list = &mut task.bound.system.properties;
+        let all = range && !list.is_empty() && properties.len() == list.len();
+        let mut whole = Vec::new();
+        if !properties.is_empty() {
+            let numbered = list.iter().enumerate();
+            let left = numbered.filter(|(k, _)| properties.binary_search(k).is_err());
+            let left = left.map(|(_, property)| property.clone()).collect();
+            whole = std::mem::replace(list, left);
+        }
+        Cited {
+            properties,
+            all,
+            whole,
+        }
+    }
+
+    /// The outcome of a task about which there is nothing else to be known: nothing is explored.
+    pub(crate) fn outcome(task: &Task) -> Outcome {
+        let report = Report {
+            states: 0,
+            transitions: 0,
+            depth: 0,
+            seconds: 0.0,
+            complete: true,
+            resumable: false,
+            coverage: vec![0; task.bound.system.rule_count()],
+            absorbing: 0,
+            absorbing_examples: Vec::new(),
+            memory: 0,
+            stored: 0,
+            storage: Storage::Bitmap,
+            index_space: 0,
+            faults: Vec::new(),
+            properties: Vec::new(),
+        };
+        Outcome {
+            report,
+            evaluator: Evaluator::Generated,
+            pairs: BTreeMap::new(),
+            refuted: BTreeMap::new(),
+            reduction: None,
+        }
+    }
+
+    /// Puts back what was taken out, with its verdict.
+    pub(crate) fn put_back(&mut self, task: &mut Task, outcome: &mut Outcome) {
+        if self.properties.is_empty() {
+            return;
+        }
+        let whole = std::mem::take(&mut self.whole);
+        let known = |k: &usize| self.properties.binary_search(k).is_ok();
+        let left: Vec<usize> = (0..whole.len()).filter(|k| !known(k)).collect();
+        let place = |k: &usize| left.get(*k).copied().unwrap_or(*k);
+        outcome.pairs = std::mem::take(&mut outcome.pairs)
+            .into_iter()
+            .map(|(k, pair)| (place(&k), pair))
+            .collect();
+        outcome.refuted = std::mem::take(&mut outcome.refuted)
+            .into_iter()
+            .map(|(k, why)| (place(&k), why))
+            .collect();
+        let mut judged = std::mem::take(&mut outcome.report.properties).into_iter();
+        let all = whole.iter().enumerate().map(|(k, property)| {
+            let other = if known(&k) { None } else { judged.next() };
+            other.unwrap_or_else(|| Judgement {
+                verdict: if known(&k) {
+                    Verdict::Holds
+                } else {
+                    Verdict::Inconclusive
+                },
+                ..undecided(property)
+            })
+        });
+        outcome.report.properties = all.collect();
+        task.bound.system.properties = whole;
+    }
+}
+
+/// Stands for all that decides what a system does, whatever the values of its parameters.
+pub struct Tables([u8; 32]);
+
+/// What decides what a system does.
+pub fn tables(system: &System) -> Tables {
+    let mut all = All::default();
+    for param in &system.params {
+        (
+            &param.var.name,
+            param.var.ty,
+            &param.var.lo,
+            &param.var.hi,
+            &param.reading,
+        )
+            .hash(&mut all);
+    }
+    for state in &system.states {
+        (
+            &state.var.name,
+            state.var.ty,
+            &state.var.lo,
+            &state.var.hi,
+            &state.init,
+        )
+            .hash(&mut all);
+    }
+    for input in &system.inputs {
+        (&input.name, input.ty, &input.lo, &input.hi).hash(&mut all);
+    }
+    for lazy in &system.lazies {
+        (lazy.ty, &lazy.value).hash(&mut all);
+    }
+    for instance in &system.instances {
+        (&instance.name, &instance.states).hash(&mut all);
+        for rule in &instance.rules {
+            (&rule.when, &rule.then).hash(&mut all);
+        }
+    }
+    Tables(all.digest())
+}
+
+/// Stands for all that decides whether a property of a system holds; without one, whether no value leaves its range.
+pub fn fingerprint(tables: &Tables, system: &System, property: Option<&Property>) -> String {
+    let mut all = All::default();
+    tables.0.hash(&mut all);
+    if let Some(property) = property {
+        (&property.id, property.index, &property.form).hash(&mut all);
+        let (atoms, observed) = property.form.expressions();
+        for (list, numbers) in [(&system.atoms, atoms), (&system.observed, observed)] {
+            numbers.iter().for_each(|k| (k, &list[*k]).hash(&mut all));
+        }
+    }
+    let bytes = all.digest();
+    bytes[..8]
+        .iter()
+        .map(|byte| format!("{byte:02x}"))
+        .collect()
+}

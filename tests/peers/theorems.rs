@@ -1,0 +1,290 @@
+//! The theorems of the families: they belong to the tables, are proved again, and are cited only where they are true of what is explored.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use stillpoint_engine::check::{Settings as CheckSettings, check, summarise};
+use stillpoint_engine::label;
+use stillpoint_engine::subject::{self, Readings};
+use stillpoint_engine::theorems::{Proved, RANGE, Theorems, fingerprint, tables};
+use stillpoint_harness::proof::{Choice, Every, Settings, Span, Which, judge_every};
+use stillpoint_harness::theorems::systems;
+use stillpoint_lang::Spec;
+use stillpoint_lang::bind::Bound;
+use stillpoint_lang::ir::{Form, Node, System};
+use stillpoint_model::Verdict;
+use stillpoint_tests::peer::each;
+
+/// Theorems that took longer together, in seconds, are proved again by the deep test.
+const QUICK: f64 = 1.0;
+
+const FAMILIES: [&str; 4] = [
+    "sinumerik-840d",
+    "heidenhain-fs",
+    "sinamics-s120",
+    "srm-fblocks",
+];
+
+fn folder(family: &str) -> PathBuf {
+    Path::new("../spec/families").join(family)
+}
+
+fn theorems(family: &str) -> Theorems {
+    Theorems::load(&folder(family)).unwrap_or_else(|e| panic!("{e}"))
+}
+
+fn bound(file: &Path, name: &str) -> Bound {
+    let spec = Spec::load(file).unwrap_or_else(|e| panic!("{e}"));
+    let system = spec.system(name, None).unwrap_or_else(|e| panic!("{e}"));
+    Bound::new(system, &BTreeMap::new(), &BTreeMap::new()).expect("the defaults fit")
+}
+
+/// The systems of a family's machines with their defaults.
+fn explored(family: &str) -> Vec<Bound> {
+    let list = systems(&folder(family)).unwrap_or_else(|e| panic!("{e}"));
+    list.iter().map(|(file, name)| bound(file, name)).collect()
+}
+
+#[test]
+fn every_theorem_belongs_to_its_tables() {
+    for family in FAMILIES {
+        let known = theorems(family);
+        let mut names = BTreeSet::new();
+        for bound in explored(family) {
+            let system = &bound.system;
+            let renew = format!(
+                "{}: cargo run --release -- theorems spec/families/{family} --prove",
+                system.name
+            );
+            names.insert(system.name.clone());
+            let own = known.systems.get(&system.name).expect(&renew);
+            let tables = tables(system);
+            let mut now: BTreeMap<String, String> = (system.properties.iter())
+                .map(|p| (label(p), fingerprint(&tables, system, Some(p))))
+                .collect();
+            now.insert(RANGE.to_owned(), fingerprint(&tables, system, None));
+            let proved = own.proved.iter().flat_map(|proved| &proved.holds);
+            let told: BTreeMap<String, String> = proved
+                .chain(&own.open)
+                .map(|(key, value)| (key.clone(), value.clone()))
+                .collect();
+            assert_eq!(told, now, "{renew}");
+            let readings: BTreeMap<_, _> = bound.readings().into_iter().collect();
+            assert_eq!(own.readings, readings, "{renew}");
+        }
+        let told: BTreeSet<String> = known.systems.keys().cloned().collect();
+        assert_eq!(told, names, "{family}");
+    }
+}
+
+/// Proves the theorems of some systems again; the answer is how many there were.
+fn prove_again(wanted: impl Fn(&Proved) -> bool + Sync, time: Duration) -> usize {
+    let mut work = Vec::new();
+    for family in FAMILIES {
+        let known = theorems(family);
+        for bound in explored(family) {
+            let own = known.systems.get(&bound.system.name);
+            let proved = own.into_iter().flat_map(|own| own.proved.clone());
+            work.extend(proved.filter(&wanted).map(|proved| (bound.clone(), proved)));
+        }
+    }
+    let counts = each(&work, |(bound, proved)| {
+        let mut bound = bound.clone();
+        let asked = |id: &String| proved.holds.contains_key(id);
+        bound.system.properties.retain(|p| asked(&label(p)));
+        let params = bound.system.params.iter().filter(|p| p.reading.is_none());
+        let spans = params.map(|param| {
+            let name = param
+                .var
+                .name
+                .split('[')
+                .next()
+                .unwrap_or_default()
+                .to_owned();
+            let values = proved.within.get(&name).copied();
+            Span { name, values }
+        });
+        let which = Which::Named(spans.collect());
+        let every = Every::new(&bound, &which).unwrap_or_else(|e| panic!("{e}"));
+        assert_eq!(every.text(), proved.every, "{}", bound.system.name);
+        let settings = Settings {
+            choice: Choice::Pdr,
+            depth: 0,
+            time: None,
+            each: Some(time),
+            memory: None,
+            threads: 1,
+            interrupt: None,
+        };
+        let judged = judge_every(&every, &settings);
+        for one in &judged {
+            if asked(&one.id) {
+                let context = format!("{} of {}: {:?}", one.id, bound.system.name, one.reason);
+                assert_eq!(one.verdict, Verdict::Holds, "{context}");
+            }
+        }
+        proved.holds.len()
+    });
+    counts.into_iter().sum()
+}
+
+#[test]
+fn quick_theorems_are_proved_again() {
+    let count = prove_again(|proved| proved.seconds < QUICK, Duration::from_secs(60));
+    println!("{count} proved again");
+    assert!(count >= 50, "{count}");
+}
+
+#[test]
+#[ignore = "deep: all theorems, an hour"]
+fn all_theorems_are_proved_again() {
+    let count = prove_again(|_| true, Duration::from_secs(600));
+    println!("{count} proved again");
+}
+
+/// Whatever is changed of what decides a property, it is a theorem no more.
+#[test]
+fn another_table_has_other_theorems() {
+    let known = theorems("sinumerik-840d");
+    let file = folder("sinumerik-840d").join("axis.toml");
+    let bound = bound(&file, "stop");
+    let (cited, range) = known.of(&bound);
+    assert!(cited.len() >= 20 && range, "{cited:?}");
+    let changes: [(&str, fn(&mut System)); 8] = [
+        ("guard", |s| {
+            let rule = &mut s.instances[3].rules[0];
+            rule.when = Node::Not(Box::new(rule.when.clone()));
+        }),
+        ("effect", |s| _ = s.instances[3].rules[1].then.pop()),
+        ("order", |s| s.instances[3].rules.swap(0, 1)),
+        ("range", |s| s.states[0].var.hi = Node::Const(0)),
+        ("start", |s| s.states[0].init = None),
+        ("input", |s| s.inputs[0].lo = Node::Const(1)),
+        ("name", |s| s.lazies[0].value = Node::Const(0)),
+        ("parameter", |s| s.params[0].var.hi = Node::Const(0)),
+    ];
+    for (what, change) in changes {
+        let mut other = bound.clone();
+        change(&mut other.system);
+        assert_eq!(known.of(&other), (Vec::new(), false), "{what}");
+    }
+    // The property itself: what it says, and what its expressions mean.
+    let number = cited[0];
+    let mut other = bound.clone();
+    other.system.properties[number].form = Form::Reachable { goal: 0 };
+    assert!(!known.of(&other).0.contains(&number));
+    let (atoms, _) = bound.system.properties[number].form.expressions();
+    let mut other = bound.clone();
+    other.system.atoms[atoms[0]] = Node::Const(1);
+    assert!(!known.of(&other).0.contains(&number));
+    // Another reading.
+    let reading = bound.system.readings.first().expect("it has readings");
+    let option = reading.options.last().expect("with options").clone();
+    let chosen = BTreeMap::from([(reading.id.clone(), option)]);
+    let other = Bound::new(bound.system.clone(), &BTreeMap::new(), &chosen).expect("an option");
+    assert_eq!(known.of(&other), (Vec::new(), false), "reading");
+}
+
+/// A machine's values outside the ranges of a proof: it is not cited.
+#[test]
+fn values_outside_the_ranges_are_not_covered() {
+    let mut seen = 0;
+    for family in FAMILIES {
+        let known = theorems(family);
+        for bound in explored(family) {
+            let own = known.systems.get(&bound.system.name);
+            let narrow = own.and_then(|own| own.proved.iter().find(|p| !p.within.is_empty()));
+            let Some(narrow) = narrow else {
+                continue;
+            };
+            let (name, (lo, hi)) = narrow.within.iter().next().expect("it is not empty");
+            let params = bound.system.params.iter();
+            let place = params
+                .clone()
+                .position(|p| p.var.name.split('[').next() == Some(name));
+            let mut inside = bound.clone();
+            for (param, value) in params.zip(&mut inside.values) {
+                let name = param.var.name.split('[').next().unwrap_or_default();
+                if let Some((lo, hi)) = narrow.within.get(name) {
+                    *value = i64::from(*value).clamp(*lo, *hi) as i32;
+                }
+            }
+            let mut outside = inside.clone();
+            let place = place.expect("a parameter of the system");
+            outside.values[place] = *hi as i32 + 1;
+            assert!(*lo <= i64::from(inside.values[place]));
+            let count = |bound: &Bound| {
+                let (properties, range) = known.of(bound);
+                properties.len() + usize::from(range)
+            };
+            let wide = count(&outside);
+            assert!(count(&inside) > wide, "{}: {name}", bound.system.name);
+            seen += 1;
+        }
+    }
+    assert!(seen > 0);
+}
+
+/// Checks a machine with and without the theorems of its family; the answer tells how many properties are known from them.
+fn compare(path: &str) -> usize {
+    let path = Path::new(path);
+    let mut subject = subject::load(path, &Readings::new()).unwrap_or_else(|e| panic!("{e}"));
+    let family = subject
+        .machine
+        .as_ref()
+        .expect("a machine")
+        .family_folder()
+        .to_owned();
+    let known = Theorems::load(&family).unwrap_or_else(|e| panic!("{e}"));
+    let mut with = CheckSettings {
+        theorems: Some(known.into()),
+        ..CheckSettings::default()
+    };
+    let citing = check(&mut subject, &with, &mut |_| Box::new(())).expect("it ends");
+    with.theorems = None;
+    let whole = check(&mut subject, &with, &mut |_| Box::new(())).expect("it ends");
+    for (task, (one, other)) in subject.tasks.iter().zip(citing.iter().zip(&whole)) {
+        let properties = task.bound.system.properties.iter().enumerate();
+        let judged = |done: &stillpoint_engine::check::Checked, k: usize| {
+            done.outcome.report.properties[k].verdict
+        };
+        for (k, property) in properties {
+            let context = format!("{}: {}", task.title, label(property));
+            match (judged(one, k), judged(other, k)) {
+                // With the values of this machine its condition cannot occur.
+                (Verdict::Holds, Verdict::Vacuous) if one.cited.contains(&k) => {}
+                (a, b) => assert_eq!(a, b, "{context}"),
+            }
+        }
+        assert!(one.explored || other.outcome.report.faults.is_empty());
+    }
+    let verdicts = |checked: &[stillpoint_engine::check::Checked]| -> Vec<_> {
+        let all = summarise(&subject, checked).into_iter();
+        let guarantees = all.filter(|summary| summary.guarantee);
+        guarantees
+            .map(|summary| (summary.id, summary.verdict))
+            .collect()
+    };
+    assert_eq!(verdicts(&citing), verdicts(&whole));
+    citing.iter().map(|done| done.cited.len()).sum()
+}
+
+#[test]
+fn a_machine_has_the_same_verdicts_without_theorems() {
+    let cited = compare("../spec/machines/feeder-s120.toml");
+    println!("{cited} cited");
+    assert!(cited > 0);
+}
+
+#[test]
+#[ignore = "deep: every shipped machine"]
+fn machines_have_the_same_verdicts_without_theorems() {
+    for path in std::fs::read_dir("../spec/machines").expect("shipped machines") {
+        let path = path.expect("an entry").path();
+        if path.extension().is_some_and(|e| e == "toml") {
+            let cited = compare(&path.display().to_string());
+            println!("{}: {cited} cited", path.display());
+        }
+    }
+}
