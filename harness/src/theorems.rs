@@ -10,10 +10,11 @@ use stillpoint_engine::subject::{self, Readings, Subject};
 use stillpoint_engine::theorems::{OfSystem, Proved, RANGE, Theorems, fingerprint, tables};
 use stillpoint_lang::diag::{Diagnostics, Result};
 use stillpoint_lang::files;
+use stillpoint_lang::ir::{Form, System};
 use stillpoint_model::{Interrupt, Verdict};
 
 use crate::proof::{Choice, Every, Settings, Span, Which, judge_every};
-use crate::report::wrapped;
+use crate::report::{counted, wrapped};
 
 /// What stands above the theorems.
 const HEAD: &str = "# Properties that hold for every value of the parameters. Written by `stillpoint theorems`; `check` of a machine cites them.
@@ -98,6 +99,18 @@ impl From<Diagnostics> for Failed {
     }
 }
 
+/// The fingerprints of all that can be a theorem: a witness is a run of some machine, and says nothing about all of them.
+pub fn prints(system: &System) -> BTreeMap<String, String> {
+    let tables = tables(system);
+    let properties = system.properties.iter();
+    let claims = properties.filter(|p| !matches!(p.form, Form::Reachable { .. }));
+    let mut prints: BTreeMap<String, String> = claims
+        .map(|p| (label(p), fingerprint(&tables, system, Some(p))))
+        .collect();
+    prints.insert(RANGE.to_owned(), fingerprint(&tables, system, None));
+    prints
+}
+
 /// A parameter of more values than these is proved for the first few of them, where all of them are too many.
 const MANY: i64 = 1 << 20;
 const FEW: i64 = 15;
@@ -112,11 +125,7 @@ fn of_system(
 ) -> std::result::Result<OfSystem, Failed> {
     let bound = &subject.tasks[0].bound;
     let system = &bound.system;
-    let tables = tables(system);
-    let mut prints: BTreeMap<String, String> = (system.properties.iter())
-        .map(|p| (label(p), fingerprint(&tables, system, Some(p))))
-        .collect();
-    prints.insert(RANGE.to_owned(), fingerprint(&tables, system, None));
+    let prints = prints(system);
     let name = file.file_name().unwrap_or_default();
     let mut own = OfSystem {
         file: name.to_string_lossy().into_owned(),
@@ -286,6 +295,15 @@ pub fn told(theorems: &Theorems) -> String {
         }
         out.push('\n');
     }
+    let systems = theorems.systems.values();
+    let proved = systems.clone().flat_map(|own| &own.proved);
+    let _ = writeln!(
+        out,
+        "{} about {}; {} not proved",
+        counted(proved.map(|p| p.holds.len() as u64).sum(), "theorem"),
+        counted(theorems.systems.len() as u64, "system"),
+        systems.map(|own| own.open.len()).sum::<usize>()
+    );
     out
 }
 

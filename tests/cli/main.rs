@@ -29,4 +29,5 @@ mod stacker;
 mod structured_text;
 mod survival;
 mod terminal;
+mod theorems;
 mod values;

@@ -7,9 +7,9 @@ use std::time::Duration;
 use stillpoint_engine::check::{Settings as CheckSettings, check, summarise};
 use stillpoint_engine::label;
 use stillpoint_engine::subject::{self, Readings};
-use stillpoint_engine::theorems::{Proved, RANGE, Theorems, fingerprint, tables};
+use stillpoint_engine::theorems::{Proved, Theorems};
 use stillpoint_harness::proof::{Choice, Every, Settings, Span, Which, judge_every};
-use stillpoint_harness::theorems::systems;
+use stillpoint_harness::theorems::{prints, systems};
 use stillpoint_lang::Spec;
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::ir::{Form, Node, System};
@@ -59,17 +59,12 @@ fn every_theorem_belongs_to_its_tables() {
             );
             names.insert(system.name.clone());
             let own = known.systems.get(&system.name).expect(&renew);
-            let tables = tables(system);
-            let mut now: BTreeMap<String, String> = (system.properties.iter())
-                .map(|p| (label(p), fingerprint(&tables, system, Some(p))))
-                .collect();
-            now.insert(RANGE.to_owned(), fingerprint(&tables, system, None));
             let proved = own.proved.iter().flat_map(|proved| &proved.holds);
             let told: BTreeMap<String, String> = proved
                 .chain(&own.open)
                 .map(|(key, value)| (key.clone(), value.clone()))
                 .collect();
-            assert_eq!(told, now, "{renew}");
+            assert_eq!(told, prints(system), "{renew}");
             let readings: BTreeMap<_, _> = bound.readings().into_iter().collect();
             assert_eq!(own.readings, readings, "{renew}");
         }
@@ -137,7 +132,7 @@ fn quick_theorems_are_proved_again() {
 }
 
 #[test]
-#[ignore = "deep: all theorems, an hour"]
+#[ignore = "deep: all theorems, a quarter of an hour"]
 fn all_theorems_are_proved_again() {
     let count = prove_again(|_| true, Duration::from_secs(600));
     println!("{count} proved again");
@@ -219,11 +214,12 @@ fn values_outside_the_ranges_are_not_covered() {
                 properties.len() + usize::from(range)
             };
             let wide = count(&outside);
-            assert!(count(&inside) > wide, "{}: {name}", bound.system.name);
-            seen += 1;
+            // A property that records its bound is no citation.
+            assert!(count(&inside) >= wide, "{}: {name}", bound.system.name);
+            seen += usize::from(count(&inside) > wide);
         }
     }
-    assert!(seen > 0);
+    assert!(seen >= 10, "{seen}");
 }
 
 /// Checks a machine with and without the theorems of its family; the answer tells how many properties are known from them.
