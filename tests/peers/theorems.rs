@@ -138,6 +138,8 @@ fn all_theorems_are_proved_again() {
     println!("{count} proved again");
 }
 
+type Change = fn(&mut System);
+
 /// Whatever is changed of what decides a property, it is a theorem no more.
 #[test]
 fn another_table_has_other_theorems() {
@@ -146,7 +148,7 @@ fn another_table_has_other_theorems() {
     let bound = bound(&file, "stop");
     let (cited, range) = known.of(&bound);
     assert!(cited.len() >= 20 && range, "{cited:?}");
-    let changes: [(&str, fn(&mut System)); 8] = [
+    let changes: [(&str, Change); 8] = [
         ("guard", |s| {
             let rule = &mut s.instances[3].rules[0];
             rule.when = Node::Not(Box::new(rule.when.clone()));

@@ -92,7 +92,7 @@ fn about(n: usize, task: &Task, done: &Checked) -> Block {
     }));
     let cited = theorems(done);
     if !cited.is_empty() {
-        points.push(words(format!("{cited}")));
+        points.push(words(cited));
     }
     if let Some(reduction) = &done.outcome.reduction {
         points.extend(

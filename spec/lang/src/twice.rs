@@ -50,15 +50,14 @@ pub fn twice(bound: &Bound, property: &Property) -> Option<Twice> {
         indexed: false,
     };
     let mut out = bound.clone();
-    let mut next = out.system.states.len() as u32;
-    for place in second.states.iter_mut().flatten() {
+    let own = second.states.iter_mut().flatten();
+    for (next, place) in (system.states.len() as u32..).zip(own) {
         let k = std::mem::replace(place, next) as usize;
         let mut state = system.states[k].clone();
         state.var.name = format!("{}'", state.var.name);
         out.system.states.push(state);
         out.states.push(bound.states[k]);
         out.initial.push(bound.initial[k]);
-        next += 1;
     }
     // The inputs of the second run are named after what the first run has settled.
     let holds = condition.map(|k| system.atoms[k].clone());
