@@ -1,6 +1,6 @@
 //! Proves the theorems of a family: every property of the systems that its machines are explored with, for every value of the parameters.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -48,28 +48,21 @@ pub fn systems(folder: &Path) -> Result<Vec<(PathBuf, String)>> {
     Ok(list)
 }
 
-/// The theorems of a family as they are now: those of `known` that still belong to their tables, and what can be proved of the others.
-/// `told` gets a line for each system that was asked.
+/// Proves what of the theorems of a family belongs to other tables by now. `told` gets a line for each system that was asked, `keep` all
+/// theorems after each of them: what was proved before something ends it is not lost.
 ///
 /// # Errors
-/// Data that cannot be read, a certificate that cannot be written.
+/// Data that cannot be read, theorems that cannot be kept.
 pub fn prove(
     folder: &Path,
     known: &Theorems,
     proving: &Proving,
     told: &mut dyn FnMut(&str),
-) -> std::result::Result<Theorems, Failed> {
-    let mut all = Theorems::default();
+    keep: &mut dyn FnMut(&Theorems) -> std::result::Result<(), String>,
+) -> std::result::Result<(), Failed> {
+    let mut all = known.clone();
+    let mut names = BTreeSet::new();
     for (file, name) in systems(folder)? {
-        if !proving.systems.is_empty() && !proving.systems.contains(&name) {
-            let kept = known.systems.iter();
-            let kept = kept.filter(|(full, own)| {
-                full.rsplit('/').next() == Some(&name) && file.ends_with(&own.file)
-            });
-            all.systems
-                .extend(kept.map(|(full, own)| (full.clone(), own.clone())));
-            continue;
-        }
         let mut subject = subject::load(&file, &Readings::new())?;
         let wanted =
             |task: &subject::Task| task.bound.system.name.rsplit('/').next() == Some(&name);
@@ -77,12 +70,24 @@ pub fn prove(
         let Some(task) = subject.tasks.first() else {
             continue;
         };
-        let name = task.bound.system.name.clone();
-        let known = known.systems.get(&name);
+        let full = task.bound.system.name.clone();
+        names.insert(full.clone());
+        if !proving.systems.is_empty() && !proving.systems.contains(&name) {
+            continue;
+        }
+        let known = all.systems.get(&full);
         let own = of_system(&subject, &file, known, proving, told)?;
-        all.systems.insert(name, own);
+        if known != Some(&own) {
+            all.systems.insert(full, own);
+            keep(&all).map_err(Failed::Other)?;
+        }
     }
-    Ok(all)
+    let before = all.systems.len();
+    all.systems.retain(|name, _| names.contains(name));
+    match all.systems.len() == before {
+        true => Ok(()),
+        false => keep(&all).map_err(Failed::Other),
+    }
 }
 
 /// Why nothing is proved.
@@ -215,7 +220,7 @@ fn proved(
     let judged = judge_every(&every, &settings);
     if proving.interrupt.as_ref().is_some_and(Interrupt::is_raised) {
         return Err(Failed::Other(
-            "ended from outside; nothing was written".to_owned(),
+            "ended from outside; what was proved before is written".to_owned(),
         ));
     }
     let mut proved = Proved {
@@ -295,16 +300,20 @@ pub fn told(theorems: &Theorems) -> String {
         }
         out.push('\n');
     }
+    let _ = writeln!(out, "{}", count(theorems));
+    out
+}
+
+/// How many theorems there are, and how many properties are not proved.
+pub fn count(theorems: &Theorems) -> String {
     let systems = theorems.systems.values();
     let proved = systems.clone().flat_map(|own| &own.proved);
-    let _ = writeln!(
-        out,
+    format!(
         "{} about {}; {} not proved",
         counted(proved.map(|p| p.holds.len() as u64).sum(), "theorem"),
         counted(theorems.systems.len() as u64, "system"),
         systems.map(|own| own.open.len()).sum::<usize>()
-    );
-    out
+    )
 }
 
 /// Whether a folder is that of a family.

@@ -6,7 +6,7 @@ use std::time::Duration;
 use clap::Args;
 use stillpoint_engine::theorems::{FILE, Theorems};
 use stillpoint_harness::export::write_atomically;
-use stillpoint_harness::theorems::{Failed, Proving, is_family, prove, text, told};
+use stillpoint_harness::theorems::{Failed, Proving, count, is_family, prove, text, told};
 
 use super::interrupt::Interruptible;
 use super::{Failure, emit, show, values};
@@ -50,16 +50,17 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         systems: arguments.system.clone(),
         interrupt: Some(interrupt.handle()),
     };
-    let all = prove(folder, &known, &proving, &mut |line| {
-        emit(&format!("{line}\n"))
-    })
-    .map_err(|e| match e {
+    let path = folder.join(FILE);
+    let mut keep = |all: &Theorems| {
+        write_atomically(&path, &text(all))
+            .map_err(|e| format!("{} cannot be written: {e}", path.display()))
+    };
+    let mut line = |line: &str| emit(&format!("{line}\n"));
+    prove(folder, &known, &proving, &mut line, &mut keep).map_err(|e| match e {
         Failed::Input(found) => Failure::Input(found),
         Failed::Other(message) => Failure::Other(message),
     })?;
-    let path = folder.join(FILE);
-    write_atomically(&path, &text(&all))
-        .map_err(|e| Failure::Other(format!("{} cannot be written: {e}", path.display())))?;
-    emit(&format!("{} written\n", path.display()));
+    let now = Theorems::load(folder)?;
+    emit(&format!("{}: {}\n", path.display(), count(&now)));
     Ok(0)
 }
