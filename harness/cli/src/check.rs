@@ -260,8 +260,9 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
 
 /// The theorems of the machine's family, where a check may cite them.
 fn theorems(arguments: &Arguments, subject: &Subject) -> Result<Option<Arc<Theorems>>, Failure> {
-    // A certificate, a checkpoint and other processes are about whole explorations.
+    // A certificate, a checkpoint and other processes are about whole explorations; what a reading changes is told of two of them.
     let whole = arguments.all
+        || arguments.readings.iter().any(|reading| reading == "all")
         || arguments.certificate.is_some()
         || arguments.checkpoint.is_some()
         || arguments.resume.is_some()
