@@ -262,7 +262,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
 fn theorems(arguments: &Arguments, subject: &Subject) -> Result<Option<Arc<Theorems>>, Failure> {
     // A certificate, a checkpoint and other processes are about whole explorations; what a reading changes is told of two of them.
     let whole = arguments.all
-        || arguments.readings.iter().any(|reading| reading == "all")
+        || values::readings(&arguments.readings).is_ok_and(|choice| choice.all)
         || arguments.certificate.is_some()
         || arguments.checkpoint.is_some()
         || arguments.resume.is_some()
