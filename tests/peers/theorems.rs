@@ -15,6 +15,7 @@ use stillpoint_lang::bind::Bound;
 use stillpoint_lang::ir::{Form, Node, System};
 use stillpoint_model::Verdict;
 use stillpoint_tests::peer::each;
+use stillpoint_tests::root;
 
 /// Theorems that took longer together, in seconds, are proved again by the deep test.
 const QUICK: f64 = 1.0;
@@ -27,7 +28,7 @@ const FAMILIES: [&str; 4] = [
 ];
 
 fn folder(family: &str) -> PathBuf {
-    Path::new("../spec/families").join(family)
+    root().join("spec/families").join(family)
 }
 
 fn theorems(family: &str) -> Theorems {
@@ -225,8 +226,7 @@ fn values_outside_the_ranges_are_not_covered() {
 }
 
 /// Checks a machine with and without the theorems of its family; the answer tells how many properties are known from them.
-fn compare(path: &str) -> usize {
-    let path = Path::new(path);
+fn compare(path: &Path) -> usize {
     let mut subject = subject::load(path, &Readings::new()).unwrap_or_else(|e| panic!("{e}"));
     let family = subject
         .machine
@@ -270,7 +270,7 @@ fn compare(path: &str) -> usize {
 
 #[test]
 fn a_machine_has_the_same_verdicts_without_theorems() {
-    let cited = compare("../spec/machines/feeder-s120.toml");
+    let cited = compare(&root().join("spec/machines/feeder-s120.toml"));
     println!("{cited} cited");
     assert!(cited > 0);
 }
@@ -278,10 +278,10 @@ fn a_machine_has_the_same_verdicts_without_theorems() {
 #[test]
 #[ignore = "deep: every shipped machine"]
 fn machines_have_the_same_verdicts_without_theorems() {
-    for path in std::fs::read_dir("../spec/machines").expect("shipped machines") {
+    for path in std::fs::read_dir(root().join("spec/machines")).expect("shipped machines") {
         let path = path.expect("an entry").path();
         if path.extension().is_some_and(|e| e == "toml") {
-            let cited = compare(&path.display().to_string());
+            let cited = compare(&path);
             println!("{}: {cited} cited", path.display());
         }
     }
