@@ -243,7 +243,8 @@ impl<'a> Judge<'a> {
                         // There may be more pairs of runs than it is about: one that breaks it shows nothing.
                         other => {
                             let why = other.and_then(|both| both.reason);
-                            entry.reason = Some(why.unwrap_or("independence is about two runs".to_owned()));
+                            entry.reason =
+                                Some(why.unwrap_or("independence is about two runs".to_owned()));
                             left.push(k);
                         }
                     }
