@@ -93,7 +93,7 @@ impl Theorems {
         let name = path.display().to_string();
         let text = files::read_to_string(&path).map_err(|e| {
             Diagnostic::new(&name, &Arc::from(""), None, format!("cannot be read: {e}"))
-                .help("write it anew: stillpoint theorems FAMILY")
+                .help("write it anew: stillpoint theorems FAMILY --prove")
         })?;
         toml::from_str(&text).map_err(|e| toml_error(&name, &Arc::from(text), &e).into())
     }
