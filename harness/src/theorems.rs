@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 use stillpoint_engine::label;
 use stillpoint_engine::subject::{self, Readings, Subject};
 use stillpoint_engine::theorems::{OfSystem, Proved, RANGE, Theorems, fingerprint, tables};
+use stillpoint_lang::bind::Bound;
 use stillpoint_lang::diag::{Diagnostics, Result};
 use stillpoint_lang::files;
 use stillpoint_lang::ir::{Form, System};
@@ -59,7 +60,7 @@ pub fn prove(
     proving: &Proving,
     told: &mut dyn FnMut(&str),
     keep: &mut dyn FnMut(&Theorems) -> std::result::Result<(), String>,
-) -> std::result::Result<(), Failed> {
+) -> std::result::Result<Theorems, Failed> {
     let mut all = known.clone();
     let mut names = BTreeSet::new();
     for (file, name) in systems(folder)? {
@@ -84,18 +85,20 @@ pub fn prove(
     }
     let before = all.systems.len();
     all.systems.retain(|name, _| names.contains(name));
-    match all.systems.len() == before {
-        true => Ok(()),
-        false => keep(&all).map_err(Failed::Other),
+    if all.systems.len() < before {
+        keep(&all).map_err(Failed::Other)?;
     }
+    Ok(all)
 }
 
-/// Why nothing is proved.
+/// Why not all is proved.
 pub enum Failed {
     /// Data of the family.
     Input(Diagnostics),
     /// One sentence.
     Other(String),
+    /// Ended from outside: what was proved before is kept.
+    Ended,
 }
 
 impl From<Diagnostics> for Failed {
@@ -155,7 +158,7 @@ fn of_system(
     let few = few.filter_map(|param| {
         let (lo, hi) = (bound.constant(&param.var.lo), bound.constant(&param.var.hi));
         (hi - lo >= MANY).then(|| {
-            let name = param.var.name.split('[').next().unwrap_or_default();
+            let name = param.var.array();
             (name.to_owned(), (lo, lo + FEW))
         })
     });
@@ -167,6 +170,18 @@ fn of_system(
         proved(subject, &mut own, few, proving, told)?;
     }
     Ok(own)
+}
+
+/// All parameters of a system, each `within` its range there or over the whole documented one.
+pub fn ranges(bound: &Bound, within: &BTreeMap<String, (i64, i64)>) -> Which {
+    let params = bound.system.params.iter();
+    let params = params.filter(|param| param.reading.is_none());
+    let spans = params.map(|param| {
+        let name = param.var.array().to_owned();
+        let values = within.get(&name).copied();
+        Span { name, values }
+    });
+    Which::Named(spans.collect())
 }
 
 /// Tries what is open for every value of the parameters, some of them `within` these ranges.
@@ -182,24 +197,7 @@ fn proved(
     let open = |label: &String| own.open.contains_key(label);
     task.bound.system.properties.retain(|p| open(&label(p)));
     let system = task.bound.system.name.clone();
-    let spans = task
-        .bound
-        .system
-        .params
-        .iter()
-        .filter(|p| p.reading.is_none());
-    let spans = spans.map(|param| {
-        let name = param
-            .var
-            .name
-            .split('[')
-            .next()
-            .unwrap_or_default()
-            .to_owned();
-        let values = within.get(&name).copied();
-        Span { name, values }
-    });
-    let which = Which::Named(spans.collect());
+    let which = ranges(&task.bound, &within);
     let every = match Every::new(&task.bound, &which) {
         Ok(every) => every,
         Err(why) => {
@@ -219,9 +217,7 @@ fn proved(
     };
     let judged = judge_every(&every, &settings);
     if proving.interrupt.as_ref().is_some_and(Interrupt::is_raised) {
-        return Err(Failed::Other(
-            "ended from outside; what was proved before is written".to_owned(),
-        ));
+        return Err(Failed::Ended);
     }
     let mut proved = Proved {
         every: every.text(),

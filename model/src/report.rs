@@ -325,6 +325,27 @@ pub struct Report {
 }
 
 impl Report {
+    /// The report on an exploration of nothing: complete, and nothing found.
+    pub fn nothing() -> Self {
+        Report {
+            states: 0,
+            transitions: 0,
+            depth: 0,
+            seconds: 0.0,
+            complete: true,
+            resumable: false,
+            coverage: Vec::new(),
+            absorbing: 0,
+            absorbing_examples: Vec::new(),
+            memory: 0,
+            stored: 0,
+            storage: Storage::Bitmap,
+            index_space: 0,
+            faults: Vec::new(),
+            properties: Vec::new(),
+        }
+    }
+
     /// Bytes of storage for each reachable state.
     pub fn bytes_per_state(&self) -> f64 {
         self.stored as f64 / self.states.max(1) as f64

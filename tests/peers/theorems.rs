@@ -8,8 +8,8 @@ use stillpoint_engine::check::{Settings as CheckSettings, check, summarise};
 use stillpoint_engine::label;
 use stillpoint_engine::subject::{self, Readings};
 use stillpoint_engine::theorems::{Proved, Theorems};
-use stillpoint_harness::proof::{Choice, Every, Settings, Span, Which, judge_every};
-use stillpoint_harness::theorems::{prints, systems};
+use stillpoint_harness::proof::{Choice, Every, Settings, judge_every};
+use stillpoint_harness::theorems::{prints, ranges, systems};
 use stillpoint_lang::Spec;
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::ir::{Form, Node, System};
@@ -89,19 +89,7 @@ fn prove_again(wanted: impl Fn(&Proved) -> bool + Sync, time: Duration) -> usize
         let mut bound = bound.clone();
         let asked = |id: &String| proved.holds.contains_key(id);
         bound.system.properties.retain(|p| asked(&label(p)));
-        let params = bound.system.params.iter().filter(|p| p.reading.is_none());
-        let spans = params.map(|param| {
-            let name = param
-                .var
-                .name
-                .split('[')
-                .next()
-                .unwrap_or_default()
-                .to_owned();
-            let values = proved.within.get(&name).copied();
-            Span { name, values }
-        });
-        let which = Which::Named(spans.collect());
+        let which = ranges(&bound, &proved.within);
         let every = Every::new(&bound, &which).unwrap_or_else(|e| panic!("{e}"));
         assert_eq!(every.text(), proved.every, "{}", bound.system.name);
         let settings = Settings {
@@ -198,12 +186,10 @@ fn values_outside_the_ranges_are_not_covered() {
             };
             let (name, (lo, hi)) = narrow.within.iter().next().expect("it is not empty");
             let params = bound.system.params.iter();
-            let place = params
-                .clone()
-                .position(|p| p.var.name.split('[').next() == Some(name));
+            let place = params.clone().position(|p| p.var.array() == name);
             let mut inside = bound.clone();
             for (param, value) in params.zip(&mut inside.values) {
-                let name = param.var.name.split('[').next().unwrap_or_default();
+                let name = param.var.array();
                 if let Some((lo, hi)) = narrow.within.get(name) {
                     *value = i64::from(*value).clamp(*lo, *hi) as i32;
                 }

@@ -89,7 +89,7 @@ fn set_free(subject: &mut Subject, which: &Which) -> Result<Vec<Every>, Failure>
         for span in list {
             let has = |task: &Task| {
                 let mut params = task.bound.system.params.iter();
-                params.any(|p| p.var.name.split('[').next() == Some(&span.name))
+                params.any(|p| p.var.array() == span.name)
             };
             if !subject.tasks.iter().any(has) {
                 return Err(Failure::Other(format!(

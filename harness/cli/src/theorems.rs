@@ -56,11 +56,15 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
             .map_err(|e| format!("{} cannot be written: {e}", path.display()))
     };
     let mut line = |line: &str| emit(&format!("{line}\n"));
-    prove(folder, &known, &proving, &mut line, &mut keep).map_err(|e| match e {
-        Failed::Input(found) => Failure::Input(found),
-        Failed::Other(message) => Failure::Other(message),
-    })?;
-    let now = Theorems::load(folder)?;
+    let now = match prove(folder, &known, &proving, &mut line, &mut keep) {
+        Ok(now) => now,
+        Err(Failed::Input(found)) => return Err(Failure::Input(found)),
+        Err(Failed::Other(message)) => return Err(Failure::Other(message)),
+        Err(Failed::Ended) => {
+            emit("ended from outside: what was proved before is written\n");
+            return Ok(3);
+        }
+    };
     emit(&format!("{}: {}\n", path.display(), count(&now)));
     Ok(0)
 }

@@ -212,7 +212,7 @@ fn parameters(bound: &Bound) -> Vec<(String, Vec<usize>)> {
         if p.reading.is_some() {
             continue;
         }
-        let name = p.var.name.split('[').next().unwrap_or_default();
+        let name = p.var.array();
         match out.last_mut() {
             Some((last, cells)) if last == name => cells.push(k),
             _ => out.push((name.to_owned(), vec![k])),

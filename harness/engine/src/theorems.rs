@@ -14,7 +14,7 @@ use stillpoint_lang::bind::Bound;
 use stillpoint_lang::diag::{Diagnostic, Result};
 use stillpoint_lang::ir::{Property, Stated, System};
 use stillpoint_lang::{files, toml_error};
-use stillpoint_model::{Judgement, Report, Storage, Verdict};
+use stillpoint_model::{Judgement, Report, Verdict};
 
 use crate::digest::All;
 use crate::outcome::{Evaluator, Outcome, label, undecided};
@@ -73,7 +73,7 @@ impl Proved {
         let params = bound.system.params.iter().zip(&bound.values);
         let mut named = params.filter(|(p, _)| p.reading.is_none());
         named.all(|(param, value)| {
-            let name = param.var.name.split('[').next().unwrap_or_default();
+            let name = param.var.array();
             let within = self.within.get(name);
             within.is_none_or(|(lo, hi)| (*lo..=*hi).contains(&i64::from(*value)))
         })
@@ -162,21 +162,8 @@ impl Cited {
     /// The outcome of a task about which there is nothing else to be known: nothing is explored.
     pub(crate) fn outcome(task: &Task) -> Outcome {
         let report = Report {
-            states: 0,
-            transitions: 0,
-            depth: 0,
-            seconds: 0.0,
-            complete: true,
-            resumable: false,
             coverage: vec![0; task.bound.system.rule_count()],
-            absorbing: 0,
-            absorbing_examples: Vec::new(),
-            memory: 0,
-            stored: 0,
-            storage: Storage::Bitmap,
-            index_space: 0,
-            faults: Vec::new(),
-            properties: Vec::new(),
+            ..Report::nothing()
         };
         Outcome {
             report,

@@ -133,7 +133,7 @@ impl<'a> Builder<'a> {
             spans: vec![None; old.system.params.len()],
         };
         for (k, param) in old.system.params.iter().enumerate() {
-            let name = param.var.name.split('[').next().unwrap_or_default();
+            let name = param.var.array();
             let chosen = match which {
                 _ if param.reading.is_some() => None,
                 Which::All => Some(None),

@@ -158,6 +158,13 @@ pub struct Var {
     pub ids: Vec<String>,
 }
 
+impl Var {
+    /// The name without the index, which all elements of an array share.
+    pub fn array(&self) -> &str {
+        self.name.split('[').next().unwrap_or_default()
+    }
+}
+
 /// A parameter of the system.
 #[derive(Debug, Clone, PartialEq, Hash)]
 pub struct Param {

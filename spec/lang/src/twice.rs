@@ -41,13 +41,28 @@ pub fn twice(bound: &Bound, property: &Property) -> Option<Twice> {
     if (0..system.states.len()).any(anywhere) {
         return None;
     }
+    let mut indexed = false;
+    system.nodes(&mut |node| {
+        if let Node::Element {
+            space: Space::Input,
+            base,
+            len,
+            ..
+        } = node
+        {
+            let read = *base as usize..(*base + *len) as usize;
+            indexed |= of.iter().any(|k| read.contains(k));
+        }
+    });
+    if indexed {
+        return None;
+    }
     let mut second = Second {
         states: (0..system.states.len() as u32)
             .map(|k| if stepped(k) { Some(k) } else { None })
             .collect(),
         inputs: vec![None; system.inputs.len()],
         names: (system.lazies.len() + of.len()) as u32,
-        indexed: false,
     };
     let mut out = bound.clone();
     let own = second.states.iter_mut().flatten();
@@ -100,9 +115,6 @@ pub fn twice(bound: &Bound, property: &Property) -> Option<Twice> {
         .iter()
         .map(|i| second.instance(i))
         .collect();
-    if second.indexed {
-        return None;
-    }
     out.system.instances = ordered(bound, holds.as_ref(), &copies);
     let both = match condition {
         Some(k) => and(system.atoms[*k].clone(), atoms[*k].clone()),
@@ -185,12 +197,10 @@ struct Second {
     inputs: Vec<Option<u32>>,
     /// Its named expressions begin here.
     names: u32,
-    /// Whether an input that may differ is read by its index.
-    indexed: bool,
 }
 
 impl Second {
-    fn node(&mut self, node: &Node) -> Node {
+    fn node(&self, node: &Node) -> Node {
         match node {
             Node::Lazy(k) => return Node::Lazy(self.names + *k),
             Node::Cell(Space::Input, k) => {
@@ -198,34 +208,24 @@ impl Second {
                     return Node::Lazy(name);
                 }
             }
-            Node::Element {
-                space: Space::Input,
-                base,
-                len,
-                ..
-            } => {
-                let read = *base as usize..(*base + *len) as usize;
-                self.indexed |= self.inputs[read].iter().any(Option::is_some);
-            }
             _ => {}
         }
         // The elements of an array are stepped by one instance, or all are the same.
-        let states = self.states.clone();
         let mut place = |space, k: u32| match space {
-            Space::Before | Space::Now => (space, states[k as usize].unwrap_or(k)),
+            Space::Before | Space::Now => (space, self.states[k as usize].unwrap_or(k)),
             Space::Input | Space::Param => (space, k),
         };
         node.placed(&mut place, &mut |part| self.node(part))
     }
 
-    fn instance(&mut self, instance: &Instance) -> Instance {
-        let rule = |second: &mut Self, rule: &Rule| Rule {
+    fn instance(&self, instance: &Instance) -> Instance {
+        let rule = |rule: &Rule| Rule {
             name: format!("{}'", rule.name),
-            when: second.node(&rule.when),
-            then: second.statements(&rule.then),
+            when: self.node(&rule.when),
+            then: self.statements(&rule.then),
             ..rule.clone()
         };
-        let rules = instance.rules.iter().map(|r| rule(self, r)).collect();
+        let rules = instance.rules.iter().map(rule).collect();
         let moved = |k: u32| self.states.get(k as usize).copied().flatten();
         let count = instance.states.len() as u32;
         let start = moved(instance.states.start).unwrap_or(0);
@@ -237,7 +237,7 @@ impl Second {
         }
     }
 
-    fn statements(&mut self, list: &[Stmt]) -> Vec<Stmt> {
+    fn statements(&self, list: &[Stmt]) -> Vec<Stmt> {
         list.iter()
             .map(|statement| match statement {
                 Stmt::Assign {

@@ -244,21 +244,8 @@ impl<'a> Sum<'a> {
         Self {
             bound,
             report: Report {
-                states: 0,
-                transitions: 0,
-                depth: 0,
-                seconds: 0.0,
-                complete: true,
                 resumable: true,
-                coverage: Vec::new(),
-                absorbing: 0,
-                absorbing_examples: Vec::new(),
-                memory: 0,
-                stored: 0,
-                storage: Storage::Bitmap,
-                index_space: 0,
-                faults: Vec::new(),
-                properties: Vec::new(),
+                ..Report::nothing()
             },
             judged: vec![None; bound.system.properties.len()],
             pairs: BTreeMap::new(),
