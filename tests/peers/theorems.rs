@@ -4,16 +4,20 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use stillpoint_certify::format::Verdict as CertifiedVerdict;
+use stillpoint_certify::proof::format::{System as Certificate, read_theorems, theorems_text};
 use stillpoint_engine::check::{Settings as CheckSettings, check, summarise};
 use stillpoint_engine::label;
 use stillpoint_engine::subject::{self, Readings};
-use stillpoint_engine::theorems::{Proved, Theorems};
+use stillpoint_engine::theorems::{OfSystem, Proved, Theorems};
 use stillpoint_harness::proof::{Choice, Every, Settings, judge_every};
+use stillpoint_harness::theorems::certificates::{Certificates, check as check_certificates};
 use stillpoint_harness::theorems::{prints, ranges, systems};
 use stillpoint_lang::Spec;
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::ir::{Form, Node, System};
 use stillpoint_model::Verdict;
+use stillpoint_model::proof::Budget;
 use stillpoint_tests::peer::each;
 use stillpoint_tests::root;
 
@@ -125,6 +129,94 @@ fn quick_theorems_are_proved_again() {
 fn all_theorems_are_proved_again() {
     let count = prove_again(|_| true, Duration::from_secs(600));
     println!("{count} proved again");
+}
+
+/// Checks the certificates of the families; the answer is how many theorems they confirm.
+fn confirm(wanted: impl Fn(&OfSystem) -> bool) -> usize {
+    let mut work = Vec::new();
+    for family in FAMILIES {
+        let known = theorems(family);
+        let certificates = Certificates::load(&folder(family)).unwrap_or_else(|e| panic!("{e}"));
+        let names: BTreeSet<&String> = known.systems.keys().collect();
+        assert_eq!(names, certificates.systems.keys().collect(), "{family}");
+        for bound in explored(family) {
+            let own = known.systems[&bound.system.name].clone();
+            if wanted(&own) {
+                let shown = certificates.systems[&bound.system.name].clone();
+                work.push((bound, own, shown));
+            }
+        }
+    }
+    let counts = each(&work, |(bound, own, shown)| {
+        let found = check_certificates(bound, own, shown, &Budget::default());
+        let found = found.unwrap_or_else(|what| panic!("{}: {what}", bound.system.name));
+        assert_eq!(found.other, 0, "{}", bound.system.name);
+        let all = own.proved.iter().map(|proved| proved.holds.len());
+        assert_eq!(found.confirmed, all.sum::<usize>(), "{}", bound.system.name);
+        found.confirmed
+    });
+    counts.into_iter().sum()
+}
+
+/// What one system's proofs took in all, in seconds, so that its certificates are checked on every run.
+const SHORT: f64 = 3.0;
+
+#[test]
+fn short_certificates_are_confirmed() {
+    let short = |own: &OfSystem| own.proved.iter().map(|p| p.seconds).sum::<f64>() < SHORT;
+    let count = confirm(short);
+    println!("{count} theorems confirmed");
+    assert!(count >= 300, "{count}");
+}
+
+#[test]
+#[ignore = "deep: the certificates of all theorems, minutes"]
+fn all_certificates_are_confirmed() {
+    println!("{} theorems confirmed", confirm(|_| true));
+}
+
+/// A certificate that says something else, or is about something else, confirms nothing.
+#[test]
+fn another_certificate_confirms_nothing() {
+    let (known, family) = (theorems("heidenhain-fs"), folder("heidenhain-fs"));
+    let all = Certificates::load(&family).unwrap_or_else(|e| panic!("{e}"));
+    let bound = bound(&family.join("events.toml"), "events");
+    let own = &known.systems[&bound.system.name];
+    let shown = &all.systems[&bound.system.name];
+    let refused = |change: &dyn Fn(&mut Vec<Certificate>)| {
+        let mut other = shown.clone();
+        change(&mut other);
+        check_certificates(&bound, own, &other, &Budget::default()).expect_err("it is altered")
+    };
+    let proof = |list: &mut Vec<Certificate>| {
+        let claims = &mut list[0].claims;
+        let mut proofs = claims.iter_mut().filter_map(|c| c.proof.as_mut());
+        proofs.find(|p| !p.invariant.is_empty()).map(std::mem::take)
+    };
+    let changes: [(&str, &dyn Fn(&mut Vec<Certificate>)); 5] = [
+        ("certificates for", &|list| list.clear()),
+        ("is missing", &|list| drop(list[0].claims.pop())),
+        ("other ranges", &|list| list[0].every.push(("t".to_owned(), (0, 1)))),
+        ("do not confirm", &|list| drop(proof(list))),
+        ("is missing", &|list| list[0].claims[0].verdict = CertifiedVerdict::Vacuous),
+    ];
+    for (words, change) in changes {
+        let why = refused(change);
+        assert!(why.contains(words), "`{why}` does not say `{words}`");
+    }
+    // With another table it is no theorem, and not confirmed either.
+    let mut other = bound.clone();
+    other.system.instances[0].rules.swap(0, 1);
+    let found = check_certificates(&other, own, shown, &Budget::default()).expect("nothing wrong");
+    assert_eq!(found.confirmed, 0);
+    assert!(found.other > 0);
+    // The file by itself.
+    let text = all.text();
+    let read = read_theorems(text.as_bytes()).expect("what was written");
+    assert_eq!(theorems_text(&read), text);
+    let cut = text.rsplit_once("claim").expect("claims").0;
+    assert!(read_theorems(cut.as_bytes()).is_err());
+    assert!(read_theorems(text.replacen("holds", "vacuous", 1).as_bytes()).is_err());
 }
 
 type Change = fn(&mut System);

@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use stillpoint_certify::format::Verdict;
 use stillpoint_certify::proof::clause::{Clause, Literal};
 use stillpoint_certify::proof::format::{Claim, File, Proof, Run, read, text};
+use stillpoint_certify::proof::ways::Step;
 use stillpoint_certify::{Confirmed, Failure, certify_bytes};
 
 fn forms() -> PathBuf {
@@ -437,4 +438,42 @@ fn each_of_the_three_obligations_is_asked_for() {
         stored,
         with(vec!["lamp.right=0"]),
     );
+}
+
+/// Regions that leave a state out, or whose inputs do not lead out of them or cannot be, show nothing.
+#[test]
+fn ways_that_lead_nowhere_are_refused() {
+    let mut seen = (0, 0);
+    for stored in STORED {
+        for (s, k, claim) in claims(stored) {
+            let Some(own) = claim.proof.filter(|p| !p.ways.is_empty()) else {
+                continue;
+            };
+            rejected("shown", stored, |f| proof(f, (s, k)).ways.clear());
+            for n in 0..own.ways.len() {
+                let with = |change: &dyn Fn(&mut Step)| {
+                    refused(stored, |f| change(&mut proof(f, (s, k)).ways[n]))
+                };
+                // Whatever the region says less, and it is a larger one, or not needed.
+                let empty = with(&|step| step.region = vec![Literal::read("lamp.left<=-1").expect("a literal")]);
+                assert!(empty.is_some_and(|why| why.contains("in a region")));
+                let why = with(&|step| step.inputs.push(("lamp.colour".to_owned(), 99)));
+                assert!(why.is_some_and(|why| why.contains("are not shown to be possible")));
+                let why = with(&|step| step.inputs.push(("lamp.nothing".to_owned(), 0)));
+                assert!(why.is_some_and(|why| why.contains("there is no input")));
+                seen.0 += 1;
+                if own.ways[n].rank.is_some() {
+                    let why = with(&|step| step.rank = None);
+                    assert!(why.is_some_and(|why| why.contains("lead out of it")));
+                    let other = with(&|step| {
+                        let rank = step.rank.as_mut().expect("a rank");
+                        rank.rises = !rank.rises;
+                    });
+                    assert!(other.is_some_and(|why| why.contains("lead out of it")));
+                    seen.1 += 1;
+                }
+            }
+        }
+    }
+    assert!(seen.0 > 3 && seen.1 > 0, "{seen:?}");
 }

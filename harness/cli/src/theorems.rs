@@ -1,12 +1,18 @@
 //! `stillpoint theorems`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use clap::Args;
 use stillpoint_engine::theorems::{FILE, Theorems};
 use stillpoint_harness::export::write_atomically;
-use stillpoint_harness::theorems::{Failed, Proving, count, is_family, prove, text, told};
+use stillpoint_harness::report::counted;
+use stillpoint_harness::theorems::certificates::{self, Certificates};
+use stillpoint_harness::theorems::{
+    All, Failed, Proving, check, count, is_family, prove, text, told, unknown,
+};
+
+use stillpoint_model::proof::Budget;
 
 use super::interrupt::Interruptible;
 use super::{Failure, emit, show, values};
@@ -19,11 +25,14 @@ pub struct Arguments {
     /// Prove those whose tables have changed, and write the family's theorems.toml
     #[arg(long)]
     prove: bool,
+    /// Check the certificates of all theorems, without the engines that have found them
+    #[arg(long, conflicts_with = "prove")]
+    check: bool,
     /// Ask also those again that were not proved before
     #[arg(long, requires = "prove")]
     open: bool,
     /// Only about this system; may be given several times
-    #[arg(long, value_name = "NAME", requires = "prove")]
+    #[arg(long, value_name = "NAME")]
     system: Vec<String>,
     /// The most wall time for each property
     #[arg(long, value_name = "DURATION", value_parser = values::duration, default_value = "10s", requires = "prove")]
@@ -38,10 +47,26 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
             folder.display()
         )));
     }
-    let known = Theorems::load(folder)?;
-    if !arguments.prove {
+    if let Some(name) = unknown(folder, &arguments.system)? {
+        return Err(Failure::Other(format!(
+            "--system {name}: the machines of this family are explored with no such system; its theorems name all of them: stillpoint theorems {}",
+            folder.display()
+        )));
+    }
+    let mut known = Theorems::load(folder)?;
+    if !arguments.prove && !arguments.check {
+        let asked = |name: &String| {
+            let own = name.rsplit('/').next().unwrap_or_default();
+            arguments.system.is_empty() || arguments.system.iter().any(|asked| asked == own)
+        };
+        known.systems.retain(|name, _| asked(name));
         show(&told(&known));
         return Ok(0);
+    }
+    let certificates = Certificates::load(folder).map_err(Failure::Other)?;
+    let known = (known, certificates);
+    if arguments.check {
+        return checked(folder, &known, &arguments.system);
     }
     let interrupt = Interruptible::begin()?;
     let proving = Proving {
@@ -51,9 +76,13 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         interrupt: Some(interrupt.handle()),
     };
     let path = folder.join(FILE);
-    let mut keep = |all: &Theorems| {
-        write_atomically(&path, &text(all))
-            .map_err(|e| format!("{} cannot be written: {e}", path.display()))
+    let mut keep = |all: &All| {
+        let certificates = folder.join(certificates::FILE);
+        for (path, text) in [(&certificates, all.1.text()), (&path, text(&all.0))] {
+            write_atomically(path, &text)
+                .map_err(|e| format!("{} cannot be written: {e}", path.display()))?;
+        }
+        Ok(())
     };
     let mut line = |line: &str| emit(&format!("{line}\n"));
     let now = match prove(folder, &known, &proving, &mut line, &mut keep) {
@@ -65,6 +94,47 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
             return Ok(3);
         }
     };
-    emit(&format!("{}: {}\n", path.display(), count(&now)));
+    emit(&format!("{}: {}\n", path.display(), count(&now.0)));
     Ok(0)
+}
+
+/// Checks the certificates: 0 if all theorems are confirmed, 1 if not.
+fn checked(folder: &Path, known: &All, only: &[String]) -> Result<u8, Failure> {
+    let interrupt = Interruptible::begin()?;
+    let budget = Budget {
+        until: None,
+        interrupt: Some(interrupt.handle()),
+    };
+    let (mut confirmed, mut other, mut wrong) = (0, 0, 0);
+    check(folder, known, only, &budget, &mut |system, found| {
+        let line = match found {
+            Ok(found) => {
+                (confirmed, other) = (confirmed + found.confirmed, other + found.other);
+                let other = match found.other {
+                    0 => String::new(),
+                    n => format!("; {n} not of these tables: prove them anew"),
+                };
+                format!(
+                    "{system}: {} confirmed, {}, {}{other}",
+                    found.confirmed,
+                    counted(found.clauses as u64, "clause"),
+                    counted(found.lemmas as u64, "lemma")
+                )
+            }
+            Err(what) => {
+                wrong += 1;
+                format!("{system}: REJECTED: {what}")
+            }
+        };
+        emit(&format!("{line}\n"));
+    })?;
+    if budget.spent() {
+        emit("ended from outside: not all were looked at\n");
+        return Ok(3);
+    }
+    emit(&format!("{}: {} confirmed\n", folder.display(), counted(confirmed as u64, "theorem")));
+    Ok(match wrong + other {
+        0 => 0,
+        _ => 1,
+    })
 }

@@ -12,12 +12,14 @@ use stillpoint_certify::proof::target::Target;
 use stillpoint_certify::subject;
 use stillpoint_engine::subject::Subject;
 use stillpoint_lang::bind::Bound;
+use stillpoint_lang::ir::{Form, Property};
+use stillpoint_lang::twice::twice;
 use stillpoint_model::proof::{Budget, Spent, lemmas};
 use stillpoint_model::{self as model, Trace};
 
 use super::{Written, read_again};
 use crate::atomic::write_with;
-use crate::proof::{Engine, Every, Judged, Shown};
+use crate::proof::{Engine, Every, Judged};
 
 /// What was found about the systems of a file.
 pub struct Found<'a> {
@@ -46,19 +48,18 @@ pub fn certify(
     for (k, (bound, task)) in bounds.iter().zip(&mut header.task).enumerate() {
         progress(k, tasks.len());
         let every = found.every.and_then(|all| all.get(k));
-        let mut writer = Writer::new(bound, every, budget)?;
+        let mut writer = Writer::new(bound, every, usize::MAX, budget)?;
         let judged = &found.judged[k];
         for (n, judged) in judged.iter().enumerate() {
             let Some(property) = task.property.get_mut(n) else {
-                let form = None;
-                if let Ok(claim) = writer.claim(RANGE.to_owned(), form, judged)? {
+                if let Ok(claim) = writer.claim(RANGE.to_owned(), None, judged)? {
                     writer.system.claims.push(claim);
                     written.claims += 1;
                 }
                 continue;
             };
-            let form = Some(&bound.system.properties[n].form);
-            match writer.claim(property.id.clone(), form, judged)? {
+            let own = Some(&bound.system.properties[n]);
+            match writer.claim(property.id.clone(), own, judged)? {
                 Ok(claim) => {
                     property.verdict = claim.verdict;
                     writer.system.claims.push(claim);
@@ -78,27 +79,28 @@ pub fn certify(
     Ok(written)
 }
 
-struct Writer<'a> {
+/// Writes claims about a system.
+pub(crate) struct Writer<'a> {
     bound: &'a Bound,
     every: Option<&'a Every>,
     budget: &'a Budget,
+    /// The most lemmas of an obligation.
+    most: usize,
     symbolic: Symbolic<'a>,
-    system: System,
+    /// The claims, and which parameters are free.
+    pub(crate) system: System,
 }
 
 impl<'a> Writer<'a> {
-    fn new(bound: &'a Bound, every: Option<&'a Every>, budget: &'a Budget) -> Result<Self, String> {
-        let free = every.iter().flat_map(|every| {
-            let one = |k: &usize| {
-                let (lo, hi) = every.bound.states[*k];
-                let name = every.bound.system.states[*k].var.name.clone();
-                (name, (i64::from(lo), i64::from(hi)))
-            };
-            every.parameters.iter().map(one)
-        });
+    pub(crate) fn new(
+        bound: &'a Bound,
+        every: Option<&'a Every>,
+        most: usize,
+        budget: &'a Budget,
+    ) -> Result<Self, String> {
         let system = System {
             name: bound.system.name.clone(),
-            every: free.collect(),
+            every: every.map_or(Vec::new(), free),
             ..System::default()
         };
         Ok(Writer {
@@ -106,15 +108,43 @@ impl<'a> Writer<'a> {
             bound,
             every,
             budget,
+            most,
             system,
         })
     }
 
-    /// A claim about a property of this form, or about ranges; or why nothing is claimed.
-    fn claim(
+    /// A claim about a property, or about ranges; or why nothing is claimed.
+    pub(crate) fn claim(
         &self,
         id: String,
-        form: Option<&'a stillpoint_lang::ir::Form>,
+        property: Option<&Property>,
+        judged: &Judged,
+    ) -> Result<Result<Claim, String>, String> {
+        let Some(property) = property else {
+            return self.told(id, None, judged);
+        };
+        let of_both = matches!(property.form, Form::Independent { .. });
+        if !of_both || judged.shown.is_none() {
+            return self.told(id, Some(&property.form), judged);
+        }
+        // A claim about two runs is one about the system of both.
+        let every = self.every.and_then(|every| every.twice(property));
+        let every = every.as_ref().map(|(every, _)| every);
+        let both = twice(self.bound, property).ok_or("two runs of it are no system")?;
+        let writer = Writer::new(&both.bound, every, self.most, self.budget)?;
+        let trace = judged.shown.as_ref().and_then(|shown| shown.both.clone());
+        let judged = Judged {
+            trace,
+            ..judged.clone()
+        };
+        writer.told(id, Some(&both.bound.system.properties[0].form), &judged)
+    }
+
+    /// A claim about what one run shows.
+    fn told(
+        &self,
+        id: String,
+        form: Option<&Form>,
         judged: &Judged,
     ) -> Result<Result<Claim, String>, String> {
         let verdict = match judged.verdict {
@@ -153,39 +183,28 @@ impl<'a> Writer<'a> {
         let (Some(target), Some(shown)) = (target, &judged.shown) else {
             return Ok(Err("there is no certificate for this form".to_owned()));
         };
-        claim.proof = match self.proof(target, shown) {
-            Ok(Ok(proof)) => Some(proof),
-            Ok(Err(Spent)) => {
+        let proof = Proof {
+            invariant: shown.invariant.clone(),
+            induction: shown.induction.clone(),
+            ways: shown.ways.clone(),
+            ..Proof::default()
+        };
+        claim.proof = match with_lemmas(&self.symbolic, target, proof, self.most, self.budget) {
+            Ok(proof) => Some(proof),
+            Err(Unwritten::Spent) => {
                 return Ok(Err(
                     "the limit was reached while the certificate was written".to_owned(),
                 ));
             }
-            Err(what) => return Err(format!("{}: {}: {what}", self.system.name, claim.id)),
+            Err(Unwritten::Untold(what)) => return Ok(Err(what)),
+            Err(Unwritten::Wrong) => {
+                return Err(format!(
+                    "{}: {}: the tables, translated for the certificate, do not confirm what the engine has found: please report this",
+                    self.system.name, claim.id
+                ));
+            }
         };
         Ok(Ok(claim))
-    }
-
-    fn proof(&self, target: Target, shown: &Shown) -> Result<Result<Proof, Spent>, String> {
-        let mut proof = Proof {
-            invariant: shown.invariant.clone(),
-            induction: shown.induction.clone(),
-            ..Proof::default()
-        };
-        let mut question = Question::new(&self.symbolic, target, &shown.invariant)?;
-        for obligation in question.obligations(shown.induction.as_ref())? {
-            let goals: Vec<Vec<i32>> = obligation.goals.iter().map(|(g, _)| g.clone()).collect();
-            match lemmas(&obligation.clauses, &goals, self.budget) {
-                Ok(Some(list)) => proof.lemmas.push(Lemmas { line: 0, list }),
-                Ok(None) => {
-                    return Err(
-                        "the tables, translated for the certificate, do not confirm what the engine has found: please report this"
-                            .to_owned(),
-                    );
-                }
-                Err(Spent) => return Ok(Err(Spent)),
-            }
-        }
-        Ok(Ok(proof))
     }
 
     /// A run of the engines in a certificate's terms.
@@ -216,4 +235,50 @@ impl<'a> Writer<'a> {
         }
         run
     }
+}
+
+/// The parameters that are free in a system, with their ranges.
+pub(crate) fn free(every: &Every) -> Vec<(String, (i64, i64))> {
+    let one = |k: &usize| {
+        let (lo, hi) = every.bound.states[*k];
+        let name = every.bound.system.states[*k].var.name.clone();
+        (name, (i64::from(lo), i64::from(hi)))
+    };
+    every.parameters.iter().map(one).collect()
+}
+
+/// Why there are no lemmas for a proof.
+pub(crate) enum Unwritten {
+    /// The budget is spent, or there are too many of them.
+    Spent,
+    /// What it says cannot be told in clauses.
+    Untold(String),
+    /// It shows nothing.
+    Wrong,
+}
+
+/// A proof with the lemmas that a solver finds for it, at most so many for an obligation.
+pub(crate) fn with_lemmas(
+    symbolic: &Symbolic,
+    target: Target,
+    mut proof: Proof,
+    most: usize,
+    budget: &Budget,
+) -> Result<Proof, Unwritten> {
+    let mut found = Vec::new();
+    let question = Question::new(symbolic, target, &proof.invariant);
+    let mut question = question.map_err(Unwritten::Untold)?;
+    if let Some((_, what)) = question.unknown() {
+        return Err(Unwritten::Untold(what));
+    }
+    let obligations = question.obligations(proof.induction.as_ref(), &proof.ways);
+    for obligation in obligations.map_err(Unwritten::Untold)? {
+        let goals: Vec<Vec<i32>> = obligation.goals.iter().map(|(g, _)| g.clone()).collect();
+        let list = lemmas(&obligation.clauses, &goals, most, budget);
+        let list = list.map_err(|Spent| Unwritten::Spent)?;
+        let list = list.ok_or(Unwritten::Wrong)?;
+        found.push(Lemmas { line: 0, list });
+    }
+    proof.lemmas = found;
+    Ok(proof)
 }

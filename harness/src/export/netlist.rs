@@ -123,6 +123,19 @@ impl<'a> Translated<'a> {
         states.find_map(|(k, bits)| Some((k, bits.iter().position(|place| *place == latch)?)))
     }
 
+    /// Inputs, by their numbers, with the values that these bits give them. An input of which no bit is given is not told.
+    pub fn chosen(&self, bits: &[(usize, bool)]) -> Vec<(usize, i64)> {
+        let given = |place: &usize| bits.iter().find(|(k, _)| k == place).map(|(_, v)| *v);
+        let one = |(k, places): (usize, &Vec<usize>)| {
+            let values: Vec<Option<bool>> = places.iter().map(given).collect();
+            let any = values.iter().any(Option::is_some);
+            let (lo, _) = wide(self.bound.inputs[k]);
+            let values = values.into_iter().map(|v| v.unwrap_or(false));
+            any.then(|| (k, number(values, lo)))
+        };
+        self.inputs.iter().enumerate().filter_map(one).collect()
+    }
+
     /// A run of the netlist in the explorer's terms. A variable of which no bit matters has its least value, or is not told.
     pub fn trace(&self, run: &Run) -> Trace {
         let value = |places: &[usize], given: &[Option<bool>], (lo, _): Bounds| {

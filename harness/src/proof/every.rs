@@ -62,7 +62,7 @@ impl Every {
 
     /// Two runs side by side with the same parameters, and the state variables that each has by itself, see
     /// [`stillpoint_lang::twice`].
-    pub(super) fn twice(&self, property: &Property) -> Option<(Self, Vec<(usize, usize)>)> {
+    pub(crate) fn twice(&self, property: &Property) -> Option<(Self, Vec<(usize, usize)>)> {
         let both = twice(&self.bound, property)?;
         let of_both = |atoms: &[usize]| -> Vec<usize> {
             let second = atoms.iter().map(|k| k + both.atoms);

@@ -20,7 +20,9 @@ use stillpoint_certify::proof::clause::Clause;
 use stillpoint_engine::label;
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::ir::{Form, Property};
-use stillpoint_model::proof::{Budget, Invariant, Lit, Netlist, Run, Spent};
+use stillpoint_model::proof::{
+    Budget, Invariant, Lit, Netlist, Recovery, Run, Spent, Ways, Word, ways,
+};
 use stillpoint_model::{Interrupt, Trace, Verdict};
 
 use crate::export::Unsupported;
@@ -77,6 +79,8 @@ pub enum Proof {
     Induction(usize, Vec<(usize, usize)>),
     /// This invariant, checked.
     Invariant(Invariant),
+    /// From every reachable state these ways lead to the goal.
+    Ways(Ways),
     /// All states were enumerated: so many.
     States(u64),
 }
@@ -156,6 +160,8 @@ struct Judge<'a> {
     leave_to_explorer: bool,
     /// Whether it is asked too if a value leaves its range.
     ranges: bool,
+    /// Of the conditions that the netlist calls invariants those that a certificate does not know by itself.
+    known: Vec<Clause>,
     out: Vec<Judged>,
 }
 
@@ -172,6 +178,7 @@ impl<'a> Judge<'a> {
             budget,
             leave_to_explorer: settings.choice == Choice::Auto,
             ranges: true,
+            known: Vec::new(),
             out: Vec::new(),
         }
     }
@@ -220,7 +227,7 @@ impl<'a> Judge<'a> {
         let mut order: Vec<usize> = (0..asked.questions.len()).collect();
         order.sort_by_key(|k| match asked.questions[*k] {
             Question::Twice => 2,
-            Question::Never { duty: Some(_), .. } => 1,
+            Question::Never { duty: Some(_), .. } | Question::Way { .. } => 1,
             _ => 0,
         });
         let mut told = BTreeMap::new();
@@ -236,9 +243,9 @@ impl<'a> Judge<'a> {
                     };
                     match of_both(property, &settings) {
                         Some(both) if matches!(both.verdict, Verdict::Holds | Verdict::Vacuous) => {
-                            // Its names are those of both runs, which no certificate knows.
                             (entry.verdict, entry.engine) = (both.verdict, both.engine);
                             (entry.length, entry.proof) = (both.length, both.proof);
+                            entry.shown = both.shown;
                         }
                         // There may be more pairs of runs than it is about: one that breaks it shows nothing.
                         other => {
@@ -247,6 +254,11 @@ impl<'a> Judge<'a> {
                                 Some(why.unwrap_or("independence is about two runs".to_owned()));
                             left.push(k);
                         }
+                    }
+                }
+                Question::Way { goal, using, end } => {
+                    if !self.ways(&asked, &mut entry, (*goal, *using, *end)) {
+                        left.push(k);
                     }
                 }
                 Question::None(why) => {
@@ -271,10 +283,7 @@ impl<'a> Judge<'a> {
         self.out.extend(told.into_values());
         if self.ranges && asked.translated.fault != Lit::FALSE {
             let begin = self.begin();
-            let mut entry = self.entry(
-                "range".to_owned(),
-                "no assignment leaves the range of its variable",
-            );
+            let mut entry = self.range();
             self.never(
                 &asked,
                 &mut entry,
@@ -302,6 +311,18 @@ impl<'a> Judge<'a> {
             entry.reason = Some(why.to_owned());
             self.out.push(entry);
         }
+        if self.ranges {
+            let mut entry = self.range();
+            entry.reason = Some(why.to_owned());
+            self.out.push(entry);
+        }
+    }
+
+    fn range(&self) -> Judged {
+        self.entry(
+            "range".to_owned(),
+            "no assignment leaves the range of its variable",
+        )
     }
 
     fn decide(&self, asked: &Asked, target: Lit) -> Decision {
@@ -320,7 +341,8 @@ impl<'a> Judge<'a> {
         target: Lit,
         duty: Option<&Duty>,
     ) -> (Decision, Vec<Clause>) {
-        let known = duty.map_or(Vec::new(), |duty| vec![duty.keeps()]);
+        let known = duty.map(Duty::keeps).into_iter();
+        let known: Vec<Clause> = known.chain(self.known.iter().cloned()).collect();
         let help = match (duty, self.settings.choice) {
             (Some(duty), Choice::Auto | Choice::Pdr | Choice::Induction) => {
                 helped(asked, duty, &self.budget)
@@ -377,6 +399,61 @@ impl<'a> Judge<'a> {
         }
     }
 
+    /// Whether ways to the goal are found from every reachable state.
+    fn ways(
+        &self,
+        asked: &Asked,
+        entry: &mut Judged,
+        (goal, using, end): (Lit, Lit, Lit),
+    ) -> bool {
+        if !matches!(self.settings.choice, Choice::Auto | Choice::Pdr) {
+            entry.reason = Some("what can always be reached needs pdr".to_owned());
+            return false;
+        }
+        let translated = &asked.translated;
+        let counting = asked.numbers();
+        let numbers: Vec<Word> = counting.iter().map(|k| translated.variable(*k).0).collect();
+        let timer = |latch: &usize| {
+            let place = translated.place(*latch);
+            place.is_some_and(|(k, _)| k >= asked.own || counting.contains(&k))
+        };
+        let timers: Vec<usize> = (0..translated.netlist.latches.len()).filter(timer).collect();
+        let recovery = Recovery {
+            netlist: &translated.netlist,
+            goal,
+            using,
+            numbers: &numbers,
+            timers: &timers,
+        };
+        let checked = |ways: Option<Ways>| match ways {
+            Some(ways) => Ok(Some((ways.check(&recovery, &self.budget)?, ways))),
+            None => Ok(None),
+        };
+        match ways(&recovery, &self.budget).and_then(checked) {
+            Ok(Some((false, _))) => {
+                entry.reason = Some("the engine's ways lead nowhere: please report this".to_owned());
+            }
+            Ok(Some((true, ways))) => {
+                // The shortest way from the start shows what it is about.
+                let Decision::Seen(run) = self.decide(asked, end) else {
+                    entry.reason = Some("the limit was reached first".to_owned());
+                    return false;
+                };
+                entry.length = Some(run.cycles.len() as u64);
+                entry.trace = Some(asked.translated.trace(&run));
+                entry.verdict = Verdict::Holds;
+                entry.engine = Some(Engine::Pdr);
+                let proof = Proof::Ways(ways);
+                entry.shown = Some(asked.shown(&proof, self.known.clone()));
+                entry.proof = Some(proof);
+                return true;
+            }
+            Ok(None) => entry.reason = Some("no way to the goal was found from some states".to_owned()),
+            Err(Spent) => entry.reason = Some("the limit was reached first".to_owned()),
+        }
+        false
+    }
+
     fn never(
         &self,
         asked: &Asked,
@@ -408,7 +485,7 @@ impl<'a> Judge<'a> {
                 }
                 Decision::Never(proof) => {
                     entry.verdict = Verdict::Vacuous;
-                    entry.shown = Some(asked.shown(&proof, Vec::new()));
+                    entry.shown = Some(asked.shown(&proof, self.known.clone()));
                     entry.proof = Some(proof);
                     return;
                 }
@@ -447,6 +524,7 @@ pub fn has_engine(form: &Form) -> bool {
         Form::LeadsTo { within, .. } => within.is_some(),
         // Where the pairs of runs are no more than it is about.
         Form::Independent { .. } => true,
-        Form::CanAlwaysReach { .. } => false,
+        // Where regions and inputs for each are found.
+        Form::CanAlwaysReach { .. } => true,
     }
 }

@@ -3,6 +3,7 @@
 //! That most variables are the same in both runs an engine would learn bit by bit. So it is known beforehand of those of which it
 //! holds by induction.
 
+use stillpoint_certify::proof::clause::{Clause, Literal};
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::ir::Property;
 use stillpoint_lang::twice::twice;
@@ -39,24 +40,50 @@ fn judged(
     judge.leave_to_explorer = false;
     judge.ranges = false;
     let mut asked = asked.ok()?;
-    alike(&mut asked, pairs, &judge).ok()?;
+    judge.known = alike(&mut asked, pairs, &judge).ok()?;
     judge.prove(Ok(asked), &|_, _| None);
-    judge.out.into_iter().next()
+    let mut one = judge.out.into_iter().next()?;
+    // It is a run of both, which is no run of the system.
+    let both = one.trace.take();
+    if let Some(shown) = &mut one.shown {
+        shown.both = both;
+    }
+    Some(one)
 }
 
-/// Adds to the invariants which variables are the same in both runs.
-fn alike(asked: &mut Asked, pairs: &[(usize, usize)], judge: &Judge) -> Result<(), Spent> {
-    let words = |(one, other): &(usize, usize)| {
+/// Adds to the invariants which variables are the same in both runs, and tells it as clauses.
+fn alike(
+    asked: &mut Asked,
+    pairs: &[(usize, usize)],
+    judge: &Judge,
+) -> Result<Vec<Clause>, Spent> {
+    let mut same = Vec::new();
+    for (one, other) in pairs {
         let word = |k: usize| asked.translated.variable(k).0;
-        (word(*one), word(*other))
-    };
-    let words: Vec<_> = pairs.iter().map(words).collect();
+        let (a, b) = (word(*one), word(*other));
+        let lit = a.equals(&mut asked.translated.netlist.graph, &b);
+        if lit != Lit::TRUE {
+            same.push((lit, (*one, *other), a.bits().len()));
+        }
+    }
     let netlist = &mut asked.translated.netlist;
-    let same: Vec<Lit> = (words.iter())
-        .map(|(one, other)| one.equals(&mut netlist.graph, other))
-        .filter(|lit| *lit != Lit::TRUE)
-        .collect();
-    let kept = inductive(netlist, &same, &judge.budget)?;
-    netlist.invariants.extend(kept);
-    Ok(())
+    let candidates: Vec<Lit> = same.iter().map(|(lit, ..)| *lit).collect();
+    let kept = inductive(netlist, &candidates, &judge.budget)?;
+    let mut clauses = Vec::new();
+    for (_, (one, other), bits) in same.iter().filter(|(lit, ..)| kept.contains(lit)) {
+        let names = (asked.name(*one), asked.name(*other));
+        let literal = |name: &String, bit, set| Literal::Bit {
+            name: name.clone(),
+            bit,
+            set,
+        };
+        for bit in 0..*bits {
+            for set in [true, false] {
+                let (a, b) = (literal(&names.0, bit, set), literal(&names.1, bit, !set));
+                clauses.push(Clause(vec![a, b]));
+            }
+        }
+    }
+    asked.translated.netlist.invariants.extend(kept);
+    Ok(clauses)
 }

@@ -3,7 +3,7 @@
 use stillpoint_certify::proof::clause::written;
 use stillpoint_engine::label;
 use stillpoint_lang::bind::Bound;
-use stillpoint_lang::ir::{Form, Property};
+use stillpoint_lang::ir::{Form, Property, Ty};
 use stillpoint_model::Trace;
 use stillpoint_model::proof::Lit;
 
@@ -13,6 +13,9 @@ use crate::export::{Translated, Unsupported};
 
 /// Longer bounds have no monitor: its counter would outgrow what the engines decide.
 const LONGEST: i64 = 1 << 20;
+
+/// A number with a range of at least so many values may be a timer.
+const COUNTS: i64 = 4;
 
 /// What is asked about one property.
 pub(super) enum Question {
@@ -26,6 +29,8 @@ pub(super) enum Question {
     },
     /// What shows it.
     Seen(Lit),
+    /// What must stay possible, what holds on the way, and both.
+    Way { goal: Lit, using: Lit, end: Lit },
     /// It is about two runs.
     Twice,
     /// No engine here has an answer, and why.
@@ -119,6 +124,16 @@ impl<'a> Asked<'a> {
         }
     }
 
+    /// State variables that count, by their places: while one of them falls the others may change.
+    pub(super) fn numbers(&self) -> Vec<usize> {
+        let bound = self.translated.bound;
+        let counts = |k: &usize| {
+            let (lo, hi) = bound.states[*k];
+            bound.system.states[*k].var.ty == Ty::Int && i64::from(hi) - i64::from(lo) >= COUNTS
+        };
+        (0..self.own).filter(counts).collect()
+    }
+
     /// Asks about all properties.
     fn ask(&mut self) {
         let bound = self.translated.bound;
@@ -203,8 +218,15 @@ impl<'a> Asked<'a> {
             Form::LeadsTo { .. } => {
                 Question::None("a response without a bound is about runs without an end")
             }
-            Form::CanAlwaysReach { .. } => {
-                Question::None("what can always be reached is not decided by the worst run")
+            Form::CanAlwaysReach { goal, using } => {
+                let goal = self.atom(*goal)?;
+                let using = match using {
+                    Some(using) => self.atom(*using)?,
+                    None => Lit::TRUE,
+                };
+                let using = graph(self, &[!fault, using]);
+                let end = graph(self, &[using, goal]);
+                Question::Way { goal, using, end }
             }
             Form::Independent { .. } => Question::Twice,
         })

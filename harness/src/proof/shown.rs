@@ -1,18 +1,25 @@
 //! What an engine has found, in the words of a certificate.
 
-use stillpoint_certify::proof::clause::{Clause, Literal};
+use stillpoint_certify::proof::clause::{Clause, Literal, written};
 use stillpoint_certify::proof::question::Induction;
+use stillpoint_certify::proof::ways::{Rank, Step};
+use stillpoint_model::Trace;
+use stillpoint_model::proof::{self, Invariant};
 
 use super::Proof;
 use super::question::Asked;
 
 /// What shows that something is never seen.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Shown {
     /// Each holds in every reachable state.
     pub invariant: Vec<Clause>,
     /// Where that alone is not enough.
     pub induction: Option<Induction>,
+    /// Of what can always be reached: regions and the ways out of them.
+    pub ways: Vec<Step>,
+    /// Of two runs as one system: the shortest pair that it is about. The invariant is one of both, too.
+    pub both: Option<Trace>,
 }
 
 impl Asked<'_> {
@@ -20,7 +27,7 @@ impl Asked<'_> {
     pub(super) fn shown(&self, proof: &Proof, known: Vec<Clause>) -> Shown {
         let mut shown = Shown {
             invariant: known,
-            induction: None,
+            ..Shown::default()
         };
         match proof {
             Proof::Induction(cycles, differ) => {
@@ -29,20 +36,40 @@ impl Asked<'_> {
                     differ: differ.clone(),
                 });
             }
-            Proof::Invariant(invariant) => {
-                let own = invariant.clauses.iter().map(|clause| {
-                    let literals = clause.iter();
-                    Clause(
-                        literals
-                            .map(|(latch, set)| self.bit(*latch, *set))
-                            .collect(),
-                    )
-                });
-                shown.invariant.extend(own);
+            Proof::Invariant(invariant) => shown.invariant.extend(self.clauses(invariant)),
+            Proof::Ways(ways) => {
+                shown.invariant.extend(self.clauses(&ways.invariant));
+                shown.ways = ways.steps.iter().map(|step| self.step(step)).collect();
             }
             Proof::Nothing | Proof::States(_) => {}
         }
         shown
+    }
+
+    fn clauses<'s>(&'s self, invariant: &'s Invariant) -> impl Iterator<Item = Clause> + 's {
+        let clauses = invariant.clauses.iter();
+        clauses.map(|clause| Clause(self.bits(clause)))
+    }
+
+    fn bits(&self, values: &[(usize, bool)]) -> Vec<Literal> {
+        let bits = values.iter();
+        bits.map(|(latch, set)| self.bit(*latch, *set)).collect()
+    }
+
+    fn step(&self, step: &proof::Step) -> Step {
+        let system = &self.translated.bound.system;
+        let inputs = self.translated.chosen(&step.inputs).into_iter();
+        let rank = step.rank.map(|rank| Rank {
+            name: self.name(self.numbers()[rank.number]),
+            rises: rank.rises,
+        });
+        Step {
+            region: self.bits(&step.region),
+            inputs: inputs
+                .map(|(k, value)| (written(&system.inputs[k].name), value))
+                .collect(),
+            rank,
+        }
     }
 
     /// A latch with this value.

@@ -44,6 +44,11 @@ impl Proof {
                 "invariant of {}, checked",
                 counted(invariant.clauses.len(), "clause")
             ),
+            Proof::Ways(ways) => format!(
+                "ways out of {}, invariant of {}",
+                counted(ways.steps.len(), "region"),
+                counted(ways.invariant.clauses.len(), "clause")
+            ),
             Proof::States(states) => format!("all {states} states"),
         }
     }

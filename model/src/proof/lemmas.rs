@@ -9,6 +9,7 @@ use super::sat::{Budget, Spent, Term, Watch};
 struct Notes {
     watch: Watch,
     learnt: Vec<Vec<Term>>,
+    most: usize,
 }
 
 impl Callbacks for Notes {
@@ -17,7 +18,7 @@ impl Callbacks for Notes {
     }
 
     fn stop(&self) -> bool {
-        self.watch.stop()
+        self.learnt.len() >= self.most || self.watch.stop()
     }
 }
 
@@ -25,15 +26,17 @@ impl Callbacks for Notes {
 /// for the opposite. The clauses learnt; none if one of the lists can hold.
 ///
 /// # Errors
-/// The budget is spent.
+/// The budget is spent, or there are more of them than `most`.
 pub fn lemmas(
     clauses: &[Vec<i32>],
     goals: &[Vec<i32>],
+    most: usize,
     budget: &Budget,
 ) -> Result<Option<Vec<Vec<i32>>>, Spent> {
     let notes = Notes {
         watch: Watch::new(budget),
         learnt: Vec::new(),
+        most,
     };
     let mut solver = batsat::Solver::new(batsat::SolverOpts::default(), notes);
     // Only variables that occur are the solver's: the others would be decided too.
@@ -51,7 +54,7 @@ pub fn lemmas(
         solver.add_clause_reuse(&mut clause.iter().map(term).collect());
     }
     for goal in goals {
-        if budget.spent() {
+        if budget.spent() || solver.cb().learnt.len() >= most {
             return Err(Spent);
         }
         let assumed: Vec<Term> = goal.iter().map(term).collect();
@@ -84,9 +87,10 @@ mod tests {
         let none: Vec<Vec<i32>> = vec![vec![-3, -7], vec![-3, -9], vec![-7, -9]];
         let some: Vec<Vec<i32>> = vec![vec![3, 7], vec![3, 9], vec![7, 9]];
         let budget = Budget::default();
-        assert_eq!(lemmas(&none, &[vec![3]], &budget), Ok(None));
+        assert_eq!(lemmas(&none, &[vec![3]], 9, &budget), Ok(None));
         let both = [none, some].concat();
-        let learnt = lemmas(&both, &[vec![]], &budget);
+        assert_eq!(lemmas(&both, &[vec![]], 0, &budget), Err(Spent));
+        let learnt = lemmas(&both, &[vec![]], 9, &budget);
         let learnt = learnt.expect("no limit").expect("nothing satisfies them");
         let known = |literal: &i32| [3, 7, 9].contains(&literal.abs());
         assert!(!learnt.is_empty() && learnt.iter().flatten().all(known));

@@ -8,6 +8,8 @@
 //! * [`induction`]: k good cycles are followed by another one (k-induction over simple paths);
 //! * [`reachability`]: property-directed reachability (IC3), which finds an [`Invariant`] or a run, of any length.
 //!
+//! [`ways`] shows that something can always be reached, by a ranking function in pieces.
+//!
 //! [`inductive`] finds which of many candidates are invariants together: what is known beforehand makes questions easier.
 //!
 //! What a run or an invariant shows is checked by other code: [`Problem::shows`], [`Invariant::check`]; [`lemmas`] tells what the solver
@@ -22,6 +24,7 @@ mod invariant;
 mod lemmas;
 mod netlist;
 mod pdr;
+mod recovery;
 mod sat;
 mod unroll;
 mod word;
@@ -33,5 +36,6 @@ pub use invariant::{Defect, Invariant};
 pub use lemmas::lemmas;
 pub use netlist::{Input, Latch, Netlist, Problem, Run};
 pub use pdr::{Effort, Reachability, reachability};
+pub use recovery::{Rank, Recovery, Step, Values, Ways, ways};
 pub use sat::{Budget, Spent};
 pub use word::{Word, number};

@@ -60,6 +60,15 @@ impl Word {
             .unwrap_or(Lit::FALSE)
     }
 
+    /// The same number, where `map` gives by node what its bits are.
+    pub(super) fn placed(&self, map: &[Lit]) -> Word {
+        let bits = self.0.iter();
+        Word(
+            bits.map(|lit| map[lit.node()].flipped(lit.negated()))
+                .collect(),
+        )
+    }
+
     fn sign(&self) -> Lit {
         self.bit(usize::MAX)
     }

@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 
 use stillpoint_lang::bind::Bound;
-use stillpoint_lang::ir::Form;
+use stillpoint_lang::ir::{Form, Property};
+use stillpoint_lang::twice::twice;
 
 use super::clause::written;
 use super::format::{Claim, Proof, RANGE, Run, System};
@@ -14,6 +15,7 @@ use super::target::Target;
 use crate::cycle::Player;
 use crate::format::{Task, Verdict};
 use crate::replay::{ends, fault, violates};
+use crate::subject::label;
 
 /// What was confirmed about a system.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -63,14 +65,14 @@ pub fn check(bound: &Bound, task: &Task, system: &System) -> Result<Proved, Stri
                         property.id
                     ))
                 })?;
-                let form = &bound.system.properties[number].form;
+                let property = &bound.system.properties[number];
                 let checker = Checker {
                     symbolic: &symbolic,
                     system,
                     claim,
                 };
                 checker
-                    .property(form)
+                    .property(property)
                     .map_err(|(line, what)| at(line, format!("{}: {what}", claim.id)))?
             }
         });
@@ -93,6 +95,30 @@ pub fn check(bound: &Bound, task: &Task, system: &System) -> Result<Proved, Stri
         proved.range = Some((claim.verdict, by));
     }
     Ok(proved)
+}
+
+/// Checks claims about a system each by itself, whichever of its properties they are about.
+///
+/// # Errors
+/// The first that is not shown: its name and one sentence.
+pub fn confirm(bound: &Bound, system: &System) -> Result<(), String> {
+    let symbolic = Symbolic::new(bound, &system.every)?;
+    configured(bound, &system.every, &default(bound, &system.every))?;
+    for claim in &system.claims {
+        let checker = Checker {
+            symbolic: &symbolic,
+            system,
+            claim,
+        };
+        let mut properties = bound.system.properties.iter();
+        let shown = match properties.find(|property| label(property) == claim.id) {
+            Some(property) => checker.property(property),
+            None if claim.id == RANGE => checker.range(),
+            None => checker.here(Err("there is no such property".to_owned())),
+        };
+        shown.map_err(|(_, what)| format!("{}: {what}", claim.id))?;
+    }
+    Ok(())
 }
 
 /// For each free parameter the value nearest to its own.
@@ -154,7 +180,26 @@ impl Checker<'_> {
         result.map_err(|what| (self.claim.line, what))
     }
 
-    fn property(&self, form: &Form) -> Result<String, Wrong> {
+    /// A claim about a property; one about two runs is a claim about the system of both.
+    fn property(&self, property: &Property) -> Result<String, Wrong> {
+        if !matches!(property.form, Form::Independent { .. }) {
+            return self.form(&property.form);
+        }
+        // There may be more pairs of runs than it is about: one that breaks it shows nothing.
+        let shown = matches!(self.claim.verdict, Verdict::Holds | Verdict::Vacuous);
+        let both = twice(self.symbolic.bound, property).filter(|_| shown);
+        let Some(both) = both else {
+            return self.none();
+        };
+        let symbolic = Symbolic::new(&both.bound, &self.system.every);
+        let checker = Checker {
+            symbolic: &self.here(symbolic)?,
+            ..*self
+        };
+        checker.form(&both.bound.system.properties[0].form)
+    }
+
+    fn form(&self, form: &Form) -> Result<String, Wrong> {
         let (run, proof) = (self.claim.run.as_ref(), self.claim.proof.as_ref());
         let verdict = self.claim.verdict;
         match (verdict, run, proof) {
@@ -180,6 +225,7 @@ impl Checker<'_> {
                     (Form::Unless { when, .. } | Form::LeadsTo { when, .. }, Verdict::Holds) => {
                         Some(*when)
                     }
+                    (Form::CanAlwaysReach { goal, .. }, Verdict::Holds) => Some(*goal),
                     _ => None,
                 };
                 match (when, run) {
@@ -273,7 +319,8 @@ impl Checker<'_> {
         if let Some((number, what)) = question.unknown() {
             return Err((proof.line + number, what));
         }
-        let obligations = self.here(question.obligations(proof.induction.as_ref()))?;
+        let obligations = question.obligations(proof.induction.as_ref(), &proof.ways);
+        let obligations = self.here(obligations)?;
         let mut lemmas = 0;
         for (obligation, given) in obligations.iter().zip(&proof.lemmas) {
             refuted(obligation, &given.list).map_err(|unshown| match unshown {
@@ -297,6 +344,18 @@ impl Checker<'_> {
                     given.line,
                     format!("cycle {} of a run is not shown to be good", k + 1),
                 ),
+                Unrefuted::Goal(Unshown::Cover) => (
+                    given.line,
+                    "it is not shown that every state of the invariant is in a region".to_owned(),
+                ),
+                Unrefuted::Goal(Unshown::Input(k)) => (
+                    given.line,
+                    format!("the inputs of region {} are not shown to be possible", k + 1),
+                ),
+                Unrefuted::Goal(Unshown::Way(k)) => (
+                    given.line,
+                    format!("the inputs of region {} are not shown to lead out of it", k + 1),
+                ),
             })?;
             lemmas += given.list.len();
         }
@@ -311,6 +370,9 @@ impl Checker<'_> {
             "invariant of {} clauses, {lemmas} lemmas",
             proof.invariant.len()
         );
+        if !proof.ways.is_empty() {
+            by = format!("{} regions, {by}", proof.ways.len());
+        }
         Ok(by)
     }
 }

@@ -14,7 +14,10 @@
 //! clause <literal> ...
 //! induction <cycles>
 //! differ <cycle> <cycle>
-//! lemmas <start, step, base or path>
+//! region <literal> ...
+//! by <input>=<value> ...
+//! falls <number>
+//! lemmas <start, step, base or path, cover or way>
 //! <number> ...
 //! end
 //! sha256 <of everything before, in hexadecimal digits>
@@ -22,18 +25,24 @@
 //!
 //! One `system` for each of the header, in its order; one `claim` for each property about which something is claimed, in its order, then
 //! perhaps one about ranges. The numbers of a lemma are those of gates: a clause that follows from the clauses and lemmas before it.
+//!
+//! The theorems of a family are kept without header and lemmas, which are nearly all of such a file: `stillpoint-theorems 1`, then
+//! `system` after `system`, then the checksum. Their tables are the family's, and the lemmas are found again by a solver.
 
 use std::fmt::Write as _;
 
 use sha2::{Digest, Sha256};
 
-use super::clause::Clause;
+use super::clause::{Clause, Literal};
 use super::question::Induction;
+use super::ways::{Rank, Step};
 use crate::Failure;
 use crate::format::{Header, Verdict};
 
 /// What such a file starts with; then the version.
 pub const MAGIC: &str = "stillpoint-proofs";
+/// What the theorems of a family start with, version included: they speak of no gates.
+pub const THEOREMS: &str = "stillpoint-theorems 1";
 /// The version of the format, and of the gates that lemmas speak of.
 pub const VERSION: u32 = 1;
 /// The claim that no assignment leaves its range.
@@ -96,6 +105,8 @@ pub struct Proof {
     pub line: usize,
     /// Where that alone is not enough.
     pub induction: Option<Induction>,
+    /// Of what can always be reached: the regions, in their order.
+    pub ways: Vec<Step>,
     /// For each obligation, in their order.
     pub lemmas: Vec<Lemmas>,
 }
@@ -109,8 +120,16 @@ pub struct Lemmas {
     pub list: Vec<Vec<i32>>,
 }
 
-/// What the obligations are called.
-pub const OBLIGATIONS: [&str; 4] = ["start", "step", "base", "path"];
+impl Proof {
+    /// What its obligations are called.
+    pub fn obligations(&self) -> &'static [&'static str] {
+        match (&self.induction, &self.ways[..]) {
+            (None, []) => &["start", "step"],
+            (Some(_), _) => &["start", "step", "base", "path"],
+            (None, _) => &["start", "step", "cover", "way"],
+        }
+    }
+}
 
 const VERDICTS: [(Verdict, &str); 5] = [
     (Verdict::Holds, "holds"),
@@ -132,18 +151,36 @@ pub fn is_one(bytes: &[u8]) -> bool {
 pub fn text(file: &File) -> Result<String, toml::ser::Error> {
     let header = toml::to_string(&file.header)?;
     let mut out = format!("{MAGIC} {VERSION} {}\n{header}", header.lines().count());
-    for system in &file.systems {
-        line(&mut out, "system", [&system.name]);
+    systems(&mut out, &file.systems);
+    Ok(out)
+}
+
+/// Theorems as text, whatever lemmas they have left out.
+pub fn theorems_text(theorems: &[System]) -> String {
+    let mut out = format!("{THEOREMS}\n");
+    let bare = theorems.iter().map(|system| {
+        let mut system = system.clone();
+        let proofs = system.claims.iter_mut().filter_map(|c| c.proof.as_mut());
+        proofs.for_each(|proof| proof.lemmas.clear());
+        system
+    });
+    systems(&mut out, &bare.collect::<Vec<_>>());
+    out
+}
+
+/// The systems, and the checksum of everything.
+fn systems(out: &mut String, systems: &[System]) {
+    for system in systems {
+        line(out, "system", [&system.name]);
         for (name, (lo, hi)) in &system.every {
-            line(&mut out, "every", [name, &lo.to_string(), &hi.to_string()]);
+            line(out, "every", [name, &lo.to_string(), &hi.to_string()]);
         }
         for claim in &system.claims {
-            self::claim(&mut out, claim);
+            self::claim(out, claim);
         }
     }
     let digits = Sha256::digest(out.as_bytes());
     let _ = writeln!(out, "sha256 {digits:x}");
-    Ok(out)
 }
 
 fn line<'a>(out: &mut String, word: &str, rest: impl IntoIterator<Item = &'a String>) {
@@ -152,6 +189,14 @@ fn line<'a>(out: &mut String, word: &str, rest: impl IntoIterator<Item = &'a Str
         let _ = write!(out, " {part}");
     }
     out.push('\n');
+}
+
+fn words<T: ToString>(list: &[T]) -> Vec<String> {
+    list.iter().map(T::to_string).collect()
+}
+
+fn pairs(inputs: &[(String, i64)]) -> Vec<String> {
+    inputs.iter().map(|(n, v)| format!("{n}={v}")).collect()
 }
 
 fn claim(out: &mut String, claim: &Claim) {
@@ -167,8 +212,7 @@ fn claim(out: &mut String, claim: &Claim) {
             }
         }
         for inputs in &run.cycles {
-            let inputs: Vec<String> = inputs.iter().map(|(n, v)| format!("{n}={v}")).collect();
-            line(out, "cycle", &inputs);
+            line(out, "cycle", &pairs(inputs));
         }
     }
     let Some(proof) = &claim.proof else {
@@ -184,8 +228,15 @@ fn claim(out: &mut String, claim: &Claim) {
             line(out, "differ", [&one.to_string(), &other.to_string()]);
         }
     }
-    for (lemmas, name) in proof.lemmas.iter().zip(OBLIGATIONS) {
-        line(out, "lemmas", [&name.to_owned()]);
+    for step in &proof.ways {
+        line(out, "region", &words(&step.region));
+        line(out, "by", &pairs(&step.inputs));
+        if let Some(rank) = &step.rank {
+            line(out, if rank.rises { "rises" } else { "falls" }, [&rank.name]);
+        }
+    }
+    for (lemmas, name) in proof.lemmas.iter().zip(proof.obligations()) {
+        line(out, "lemmas", [&(*name).to_owned()]);
         for lemma in &lemmas.list {
             let numbers: Vec<String> = lemma.iter().map(i32::to_string).collect();
             out.push_str(&numbers.join(" "));
@@ -221,9 +272,31 @@ pub fn read(bytes: &[u8]) -> Result<File, Failure> {
     let mut reader = Reader {
         lines: &lines,
         at: length + 1,
+        bare: false,
     };
     let systems = reader.systems().ok_or_else(|| reader.failure())?;
     Ok(File { header, systems })
+}
+
+/// Reads the theorems of a family, which have no lemmas.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_theorems(bytes: &[u8]) -> Result<Vec<System>, Failure> {
+    let text = std::str::from_utf8(bytes).unwrap_or_default();
+    if text.lines().next() != Some(THEOREMS) {
+        return Err(Failure::Unreadable(format!(
+            "this is no file of theorems: its first line is not `{THEOREMS}`"
+        )));
+    }
+    let end = sealed(text)?;
+    let lines: Vec<&str> = text[..end].lines().collect();
+    let mut reader = Reader {
+        lines: &lines,
+        at: 1,
+        bare: true,
+    };
+    reader.systems().ok_or_else(|| reader.failure())
 }
 
 /// Where the last line begins, which must be the checksum of what is before it.
@@ -244,10 +317,20 @@ fn sealed(text: &str) -> Result<usize, Failure> {
     })
 }
 
+fn inputs(words: &[&str]) -> Option<Vec<(String, i64)>> {
+    let one = |word: &&str| {
+        let (name, value) = word.rsplit_once('=')?;
+        Some((name.to_owned(), value.parse().ok()?))
+    };
+    words.iter().map(one).collect()
+}
+
 /// Reads line after line; None where a line is not what it must be.
 struct Reader<'a> {
     lines: &'a [&'a str],
     at: usize,
+    /// No proof has lemmas.
+    bare: bool,
 }
 
 impl<'a> Reader<'a> {
@@ -329,14 +412,36 @@ impl<'a> Reader<'a> {
             }
         }
         while let Some(words) = self.words("cycle") {
-            let one = |word: &&str| {
-                let (name, value) = word.rsplit_once('=')?;
-                Some((name.to_owned(), value.parse().ok()?))
-            };
-            let inputs: Option<Vec<(String, i64)>> = words.iter().map(one).collect();
-            run.cycles.push(self.wrong(inputs)?);
+            run.cycles.push(self.wrong(inputs(&words))?);
         }
         Some(Some(run))
+    }
+
+    fn ways(&mut self) -> Option<Vec<Step>> {
+        let mut ways = Vec::new();
+        while let Some(words) = self.words("region") {
+            let region = words.iter().map(|word| Literal::read(word)).collect();
+            let region = self.wrong(region)?;
+            let words = self.words("by")?;
+            let inputs = self.wrong(inputs(&words))?;
+            let mut rank = None;
+            for (word, rises) in [("falls", false), ("rises", true)] {
+                if let Some(words) = self.words(word) {
+                    let name = match words[..] {
+                        [name] => Some(name.to_owned()),
+                        _ => None,
+                    };
+                    let name = self.wrong(name)?;
+                    rank = Some(Rank { name, rises });
+                }
+            }
+            ways.push(Step {
+                region,
+                inputs,
+                rank,
+            });
+        }
+        Some(ways)
     }
 
     fn proof(&mut self) -> Option<Option<Proof>> {
@@ -369,8 +474,9 @@ impl<'a> Reader<'a> {
             }
             proof.induction = Some(induction);
         }
-        let count = if proof.induction.is_some() { 4 } else { 2 };
-        for name in &OBLIGATIONS[..count] {
+        proof.ways = self.ways()?;
+        let obligations = if self.bare { &[] } else { proof.obligations() };
+        for name in obligations {
             let words = self.words("lemmas")?;
             self.wrong((words[..] == [*name]).then_some(()))?;
             let mut lemmas = Lemmas {

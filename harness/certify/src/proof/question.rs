@@ -12,12 +12,13 @@ use super::clause::{Clause, Literal, written};
 use super::gates::{Bit, Gates};
 use super::symbolic::{Cycle, Symbolic};
 use super::target::Target;
+use super::ways::Step;
 use super::word::Word;
 use crate::subject::label;
 
 /// The duty at the start of a cycle.
 #[derive(Clone)]
-struct Duty {
+pub(super) struct Duty {
     pending: Bit,
     rest: Word,
 }
@@ -33,9 +34,9 @@ impl Duty {
 
 /// The state and the duty.
 #[derive(Clone)]
-struct Place {
-    state: Vec<Word>,
-    duty: Duty,
+pub(super) struct Place {
+    pub(super) state: Vec<Word>,
+    pub(super) duty: Duty,
 }
 
 /// A cycle with what is judged in it.
@@ -68,6 +69,12 @@ pub enum Unshown {
     Bad,
     /// That it is not seen in this cycle of a run.
     Base(usize),
+    /// That every state of the invariant is in a region.
+    Cover,
+    /// That the inputs of this region are possible.
+    Input(usize),
+    /// That they lead out of it.
+    Way(usize),
 }
 
 /// k-induction.
@@ -81,8 +88,8 @@ pub struct Induction {
 
 /// A question: a system, what must never be seen in it, and an invariant.
 pub struct Question<'a> {
-    system: Symbolic<'a>,
-    target: Target<'a>,
+    pub(super) system: Symbolic<'a>,
+    pub(super) target: Target<'a>,
     within: Word,
     clauses: &'a [Clause],
     /// State variables, parameters and bounds by their written names.
@@ -165,14 +172,19 @@ impl<'a> Question<'a> {
     /// what must not be seen.
     ///
     /// With induction the second one is about cycles alone, the third about the first cycles of a run, the last about a cycle after
-    /// good ones.
+    /// good ones. For what can always be reached the last two are about regions, see [`super::ways`].
     ///
     /// # Errors
     /// What cannot be told in clauses: one sentence.
     pub fn obligations(
         &mut self,
         induction: Option<&Induction>,
+        steps: &[Step],
     ) -> Result<Vec<Obligation>, String> {
+        if matches!(self.target, Target::Way { .. }) {
+            let [cover, way] = self.ways(steps)?;
+            return Ok(vec![self.start()?, self.step(false)?, cover, way]);
+        }
         let mut all = vec![self.start()?, self.step(induction.is_none())?];
         if let Some(induction) = induction {
             all.push(self.base(induction)?);
@@ -181,7 +193,7 @@ impl<'a> Question<'a> {
         Ok(all)
     }
 
-    fn gates(&mut self) -> &mut Gates {
+    pub(super) fn gates(&mut self) -> &mut Gates {
         &mut self.system.gates
     }
 
@@ -265,7 +277,7 @@ impl<'a> Question<'a> {
     }
 
     /// A place in the invariant, and what is given of it.
-    fn anywhere(&mut self) -> Result<(Place, Vec<Vec<Bit>>), String> {
+    pub(super) fn anywhere(&mut self) -> Result<(Place, Vec<Vec<Bit>>), String> {
         let (state, ranges) = self.system.any_state();
         let place = Place {
             state,
@@ -328,7 +340,7 @@ impl<'a> Question<'a> {
     fn judge(&mut self, cycle: &mut Cycle, duty: Duty) -> Result<(Bit, Duty), String> {
         let system = &mut self.system;
         Ok(match &self.target {
-            Target::Range => (Bit::FALSE, duty),
+            Target::Range | Target::Way { .. } => (Bit::FALSE, duty),
             Target::Goal(goal) => (system.atom(*goal, cycle)?, duty),
             Target::Broken(when, then) => {
                 let when = match when {
@@ -376,7 +388,7 @@ impl<'a> Question<'a> {
     }
 
     /// The literals of a clause at a place.
-    fn clause(&mut self, clause: &Clause, place: &Place) -> Result<Vec<Bit>, String> {
+    pub(super) fn clause(&mut self, clause: &Clause, place: &Place) -> Result<Vec<Bit>, String> {
         let literals = clause.0.iter();
         literals.map(|l| self.literal(l, place)).collect()
     }
@@ -404,7 +416,7 @@ impl<'a> Question<'a> {
         })
     }
 
-    fn number(&self, name: &str, place: &Place) -> Result<Word, String> {
+    pub(super) fn number(&self, name: &str, place: &Place) -> Result<Word, String> {
         match name {
             "@pending" => return Ok(Word::truth(place.duty.pending)),
             "@rest" => return Ok(place.duty.rest.clone()),
@@ -456,7 +468,7 @@ impl<'a> Question<'a> {
         differ
     }
 
-    fn obligation(&self, given: Vec<Vec<Bit>>, goals: Vec<(Vec<Bit>, Unshown)>) -> Obligation {
+    pub(super) fn obligation(&self, given: Vec<Vec<Bit>>, goals: Vec<(Vec<Bit>, Unshown)>) -> Obligation {
         let gates = &self.system.gates;
         let numbers = |bits: &[Bit]| -> Vec<i32> { bits.iter().map(|b| b.number()).collect() };
         let roots = given.iter().chain(goals.iter().map(|(goal, _)| goal));
@@ -475,10 +487,10 @@ impl<'a> Question<'a> {
 }
 
 /// Each holds.
-fn units(bits: Vec<Bit>) -> Vec<Vec<Bit>> {
+pub(super) fn units(bits: Vec<Bit>) -> Vec<Vec<Bit>> {
     bits.into_iter().map(|bit| vec![bit]).collect()
 }
 
-fn opposite(bits: &[Bit]) -> Vec<Bit> {
+pub(super) fn opposite(bits: &[Bit]) -> Vec<Bit> {
     bits.iter().map(|bit| !*bit).collect()
 }

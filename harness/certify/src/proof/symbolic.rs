@@ -3,6 +3,8 @@
 //! Both branches of a choice are followed and joined, so that one walk through the rules makes all cycles at once. Parameters may be
 //! words too: numbers of a range that are the same in all cycles.
 
+use std::collections::BTreeMap;
+
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::ir::{BinaryOp, Node, Space, Stmt, Var};
 
@@ -147,11 +149,30 @@ impl<'a> Symbolic<'a> {
     /// # Errors
     /// Expressions that cannot be told so: one sentence.
     pub fn cycle(&mut self, before: Vec<Word>) -> Result<(Cycle, Vec<Bit>), String> {
+        self.cycle_with(before, &BTreeMap::new())
+    }
+
+    /// The same, where some inputs, by their places, have these values: that these keep to their ranges is told with the others.
+    ///
+    /// # Errors
+    /// As [`Symbolic::cycle`].
+    pub fn cycle_with(
+        &mut self,
+        before: Vec<Word>,
+        chosen: &BTreeMap<usize, i64>,
+    ) -> Result<(Cycle, Vec<Bit>), String> {
         let bound = self.bound;
         let (mut inputs, mut given) = (Vec::new(), Vec::new());
-        for input in &bound.system.inputs {
+        for (k, input) in bound.system.inputs.iter().enumerate() {
             let (lo, hi) = self.range(input)?;
-            let (word, keeps) = Word::between(&mut self.gates, &lo, &hi);
+            let (word, keeps) = match chosen.get(&k) {
+                None => Word::between(&mut self.gates, &lo, &hi),
+                Some(value) => {
+                    let value = Word::constant(*value);
+                    let keeps = value.keeps(&mut self.gates, &lo, &hi);
+                    (value, keeps)
+                }
+            };
             inputs.push(word);
             given.push(keeps);
         }

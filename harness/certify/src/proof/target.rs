@@ -31,6 +31,13 @@ pub enum Target<'a> {
         /// After how many cycles at most.
         within: &'a Node,
     },
+    /// A state from which no inputs lead to the goal.
+    Way {
+        /// The goal.
+        goal: usize,
+        /// What holds in each cycle of the way.
+        using: Option<usize>,
+    },
 }
 
 impl<'a> Target<'a> {
@@ -72,6 +79,10 @@ impl<'a> Target<'a> {
                 Verdict::Vacuous,
             ) => Target::Goal(*when),
             (Form::Reachable { goal }, Verdict::Unreachable) => Target::Goal(*goal),
+            (Form::CanAlwaysReach { goal, using }, Verdict::Holds) => Target::Way {
+                goal: *goal,
+                using: *using,
+            },
             _ => return None,
         })
     }

@@ -1,5 +1,7 @@
 //! Proves the theorems of a family: every property of the systems that its machines are explored with, for every value of the parameters.
 
+pub mod certificates;
+
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -12,10 +14,15 @@ use stillpoint_lang::bind::Bound;
 use stillpoint_lang::diag::{Diagnostics, Result};
 use stillpoint_lang::files;
 use stillpoint_lang::ir::{Form, System};
+use stillpoint_certify::proof::format::System as Certificate;
+use stillpoint_model::proof::Budget;
 use stillpoint_model::{Interrupt, Verdict};
 
-use crate::proof::{Choice, Every, Settings, Span, Which, judge_every};
+use crate::proof::{
+    Choice, Engine, Every, Judged, Proof, Settings, Shown, Span, Which, judge_every,
+};
 use crate::report::{counted, wrapped};
+use certificates::{Certificates, Confirmed, certified};
 
 /// What stands above the theorems.
 const HEAD: &str = "# Properties that hold for every value of the parameters. Written by `stillpoint theorems`; `check` of a machine cites them.
@@ -49,46 +56,121 @@ pub fn systems(folder: &Path) -> Result<Vec<(PathBuf, String)>> {
     Ok(list)
 }
 
-/// Proves what of the theorems of a family belongs to other tables by now. `told` gets a line for each system that was asked, `keep` all
-/// theorems after each of them: what was proved before something ends it is not lost.
+/// All theorems of a family, with their certificates.
+pub type All = (Theorems, Certificates);
+
+/// Proves what of the theorems of a family belongs to other tables by now, or has no certificate. `told` gets a line for each system that
+/// was asked, `keep` all theorems after each of them: what was proved before something ends it is not lost.
 ///
 /// # Errors
-/// Data that cannot be read, theorems that cannot be kept.
+/// Data that cannot be read, theorems that cannot be kept, a proof that the checker of certificates does not confirm.
 pub fn prove(
     folder: &Path,
-    known: &Theorems,
+    known: &All,
     proving: &Proving,
     told: &mut dyn FnMut(&str),
-    keep: &mut dyn FnMut(&Theorems) -> std::result::Result<(), String>,
-) -> std::result::Result<Theorems, Failed> {
+    keep: &mut dyn FnMut(&All) -> std::result::Result<(), String>,
+) -> std::result::Result<All, Failed> {
     let mut all = known.clone();
     let mut names = BTreeSet::new();
     for (file, name) in systems(folder)? {
-        let mut subject = subject::load(&file, &Readings::new())?;
-        let wanted =
-            |task: &subject::Task| task.bound.system.name.rsplit('/').next() == Some(&name);
-        subject.tasks.retain(wanted);
-        let Some(task) = subject.tasks.first() else {
+        let Some((subject, full)) = loaded(&file, &name)? else {
             continue;
         };
-        let full = task.bound.system.name.clone();
         names.insert(full.clone());
-        if !proving.systems.is_empty() && !proving.systems.contains(&name) {
+        if !asked(&proving.systems, &name) {
             continue;
         }
-        let known = all.systems.get(&full);
-        let own = of_system(&subject, &file, known, proving, told)?;
-        if known != Some(&own) {
-            all.systems.insert(full, own);
+        let known = (all.0.systems.get(&full)).zip(all.1.systems.get(&full));
+        let known = known.filter(|(own, certificates)| whole(own, certificates));
+        let known = known.map(|(own, certificates)| (own.clone(), certificates.clone()));
+        let own = of_system(&subject, &file, known.as_ref(), proving, told)?;
+        if known.as_ref() != Some(&own) {
+            all.0.systems.insert(full.clone(), own.0);
+            all.1.systems.insert(full, own.1);
             keep(&all).map_err(Failed::Other)?;
         }
     }
-    let before = all.systems.len();
-    all.systems.retain(|name, _| names.contains(name));
-    if all.systems.len() < before {
+    let before = (all.0.systems.len(), all.1.systems.len());
+    all.0.systems.retain(|name, _| names.contains(name));
+    all.1.systems.retain(|name, _| names.contains(name));
+    if before != (all.0.systems.len(), all.1.systems.len()) {
         keep(&all).map_err(Failed::Other)?;
     }
     Ok(all)
+}
+
+/// Whether each theorem has its certificate.
+fn whole(own: &OfSystem, certificates: &[Certificate]) -> bool {
+    let both = own.proved.iter().zip(certificates);
+    let claimed = |certificate: &Certificate| -> BTreeSet<String> {
+        certificate.claims.iter().map(|c| c.id.clone()).collect()
+    };
+    let mut same = both.map(|(p, c)| p.holds.keys().cloned().collect::<BTreeSet<_>>() == claimed(c));
+    own.proved.len() == certificates.len() && same.all(|same| same)
+}
+
+/// Whether a system is one of those named, or none is.
+fn asked(only: &[String], name: &String) -> bool {
+    only.is_empty() || only.contains(name)
+}
+
+/// A name of which the family explores no system.
+///
+/// # Errors
+/// The family's data cannot be read.
+pub fn unknown<'a>(folder: &Path, names: &'a [String]) -> Result<Option<&'a String>> {
+    let list = systems(folder)?;
+    let known = |name: &&String| list.iter().any(|(_, own)| own == *name);
+    Ok(names.iter().find(|name| !known(name)))
+}
+
+/// A system by itself, and its full name.
+fn loaded(file: &Path, name: &str) -> Result<Option<(Subject, String)>> {
+    let mut subject = subject::load(file, &Readings::new())?;
+    let wanted = |task: &subject::Task| task.bound.system.name.rsplit('/').next() == Some(name);
+    subject.tasks.retain(wanted);
+    let full = subject.tasks.first().map(|t| t.bound.system.name.clone());
+    Ok(full.map(|full| (subject, full)))
+}
+
+/// Checks the certificates of a family, or of some of its systems; `told` gets the name of each system with what is confirmed of it, or
+/// what is not shown.
+///
+/// # Errors
+/// Data that cannot be read.
+pub fn check(
+    folder: &Path,
+    (theorems, certificates): &All,
+    only: &[String],
+    budget: &Budget,
+    told: &mut dyn FnMut(&str, std::result::Result<Confirmed, String>),
+) -> Result<()> {
+    let mut names = BTreeSet::new();
+    for (file, name) in systems(folder)? {
+        let Some((subject, full)) = loaded(&file, &name)?.filter(|_| asked(only, &name)) else {
+            continue;
+        };
+        if budget.spent() {
+            return Ok(());
+        }
+        names.insert(full.clone());
+        let known = theorems.systems.get(&full).cloned().unwrap_or_default();
+        let own = certificates.systems.get(&full).cloned().unwrap_or_default();
+        let bound = &subject.tasks[0].bound;
+        let found = certificates::check(bound, &known, &own, budget);
+        if budget.spent() {
+            return Ok(());
+        }
+        told(&full, found);
+    }
+    for (name, _) in theorems.systems.iter().filter(|_| only.is_empty()) {
+        if !names.contains(name) {
+            let none = "the machines of the family are explored with no such system".to_owned();
+            told(name, Err(none));
+        }
+    }
+    Ok(())
 }
 
 /// Why not all is proved.
@@ -127,15 +209,15 @@ const FEW: i64 = 15;
 fn of_system(
     subject: &Subject,
     file: &Path,
-    known: Option<&OfSystem>,
+    known: Option<&(OfSystem, Vec<Certificate>)>,
     proving: &Proving,
     told: &mut dyn FnMut(&str),
-) -> std::result::Result<OfSystem, Failed> {
+) -> std::result::Result<(OfSystem, Vec<Certificate>), Failed> {
     let bound = &subject.tasks[0].bound;
     let system = &bound.system;
     let prints = prints(system);
     let name = file.file_name().unwrap_or_default();
-    let mut own = OfSystem {
+    let own = OfSystem {
         file: name.to_string_lossy().into_owned(),
         readings: bound.readings().into_iter().collect(),
         proved: Vec::new(),
@@ -147,13 +229,12 @@ fn of_system(
         all.map(|(key, value)| (key.clone(), value.clone()))
             .collect()
     };
-    let same = |known: &&OfSystem| known.readings == own.readings && all(known) == own.open;
-    if let Some(known) = known.filter(same) {
-        if !proving.open {
-            return Ok(known.clone());
-        }
-        own = known.clone();
-    }
+    let same = |known: &OfSystem| known.readings == own.readings && all(known) == own.open;
+    let known = known.filter(|known| same(&known.0)).cloned();
+    let mut own = match known {
+        Some(known) if !proving.open => return Ok(known),
+        known => known.unwrap_or((own, Vec::new())),
+    };
     let few = system.params.iter().filter(|p| p.reading.is_none());
     let few = few.filter_map(|param| {
         let (lo, hi) = (bound.constant(&param.var.lo), bound.constant(&param.var.hi));
@@ -163,10 +244,10 @@ fn of_system(
         })
     });
     let few: BTreeMap<String, (i64, i64)> = few.collect();
-    if !own.open.is_empty() {
+    if !own.0.open.is_empty() {
         proved(subject, &mut own, BTreeMap::new(), proving, told)?;
     }
-    if !few.is_empty() && own.open.keys().any(|name| name != RANGE) {
+    if !few.is_empty() && own.0.open.keys().any(|name| name != RANGE) {
         proved(subject, &mut own, few, proving, told)?;
     }
     Ok(own)
@@ -187,7 +268,7 @@ pub fn ranges(bound: &Bound, within: &BTreeMap<String, (i64, i64)>) -> Which {
 /// Tries what is open for every value of the parameters, some of them `within` these ranges.
 fn proved(
     subject: &Subject,
-    own: &mut OfSystem,
+    (own, certificates): &mut (OfSystem, Vec<Certificate>),
     within: BTreeMap<String, (i64, i64)>,
     proving: &Proving,
     told: &mut dyn FnMut(&str),
@@ -226,13 +307,25 @@ fn proved(
         holds: BTreeMap::new(),
     };
     let tried = own.open.len();
-    for one in judged.iter().filter(|one| one.verdict == Verdict::Holds) {
-        proved.holds.extend(own.open.remove_entry(&one.id));
-    }
+    let mut holding: Vec<&Judged> = judged.iter().collect();
+    holding.retain(|one| one.verdict == Verdict::Holds && own.open.contains_key(&one.id));
     // A system whose assignments all fit has no such fault.
-    if !judged.iter().any(|one| one.id == RANGE) {
-        proved.holds.extend(own.open.remove_entry(RANGE));
+    let fits = fits();
+    if own.open.contains_key(RANGE) && !judged.iter().any(|one| one.id == RANGE) {
+        holding.push(&fits);
     }
+    let budget = Budget {
+        until: None,
+        interrupt: proving.interrupt.clone(),
+    };
+    let certificate =
+        certified(&task.bound, &every, &holding, &budget).map_err(Failed::Other)?;
+    if budget.spent() {
+        return Err(Failed::Ended);
+    }
+    let claims = certificate.claims.iter();
+    let moved = claims.filter_map(|claim| own.open.remove_entry(&claim.id));
+    proved.holds.extend(moved);
     told(&format!(
         "{system}: {} of {tried} for {}; {:.1} s",
         proved.holds.len(),
@@ -243,7 +336,24 @@ fn proved(
         return Ok(());
     }
     own.proved.push(proved);
+    certificates.push(certificate);
     Ok(())
+}
+
+/// That all assignments fit, whatever happens.
+fn fits() -> Judged {
+    Judged {
+        id: RANGE.to_owned(),
+        text: String::new(),
+        verdict: Verdict::Holds,
+        length: None,
+        engine: Some(Engine::Pdr),
+        proof: Some(Proof::Nothing),
+        shown: Some(Shown::default()),
+        trace: None,
+        reason: None,
+        seconds: 0.0,
+    }
 }
 
 /// The file of the theorems.

@@ -1,0 +1,207 @@
+//! The certificates of the theorems: for each an inductive invariant, and a run that shows that it says something.
+//!
+//! What a solver needs to refute the opposite is found anew whenever they are checked, and each of its steps is confirmed by the checker:
+//! it would be nearly all of the file.
+
+use std::collections::BTreeMap;
+use std::io::ErrorKind;
+use std::path::Path;
+
+use stillpoint_certify::format::Verdict;
+use stillpoint_certify::proof::check::confirm;
+use stillpoint_certify::proof::format::{Claim, Proof, RANGE, System, read_theorems, theorems_text};
+use stillpoint_certify::proof::symbolic::Symbolic;
+use stillpoint_certify::proof::target::Target;
+use stillpoint_engine::label;
+use stillpoint_engine::theorems::{OfSystem, Proved, fingerprint, tables};
+use stillpoint_lang::bind::Bound;
+use stillpoint_lang::ir::{Form, Property};
+use stillpoint_lang::twice::twice;
+use stillpoint_model::proof::Budget;
+
+use super::ranges;
+use crate::certificate::proofs::{Unwritten, Writer, free, with_lemmas};
+use crate::proof::{Every, Judged};
+
+/// The file in a family's folder.
+pub const FILE: &str = "theorems.cert";
+
+/// A proof of which an obligation takes more lemmas is not accepted: whoever wants to can check all of them in minutes.
+const MOST: usize = 20_000;
+
+/// The certificates of a family: by the name of a system one for each entry of its [`OfSystem::proved`].
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Certificates {
+    /// By the name of the system.
+    pub systems: BTreeMap<String, Vec<System>>,
+}
+
+impl Certificates {
+    /// Reads the certificates of the family in `folder`; none if it has no such file.
+    ///
+    /// # Errors
+    /// One sentence: a file that cannot be read, or was altered.
+    pub fn load(folder: &Path) -> Result<Self, String> {
+        let path = folder.join(FILE);
+        let bytes = match std::fs::read(&path) {
+            Err(e) if e.kind() == ErrorKind::NotFound => return Ok(Self::default()),
+            read => read.map_err(|e| format!("{} cannot be read: {e}", path.display()))?,
+        };
+        let list = read_theorems(&bytes).map_err(|e| {
+            format!(
+                "{}: {e}; take it away, and `stillpoint theorems {} --prove` writes it anew",
+                path.display(),
+                folder.display()
+            )
+        })?;
+        let mut all = Self::default();
+        for system in list {
+            let own = all.systems.entry(system.name.clone()).or_default();
+            own.push(system);
+        }
+        Ok(all)
+    }
+
+    /// The file.
+    pub fn text(&self) -> String {
+        let all: Vec<System> = self.systems.values().flatten().cloned().collect();
+        theorems_text(&all)
+    }
+}
+
+/// What the proofs of a system show, confirmed. Those are left out that nobody would want to check.
+///
+/// # Errors
+/// One sentence: a proof that the checker does not confirm.
+pub(super) fn certified(
+    bound: &Bound,
+    every: &Every,
+    judged: &[&Judged],
+    budget: &Budget,
+) -> Result<System, String> {
+    let mut writer = Writer::new(bound, Some(every), MOST, budget)?;
+    for one in judged {
+        let mut properties = bound.system.properties.iter();
+        let property = properties.find(|property| label(property) == one.id);
+        let claim = writer.claim(one.id.clone(), property, one)?;
+        writer.system.claims.extend(claim);
+    }
+    let system = writer.system;
+    confirm(bound, &system).map_err(|what| format!("{}: {what}", bound.system.name))?;
+    Ok(system)
+}
+
+/// What the certificates of a system show.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Confirmed {
+    /// Theorems that are confirmed.
+    pub confirmed: usize,
+    /// Theorems that belong to other tables, ranges or readings, and are none of today.
+    pub other: usize,
+    /// Clauses of all invariants.
+    pub clauses: usize,
+    /// Lemmas of all refutations.
+    pub lemmas: usize,
+}
+
+/// Checks the certificates of what is proved about a system.
+///
+/// # Errors
+/// One sentence: what is not shown.
+pub fn check(
+    bound: &Bound,
+    known: &OfSystem,
+    certificates: &[System],
+    budget: &Budget,
+) -> Result<Confirmed, String> {
+    let mut all = Confirmed::default();
+    if bound.readings().into_iter().collect::<BTreeMap<_, _>>() != known.readings {
+        all.other = known.proved.iter().map(|proved| proved.holds.len()).sum();
+        return Ok(all);
+    }
+    if known.proved.len() != certificates.len() {
+        return Err(format!(
+            "there are {} certificates for the theorems over {} ranges",
+            certificates.len(),
+            known.proved.len()
+        ));
+    }
+    for (proved, certificate) in known.proved.iter().zip(certificates) {
+        one(bound, proved, certificate, budget, &mut all)?;
+    }
+    Ok(all)
+}
+
+fn one(
+    bound: &Bound,
+    proved: &Proved,
+    certificate: &System,
+    budget: &Budget,
+    all: &mut Confirmed,
+) -> Result<(), String> {
+    let every = Every::new(bound, &ranges(bound, &proved.within));
+    let Some(every) = every.ok().filter(|every| every.text() == proved.every) else {
+        all.other += proved.holds.len();
+        return Ok(());
+    };
+    if certificate.every != free(&every) {
+        return Err("its certificate is about other ranges of the parameters".to_owned());
+    }
+    let symbolic = Symbolic::new(bound, &certificate.every)?;
+    let tables = tables(&bound.system);
+    let mut whole = System {
+        claims: Vec::new(),
+        ..certificate.clone()
+    };
+    for (id, print) in &proved.holds {
+        let mut properties = bound.system.properties.iter();
+        let property = properties.find(|property| label(property) == *id);
+        let today = property.is_some() || id == RANGE;
+        if !today || fingerprint(&tables, &bound.system, property) != *print {
+            all.other += 1;
+            continue;
+        }
+        let mut claims = certificate.claims.iter();
+        let claim = claims.find(|claim| claim.id == *id && claim.verdict == Verdict::Holds);
+        let claim = claim.ok_or_else(|| format!("{id}: its certificate is missing"))?;
+        let bare = claim.proof.clone().unwrap_or_default();
+        let proof = lemmas_of(&symbolic, &certificate.every, property, bare, budget).map_err(|w| format!("{id}: {w}"))?;
+        all.clauses += proof.invariant.len();
+        all.lemmas += proof.lemmas.iter().map(|l| l.list.len()).sum::<usize>();
+        whole.claims.push(Claim {
+            proof: Some(proof),
+            ..claim.clone()
+        });
+    }
+    confirm(bound, &whole)?;
+    all.confirmed += whole.claims.len();
+    Ok(())
+}
+
+/// The proof that a property holds, or all assignments fit, with its lemmas.
+fn lemmas_of(
+    symbolic: &Symbolic,
+    every: &[(String, (i64, i64))],
+    property: Option<&Property>,
+    bare: Proof,
+    budget: &Budget,
+) -> Result<Proof, String> {
+    let whole = |symbolic: &Symbolic, form: Option<&Form>| {
+        let target = form.map_or(Some(Target::Range), |f| Target::of(f, Verdict::Holds));
+        let target = target.ok_or("this form has no proof")?;
+        with_lemmas(symbolic, target, bare, usize::MAX, budget).map_err(|why| match why {
+            Unwritten::Spent => "ended from outside".to_owned(),
+            Unwritten::Untold(what) => what,
+            Unwritten::Wrong => "its certificate does not show it".to_owned(),
+        })
+    };
+    let of_both = |p: &&Property| matches!(p.form, Form::Independent { .. });
+    match property.filter(of_both) {
+        None => whole(symbolic, property.map(|p| &p.form)),
+        Some(property) => {
+            let both = twice(symbolic.bound, property).ok_or("two runs of it are no system")?;
+            let symbolic = Symbolic::new(&both.bound, every)?;
+            whole(&symbolic, Some(&both.bound.system.properties[0].form))
+        }
+    }
+}
