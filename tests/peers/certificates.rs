@@ -191,21 +191,16 @@ fn confirm(file: &Path, choice: Choice, every: bool) -> (usize, usize) {
     let confirmed = certify_bytes(text.as_bytes(), Some(file), 1)
         .unwrap_or_else(|e| panic!("{}: {e}", file.display()));
     let proved = confirmed.proved.expect("proofs");
-    let subject = subject::load(file, &BTreeMap::new()).unwrap_or_else(|e| panic!("{e}"));
     let (mut claims, mut invariants) = (0, 0);
     let tasks = confirmed.header.task.iter().zip(&proved).zip(&judged);
-    for (((task, proved), judged), own) in tasks.zip(&subject.tasks) {
+    for ((task, proved), judged) in tasks {
         for (k, judged) in judged.iter().enumerate() {
-            // A property about two runs has no certificate of an engine.
-            let property = own.bound.system.properties.get(k);
-            let of_two = property.is_some_and(|p| matches!(p.form, Form::Independent { .. }));
             let certified = match task.property.get(k) {
                 Some(property) => property.verdict,
                 None => proved.range.as_ref().map_or(Verdict::Open, |(v, _)| *v),
             };
             // A recorded bound that is not the one found, and what an engine leaves open, is not certified.
-            let decided = !of_two
-                && judged.verdict != Found::Inconclusive
+            let decided = judged.verdict != Found::Inconclusive
                 && judged.engine != Some(Engine::Explorer)
                 && (judged.verdict != Found::Violated || judged.trace.is_some());
             let told = match decided {

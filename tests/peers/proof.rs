@@ -53,9 +53,12 @@ fn compare(bound: &Bound, whole: &Outcome, judged: &[Judged], context: &str) -> 
             continue;
         }
         assert_eq!((a.verdict, a.length), (b.verdict, b.length), "{name}");
-        // Of two runs the engines tell what holds.
-        let of_two = matches!(property.form, Form::Independent { .. });
-        let explored = of_two && b.engine == Some(Engine::Explorer);
+        // Of two runs, and of what can always be reached, the engines tell what holds.
+        let holds = matches!(
+            property.form,
+            Form::Independent { .. } | Form::CanAlwaysReach { .. }
+        );
+        let explored = holds && b.engine == Some(Engine::Explorer);
         if explored || !has_engine(&property.form) {
             assert_eq!(b.engine, Some(Engine::Explorer), "{name}");
             continue;

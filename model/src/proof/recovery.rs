@@ -15,8 +15,9 @@ use super::pdr::{Reachability, reachability};
 use super::sat::{Budget, Encoding, Solver, Spent, Term};
 use super::word::Word;
 
-/// Cycles of the runs that are looked for.
+/// Cycles of the runs that are looked for, and of those that are looked for last.
 const CYCLES: usize = 6;
+const MORE: usize = 40;
 
 /// A proof of more regions is none that anybody wants to read.
 const REGIONS: usize = 2000;
@@ -64,7 +65,7 @@ impl Ways {
     /// The budget is spent.
     pub fn check(&self, recovery: &Recovery, budget: &Budget) -> Result<bool, Spent> {
         let mut netlist = recovery.netlist.clone();
-        let invariant = self.invariant.check(&netlist, Lit::FALSE, budget)?;
+        let kept = self.kept(&mut netlist, budget)?;
         let map: Vec<Lit> = moved(&netlist);
         let latch = |k: &usize| (netlist.latches[*k].lit, netlist.latches[*k].next);
         let latches = (0..netlist.latches.len()).map(|k| latch(&k));
@@ -73,13 +74,16 @@ impl Ways {
         let cube = |values: &Values, lits: &[Lit]| -> Vec<Lit> {
             values.iter().map(|(k, v)| lits[*k].flipped(!v)).collect()
         };
+        // Inputs on which nothing of this depends have possible values by themselves.
+        let end = netlist.graph.and(recovery.goal, recovery.using);
+        let assumed = Problem::new(&netlist, end).assumed;
         let graph = &mut netlist.graph;
         let mut given = netlist.invariants.clone();
         for clause in &self.invariant.clauses {
             let parts = clause.iter().map(|(k, v)| now[*k].flipped(!v));
             given.push(graph.any(parts.collect::<Vec<_>>()));
         }
-        let used = netlist.assumed.iter().copied().chain([recovery.using]);
+        let used = assumed.into_iter().chain([recovery.using]);
         let used = graph.all(used.collect::<Vec<_>>());
         // For each region what is asked: a state of it, with its inputs, and no way out.
         let mut questions = Vec::new();
@@ -117,7 +121,25 @@ impl Ways {
                 return Ok(false);
             }
         }
-        Ok(invariant.is_ok())
+        Ok(kept)
+    }
+
+    /// Whether the invariant is one.
+    fn kept(&self, netlist: &mut Netlist, budget: &Budget) -> Result<bool, Spent> {
+        let clauses = self.invariant.clauses.iter();
+        let clauses: Vec<Vec<Lit>> = clauses
+            .map(|clause| {
+                let parts = clause.iter();
+                let part = |(k, v): &(usize, bool)| netlist.latches[*k].lit.flipped(!v);
+                parts.map(part).collect()
+            })
+            .collect();
+        let mut holds = Lit::TRUE;
+        for clause in clauses {
+            let any = netlist.graph.any(clause);
+            holds = netlist.graph.and(holds, any);
+        }
+        Ok(self.invariant.check(netlist, !holds, budget)?.is_ok())
     }
 }
 
@@ -418,6 +440,11 @@ impl<'a> Search<'a> {
                 if self.accelerate(&here, state, Rank { number, rises }, depth)? {
                     return Ok(true);
                 }
+            }
+        }
+        for cycles in CYCLES + 1..=if depth == 0 { MORE } else { CYCLES } {
+            if self.run(&here, cycles)? {
+                return Ok(true);
             }
         }
         Ok(false)
