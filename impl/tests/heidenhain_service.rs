@@ -394,3 +394,39 @@ fn the_cut_out_test_ends_with_the_voltage_on() {
         Some((Stop::Ss0, Stop::Ss1F))
     );
 }
+
+/// HFS-BCT-002, HFS-TEST-015: relays and power modules that follow one cycle late. A channel that cannot be switched off is found, and a
+/// sound one passes.
+#[test]
+fn a_dead_channel_is_found_though_feedback_is_slow() {
+    let [relay, ready, off] = [3, 3, 3].map(Cycles::new);
+    let config = cut_out::Config::new(relay, ready, off, false, false).expect("plausible");
+    // Stuck at 1: the brake outputs of both channels, the pulses of both.
+    let tested = |stuck: [bool; 4]| {
+        let mut test = cut_out::Monitor::new(config);
+        let start = cut_out::Inputs {
+            start: true,
+            ..cut_out::Inputs::default()
+        };
+        let mut out = test.step(&start);
+        let (mut t_brk, mut ready) = (false, false);
+        for _ in 0..40 {
+            let inputs = cut_out::Inputs {
+                t_brk,
+                ready,
+                chain: !out.sto_a_g,
+                ..cut_out::Inputs::default()
+            };
+            t_brk = (out.brake_a || stuck[0]) && (out.brake_b || stuck[1]);
+            ready = (out.on_mc || stuck[2]) && (out.on_cc || stuck[3]);
+            out = test.step(&inputs);
+        }
+        out.step
+    };
+    assert_eq!(tested([false; 4]), cut_out::Phase::Done);
+    for k in 0..4 {
+        let mut stuck = [false; 4];
+        stuck[k] = true;
+        assert_eq!(tested(stuck), cut_out::Phase::Fault, "{k}");
+    }
+}

@@ -150,10 +150,11 @@ fn a_proof_is_written_confirmed_and_refused_when_altered() {
     let (status, text) = told(&["certify", &file]);
     assert_eq!(status, 0, "{text}");
     for line in [
-        "tests/certified/forms.toml: CONFIRMED, 16 claims",
+        "tests/certified/forms.toml: CONFIRMED, 17 claims",
         "  burn = 1 .. 4, every value\n",
         "  holds          ALWAYS: never longer than the burning time [invariant of ",
         "  violated       NEVER: the last two values are not used [run of 1 cycles]\n",
+        "  holds          RECOVER: it goes out, also unknocked [5 regions, invariant of ",
         "  violated       range: no assignment leaves the range of its variable [run of 3 cycles]\n",
         "  not certified  FAIR: ",
     ] {

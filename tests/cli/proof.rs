@@ -45,7 +45,7 @@ fn what_an_engine_cannot_decide_is_open_with_its_reason() {
     let output = stillpoint(&["check", GOOD, "--engine", "pdr"]);
     let text = stdout(&output);
     assert_eq!(status(&output), 3, "{text}");
-    let reason = "what can always be reached is not decided by the worst run";
+    let reason = "a response without a bound is about runs without an end";
     assert!(text.contains(reason), "{text}");
 }
 

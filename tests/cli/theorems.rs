@@ -58,6 +58,65 @@ fn what_is_proved_stays() {
     assert_eq!(std::fs::read(&file).expect("readable"), before);
 }
 
+/// The certificates confirm what stands there; one that says less is told, and which theorem it is of.
+#[test]
+fn certificates_are_checked() {
+    let family = "spec/families/srm-fblocks";
+    let only = ["--system", "ordered", "--system", "load"];
+    let output = stillpoint(&[&["theorems", family, "--check"], &only[..]].concat());
+    let text = stdout(&output);
+    assert_eq!(status(&output), 0, "{text}{}", stderr(&output));
+    assert!(
+        text.contains("srm-fblocks/load/load: 16 confirmed, "),
+        "{text}"
+    );
+    assert!(
+        text.ends_with("srm-fblocks: 18 theorems confirmed\n"),
+        "{text}"
+    );
+    let output = stillpoint(&["theorems", family, "--check", "--system", "laod"]);
+    assert_eq!(status(&output), 2);
+    assert!(
+        messages(&output).contains("no such system"),
+        "{}",
+        messages(&output)
+    );
+    // A file that was altered, and none.
+    let machine = copied(
+        "theorems-check",
+        "spec/machines/storage-crane.toml",
+        family,
+        &[],
+    );
+    let copy = Path::new(&machine)
+        .ancestors()
+        .nth(3)
+        .expect("its root")
+        .join(family);
+    let text = std::fs::read_to_string(copy.join("theorems.cert")).expect("readable");
+    let folder = copy.to_str().expect("UTF-8");
+    std::fs::write(
+        copy.join("theorems.cert"),
+        text.replacen("clause", "clauses", 1),
+    )
+    .expect("written");
+    let output = stillpoint(&["theorems", folder, "--check"]);
+    assert_eq!(status(&output), 2);
+    assert!(
+        messages(&output).contains("truncated or was altered"),
+        "{}",
+        messages(&output)
+    );
+    std::fs::remove_file(copy.join("theorems.cert")).expect("removed");
+    let output = stillpoint(&[&["theorems", folder, "--check"], &only[..]].concat());
+    let text = stdout(&output);
+    assert_eq!(status(&output), 1, "{text}");
+    assert!(
+        text.contains("load/load: REJECTED: there are 0 certificates"),
+        "{text}"
+    );
+}
+
 /// A broken file of theorems is bad input, not none.
 #[test]
 fn a_broken_file_is_told() {

@@ -100,7 +100,7 @@ enum Command {
     Trace(trace::Arguments),
     /// The theorems of a family: what holds of its tables for every value of their parameters; proves them anew
     #[command(
-        after_help = "Exit status: 0; 2 bad input; 3 ended from outside, what was proved before is written.\n\nExamples:\n  stillpoint theorems spec/families/sinumerik-840d\n  stillpoint theorems spec/families/sinumerik-840d --prove"
+        after_help = "Exit status: 0; 1 with --check, a theorem is not confirmed; 2 bad input; 3 ended from outside, what was proved before is written.\n\nExamples:\n  stillpoint theorems spec/families/sinumerik-840d\n  stillpoint theorems spec/families/sinumerik-840d --check\n  stillpoint theorems spec/families/sinumerik-840d --prove"
     )]
     Theorems(theorems::Arguments),
     /// Check whether the values of a machine file are plausible, and tell which are unusual, without exploring anything

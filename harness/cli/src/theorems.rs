@@ -132,7 +132,11 @@ fn checked(folder: &Path, known: &All, only: &[String]) -> Result<u8, Failure> {
         emit("ended from outside: not all were looked at\n");
         return Ok(3);
     }
-    emit(&format!("{}: {} confirmed\n", folder.display(), counted(confirmed as u64, "theorem")));
+    emit(&format!(
+        "{}: {} confirmed\n",
+        folder.display(),
+        counted(confirmed as u64, "theorem")
+    ));
     Ok(match wrong + other {
         0 => 0,
         _ => 1,

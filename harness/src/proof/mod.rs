@@ -400,12 +400,7 @@ impl<'a> Judge<'a> {
     }
 
     /// Whether ways to the goal are found from every reachable state.
-    fn ways(
-        &self,
-        asked: &Asked,
-        entry: &mut Judged,
-        (goal, using, end): (Lit, Lit, Lit),
-    ) -> bool {
+    fn ways(&self, asked: &Asked, entry: &mut Judged, (goal, using, end): (Lit, Lit, Lit)) -> bool {
         if !matches!(self.settings.choice, Choice::Auto | Choice::Pdr) {
             entry.reason = Some("what can always be reached needs pdr".to_owned());
             return false;
@@ -417,7 +412,9 @@ impl<'a> Judge<'a> {
             let place = translated.place(*latch);
             place.is_some_and(|(k, _)| k >= asked.own || counting.contains(&k))
         };
-        let timers: Vec<usize> = (0..translated.netlist.latches.len()).filter(timer).collect();
+        let timers: Vec<usize> = (0..translated.netlist.latches.len())
+            .filter(timer)
+            .collect();
         let recovery = Recovery {
             netlist: &translated.netlist,
             goal,
@@ -431,7 +428,8 @@ impl<'a> Judge<'a> {
         };
         match ways(&recovery, &self.budget).and_then(checked) {
             Ok(Some((false, _))) => {
-                entry.reason = Some("the engine's ways lead nowhere: please report this".to_owned());
+                entry.reason =
+                    Some("the engine's ways lead nowhere: please report this".to_owned());
             }
             Ok(Some((true, ways))) => {
                 // The shortest way from the start shows what it is about.
@@ -448,7 +446,9 @@ impl<'a> Judge<'a> {
                 entry.proof = Some(proof);
                 return true;
             }
-            Ok(None) => entry.reason = Some("no way to the goal was found from some states".to_owned()),
+            Ok(None) => {
+                entry.reason = Some("no way to the goal was found from some states".to_owned())
+            }
             Err(Spent) => entry.reason = Some("the limit was reached first".to_owned()),
         }
         false

@@ -1,7 +1,7 @@
 //! Properties about two runs ("does not depend on"), asked of the system of both ([`stillpoint_lang::twice`]).
 //!
 //! That most variables are the same in both runs an engine would learn bit by bit. So it is known beforehand of those of which it
-//! holds by induction.
+//! holds by induction. What k-induction shows beside that has no certificate: there the cycles that must differ may differ in any of these.
 
 use stillpoint_certify::proof::clause::{Clause, Literal};
 use stillpoint_lang::bind::Bound;
@@ -45,6 +45,7 @@ fn judged(
     let mut one = judge.out.into_iter().next()?;
     // It is a run of both, which is no run of the system.
     let both = one.trace.take();
+    one.shown = one.shown.filter(|shown| shown.induction.is_none());
     if let Some(shown) = &mut one.shown {
         shown.both = both;
     }
@@ -52,11 +53,7 @@ fn judged(
 }
 
 /// Adds to the invariants which variables are the same in both runs, and tells it as clauses.
-fn alike(
-    asked: &mut Asked,
-    pairs: &[(usize, usize)],
-    judge: &Judge,
-) -> Result<Vec<Clause>, Spent> {
+fn alike(asked: &mut Asked, pairs: &[(usize, usize)], judge: &Judge) -> Result<Vec<Clause>, Spent> {
     let mut same = Vec::new();
     for (one, other) in pairs {
         let word = |k: usize| asked.translated.variable(k).0;

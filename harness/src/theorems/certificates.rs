@@ -9,7 +9,9 @@ use std::path::Path;
 
 use stillpoint_certify::format::Verdict;
 use stillpoint_certify::proof::check::confirm;
-use stillpoint_certify::proof::format::{Claim, Proof, RANGE, System, read_theorems, theorems_text};
+use stillpoint_certify::proof::format::{
+    Claim, Proof, RANGE, System, read_theorems, theorems_text,
+};
 use stillpoint_certify::proof::symbolic::Symbolic;
 use stillpoint_certify::proof::target::Target;
 use stillpoint_engine::label;
@@ -165,7 +167,8 @@ fn one(
         let claim = claims.find(|claim| claim.id == *id && claim.verdict == Verdict::Holds);
         let claim = claim.ok_or_else(|| format!("{id}: its certificate is missing"))?;
         let bare = claim.proof.clone().unwrap_or_default();
-        let proof = lemmas_of(&symbolic, &certificate.every, property, bare, budget).map_err(|w| format!("{id}: {w}"))?;
+        let proof = lemmas_of(&symbolic, &certificate.every, property, bare, budget)
+            .map_err(|w| format!("{id}: {w}"))?;
         all.clauses += proof.invariant.len();
         all.lemmas += proof.lemmas.iter().map(|l| l.list.len()).sum::<usize>();
         whole.claims.push(Claim {

@@ -7,6 +7,7 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
+use stillpoint_certify::proof::format::System as Certificate;
 use stillpoint_engine::label;
 use stillpoint_engine::subject::{self, Readings, Subject};
 use stillpoint_engine::theorems::{OfSystem, Proved, RANGE, Theorems, fingerprint, tables};
@@ -14,7 +15,6 @@ use stillpoint_lang::bind::Bound;
 use stillpoint_lang::diag::{Diagnostics, Result};
 use stillpoint_lang::files;
 use stillpoint_lang::ir::{Form, System};
-use stillpoint_certify::proof::format::System as Certificate;
 use stillpoint_model::proof::Budget;
 use stillpoint_model::{Interrupt, Verdict};
 
@@ -81,9 +81,11 @@ pub fn prove(
         if !asked(&proving.systems, &name) {
             continue;
         }
-        let known = (all.0.systems.get(&full)).zip(all.1.systems.get(&full));
+        let known = all.0.systems.get(&full).map(|own| {
+            let certificates = all.1.systems.get(&full);
+            (own.clone(), certificates.cloned().unwrap_or_default())
+        });
         let known = known.filter(|(own, certificates)| whole(own, certificates));
-        let known = known.map(|(own, certificates)| (own.clone(), certificates.clone()));
         let own = of_system(&subject, &file, known.as_ref(), proving, told)?;
         if known.as_ref() != Some(&own) {
             all.0.systems.insert(full.clone(), own.0);
@@ -106,7 +108,8 @@ fn whole(own: &OfSystem, certificates: &[Certificate]) -> bool {
     let claimed = |certificate: &Certificate| -> BTreeSet<String> {
         certificate.claims.iter().map(|c| c.id.clone()).collect()
     };
-    let mut same = both.map(|(p, c)| p.holds.keys().cloned().collect::<BTreeSet<_>>() == claimed(c));
+    let mut same =
+        both.map(|(p, c)| p.holds.keys().cloned().collect::<BTreeSet<_>>() == claimed(c));
     own.proved.len() == certificates.len() && same.all(|same| same)
 }
 
@@ -318,8 +321,7 @@ fn proved(
         until: None,
         interrupt: proving.interrupt.clone(),
     };
-    let certificate =
-        certified(&task.bound, &every, &holding, &budget).map_err(Failed::Other)?;
+    let certificate = certified(&task.bound, &every, &holding, &budget).map_err(Failed::Other)?;
     if budget.spent() {
         return Err(Failed::Ended);
     }

@@ -207,15 +207,19 @@ fn unreachable(
     for clause in &search.ways.invariant.clauses {
         let parts = clause.iter();
         let parts = parts.map(|(k, v)| netlist.latches[*k].lit.flipped(!v));
-        netlist.invariants.push(graph.any(parts.collect::<Vec<_>>()));
+        netlist
+            .invariants
+            .push(graph.any(parts.collect::<Vec<_>>()));
     }
     let here = search.problem.latches.iter().zip(state);
     let here = here.map(|(k, value)| netlist.latches[*k].lit.flipped(!value));
     let bad = graph.all(here.collect::<Vec<_>>());
-    Ok(match reachability(&Problem::new(&netlist, bad), budget)?.0 {
-        Reachability::Proved(invariant) => Some(invariant),
-        Reachability::Found(_) => None,
-    })
+    Ok(
+        match reachability(&Problem::new(&netlist, bad), budget)?.0 {
+            Reachability::Proved(invariant) => Some(invariant),
+            Reachability::Found(_) => None,
+        },
+    )
 }
 
 /// A cycle, over the graph of the search.
@@ -370,9 +374,8 @@ impl<'a> Search<'a> {
     fn learn(&mut self, invariant: Invariant) {
         for clause in invariant.clauses {
             let state = &self.frames[0].state;
-            let part = |(latch, value): &(usize, bool)| {
-                Some(state[self.place(*latch)?].flipped(!value))
-            };
+            let part =
+                |(latch, value): &(usize, bool)| Some(state[self.place(*latch)?].flipped(!value));
             if let Some(parts) = clause.iter().map(part).collect::<Option<Vec<Lit>>>() {
                 let any = self.graph.any(parts);
                 self.require(any);
@@ -473,7 +476,10 @@ impl<'a> Search<'a> {
             let all = 0..state.len();
             let cube: Vec<(usize, bool)> = all.zip(state.iter().copied()).collect();
             let frame = &self.frames[0];
-            let (given, ends) = (Self::fixed(&frame.inputs, inputs), [frame.used, frame.arrives]);
+            let (given, ends) = (
+                Self::fixed(&frame.inputs, inputs),
+                [frame.used, frame.arrives],
+            );
             let ends = self.graph.all(ends);
             let wrong = [&given[..], &[!ends, !self.covered]].concat();
             let Some(cube) = self.shrunk(cube, &wrong)? else {
@@ -679,7 +685,9 @@ mod tests {
         let mut places = netlist.latches.iter_mut();
         places.next().expect("stopped").next = next;
         places.next().expect("locked").next = locks;
-        places.zip(timers).for_each(|(latch, next)| latch.next = next);
+        places
+            .zip(timers)
+            .for_each(|(latch, next)| latch.next = next);
         Stop {
             free: !stopped,
             numbers: vec![Word::variable(timer, 0)],

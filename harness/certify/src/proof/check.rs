@@ -350,11 +350,17 @@ impl Checker<'_> {
                 ),
                 Unrefuted::Goal(Unshown::Input(k)) => (
                     given.line,
-                    format!("the inputs of region {} are not shown to be possible", k + 1),
+                    format!(
+                        "the inputs of region {} are not shown to be possible",
+                        k + 1
+                    ),
                 ),
                 Unrefuted::Goal(Unshown::Way(k)) => (
                     given.line,
-                    format!("the inputs of region {} are not shown to lead out of it", k + 1),
+                    format!(
+                        "the inputs of region {} are not shown to lead out of it",
+                        k + 1
+                    ),
                 ),
             })?;
             lemmas += given.list.len();

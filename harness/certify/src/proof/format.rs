@@ -232,7 +232,11 @@ fn claim(out: &mut String, claim: &Claim) {
         line(out, "region", &words(&step.region));
         line(out, "by", &pairs(&step.inputs));
         if let Some(rank) = &step.rank {
-            line(out, if rank.rises { "rises" } else { "falls" }, [&rank.name]);
+            line(
+                out,
+                if rank.rises { "rises" } else { "falls" },
+                [&rank.name],
+            );
         }
     }
     for (lemmas, name) in proof.lemmas.iter().zip(proof.obligations()) {

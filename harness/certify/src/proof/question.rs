@@ -468,7 +468,11 @@ impl<'a> Question<'a> {
         differ
     }
 
-    pub(super) fn obligation(&self, given: Vec<Vec<Bit>>, goals: Vec<(Vec<Bit>, Unshown)>) -> Obligation {
+    pub(super) fn obligation(
+        &self,
+        given: Vec<Vec<Bit>>,
+        goals: Vec<(Vec<Bit>, Unshown)>,
+    ) -> Obligation {
         let gates = &self.system.gates;
         let numbers = |bits: &[Bit]| -> Vec<i32> { bits.iter().map(|b| b.number()).collect() };
         let roots = given.iter().chain(goals.iter().map(|(goal, _)| goal));

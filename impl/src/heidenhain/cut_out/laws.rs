@@ -11,25 +11,27 @@ monitor! { heidenhain::cut_out;
                 Phase::BrakesOn => s.before.step == Phase::Idle && s.inputs.start && !s.inputs.moved
                     && !s.config.no_control,
                 Phase::BrakeAOff => s.before.step == Phase::BrakesOn,
-                Phase::BrakeBOff => s.before.step == Phase::BrakeAOff,
+                Phase::BrakesAgain => s.before.step == Phase::BrakeAOff,
+                Phase::BrakeBOff => s.before.step == Phase::BrakesAgain,
                 Phase::ChainClosed => s.before.step == Phase::BrakeBOff
                     || (s.before.step == Phase::Idle && s.inputs.start && s.config.no_control),
                 Phase::ChainOpens => s.before.step == Phase::ChainClosed,
-                Phase::CcOff => s.before.step == Phase::ChainOpens,
-                Phase::BothOn => s.before.step == Phase::CcOff,
-                Phase::McOff => s.before.step == Phase::BothOn,
+                Phase::ModulesOn => s.before.step == Phase::ChainOpens,
+                Phase::CcOff => s.before.step == Phase::ModulesOn,
+                Phase::ModulesAgain => s.before.step == Phase::CcOff,
+                Phase::McOff => s.before.step == Phase::ModulesAgain,
                 Phase::OutputsOff => s.before.step == Phase::McOff && !s.config.no_outputs,
                 Phase::Done => s.before.step == Phase::OutputsOff
                     || (s.before.step == Phase::McOff && s.config.no_outputs),
                 Phase::Idle | Phase::Fault => true,
             };
 
-    /// The brake control passes only if T.BRK is there with both channels and falls with each alone; it does not matter which
-    /// output carries channel B.
+    /// The brake control passes only if T.BRK is there with both channels and falls from there with each alone; it does not matter
+    /// which output carries channel B.
     each_channel_closes_the_brakes ["HFS-BCT-002", "HFS-BCT-005", "HFS-BCT-006", "HFS-BCT-007"]:
         when |s| s.before.step.is_brake_control() && s.after.step != s.before.step
             && !matches!(s.after.step, Phase::Idle | Phase::Fault)
-            => s.inputs.t_brk == (s.before.step == Phase::BrakesOn);
+            => s.inputs.t_brk == matches!(s.before.step, Phase::BrakesOn | Phase::BrakesAgain);
 
     /// Which channel releases the brakes in which step; outside the test of the brake control none does.
     brakes_are_released_by_their_step ["HFS-BCT-007", "HFS-SBC-010"]:
@@ -40,14 +42,14 @@ monitor! { heidenhain::cut_out;
 
     /// -STO.A.G comes on after the chain was found closed, and the chain opens with it.
     chain_closes_and_opens ["HFS-NCC-001", "HFS-NCC-002"]:
-        when |s| s.after.step != s.before.step && matches!(s.after.step, Phase::ChainOpens | Phase::CcOff)
+        when |s| s.after.step != s.before.step && matches!(s.after.step, Phase::ChainOpens | Phase::ModulesOn)
             => s.inputs.chain == (s.after.step == Phase::ChainOpens);
 
-    /// Each channel alone makes the power modules not ready, and both together make them ready.
+    /// Both channels together make the power modules ready, and from there each alone makes them not ready.
     each_channel_takes_the_torque ["HFS-TEST-015", "HFS-TEST-020"]:
-        when |s| matches!(s.before.step, Phase::CcOff | Phase::BothOn | Phase::McOff)
+        when |s| matches!(s.before.step, Phase::ModulesOn | Phase::CcOff | Phase::ModulesAgain | Phase::McOff)
             && s.after.step != s.before.step && !matches!(s.after.step, Phase::Idle | Phase::Fault)
-            => s.inputs.ready == (s.before.step == Phase::BothOn);
+            => s.inputs.ready == matches!(s.before.step, Phase::ModulesOn | Phase::ModulesAgain);
 
     /// Where the torque is off in one channel only, the other one watches the position at standstill, and only then.
     other_channel_watches ["HFS-STO-003", "HFS-P-43"]:

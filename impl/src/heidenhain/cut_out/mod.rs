@@ -1,7 +1,8 @@
 //! The part of the self-test that switches off one channel after the other and looks at the feedback: brake control, contact
 //! chain, power modules, safe outputs.
 //!
-//! Every step waits for its feedback. One that does not come in its time is a fault: the axes whose brake control is being
+//! Both channels are on, and seen to be, before each of them is switched off: a feedback that is slow to rise would pass for one that
+//! fell. Every step waits for its feedback. One that does not come in its time is a fault: the axes whose brake control is being
 //! tested lose their torque at once, all others brake by SS1F; in the later steps SS1F is for all. Which output carries the
 //! brake of channel B (MP2234 bit 0) makes no difference: the supply of the brakes is looked at, not the output (HFS-BCT-006).
 //!
@@ -65,10 +66,11 @@ impl Config {
             Phase::Idle | Phase::Done | Phase::Fault => Cycles::ZERO,
             Phase::BrakesOn
             | Phase::BrakeAOff
+            | Phase::BrakesAgain
             | Phase::BrakeBOff
             | Phase::ChainClosed
             | Phase::ChainOpens => self.t_relay,
-            Phase::BothOn => self.t_ready,
+            Phase::ModulesOn | Phase::ModulesAgain => self.t_ready,
             Phase::CcOff | Phase::McOff | Phase::OutputsOff => self.t_off,
         }
     }
@@ -85,17 +87,21 @@ fields! {
         BrakesOn,
         /// Channel B alone would release them.
         BrakeAOff,
+        /// Both channels release them once more.
+        BrakesAgain,
         /// Channel A alone would release them.
         BrakeBOff,
         /// The contact chain must be closed.
         ChainClosed,
         /// -STO.A.G comes on, and the chain must open.
         ChainOpens,
-        /// Pulses by the MC alone: the power modules must not be ready.
+        /// Pulses by both channels: the power modules must get ready.
+        ModulesOn,
+        /// Pulses by the MC alone: they must not be ready any more.
         CcOff,
-        /// Pulses by both channels: they must get ready.
-        BothOn,
-        /// Pulses by the CC alone: they must not be ready.
+        /// Pulses by both channels once more.
+        ModulesAgain,
+        /// Pulses by the CC alone: they must not be ready any more.
         McOff,
         /// The safe outputs must read 0.
         OutputsOff,
@@ -109,7 +115,10 @@ fields! {
 impl Phase {
     /// Whether the brake control is being tested.
     pub const fn is_brake_control(self) -> bool {
-        matches!(self, Self::BrakesOn | Self::BrakeAOff | Self::BrakeBOff)
+        matches!(
+            self,
+            Self::BrakesOn | Self::BrakeAOff | Self::BrakesAgain | Self::BrakeBOff
+        )
     }
 
     /// Whether the test has ended, well or not.
@@ -211,12 +220,12 @@ fields! {
 const fn seen(step: Phase, inputs: &Inputs) -> bool {
     match step {
         Phase::Idle | Phase::Done | Phase::Fault => false,
-        Phase::BrakesOn => inputs.t_brk,
+        Phase::BrakesOn | Phase::BrakesAgain => inputs.t_brk,
         Phase::BrakeAOff | Phase::BrakeBOff => !inputs.t_brk,
         Phase::ChainClosed => inputs.chain,
         Phase::ChainOpens => !inputs.chain,
         Phase::CcOff | Phase::McOff => !inputs.ready,
-        Phase::BothOn => inputs.ready,
+        Phase::ModulesOn | Phase::ModulesAgain => inputs.ready,
         Phase::OutputsOff => !inputs.outputs,
     }
 }
@@ -226,12 +235,14 @@ const fn following(step: Phase, config: &Config) -> Phase {
     match step {
         Phase::Idle => Phase::Idle,
         Phase::BrakesOn => Phase::BrakeAOff,
-        Phase::BrakeAOff => Phase::BrakeBOff,
+        Phase::BrakeAOff => Phase::BrakesAgain,
+        Phase::BrakesAgain => Phase::BrakeBOff,
         Phase::BrakeBOff => Phase::ChainClosed,
         Phase::ChainClosed => Phase::ChainOpens,
-        Phase::ChainOpens => Phase::CcOff,
-        Phase::CcOff => Phase::BothOn,
-        Phase::BothOn => Phase::McOff,
+        Phase::ChainOpens => Phase::ModulesOn,
+        Phase::ModulesOn => Phase::CcOff,
+        Phase::CcOff => Phase::ModulesAgain,
+        Phase::ModulesAgain => Phase::McOff,
         Phase::McOff if !config.no_outputs => Phase::OutputsOff,
         Phase::McOff | Phase::OutputsOff | Phase::Done => Phase::Done,
         Phase::Fault => Phase::Fault,
@@ -284,20 +295,21 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
     };
     let outputs = Outputs {
         step,
-        brake_a: matches!(step, Phase::BrakesOn | Phase::BrakeBOff),
-        brake_b: matches!(step, Phase::BrakesOn | Phase::BrakeAOff),
+        brake_a: step.is_brake_control() && step != Phase::BrakeAOff,
+        brake_b: step.is_brake_control() && step != Phase::BrakeBOff,
         sto_a_g: matches!(
             step,
             Phase::ChainOpens
+                | Phase::ModulesOn
                 | Phase::CcOff
-                | Phase::BothOn
+                | Phase::ModulesAgain
                 | Phase::McOff
                 | Phase::OutputsOff
                 | Phase::Done
         ),
         stos_a_g: false,
-        on_mc: matches!(step, Phase::CcOff | Phase::BothOn),
-        on_cc: matches!(step, Phase::BothOn | Phase::McOff),
+        on_mc: matches!(step, Phase::ModulesOn | Phase::CcOff | Phase::ModulesAgain),
+        on_cc: matches!(step, Phase::ModulesOn | Phase::ModulesAgain | Phase::McOff),
         watch_mc: step == Phase::CcOff,
         watch_cc: step == Phase::McOff,
         ask_place: after.ask,
