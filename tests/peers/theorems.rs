@@ -179,7 +179,8 @@ fn another_certificate_confirms_nothing() {
         let mut proofs = claims.iter_mut().filter_map(|c| c.proof.as_mut());
         proofs.find(|p| !p.invariant.is_empty()).map(std::mem::take)
     };
-    let changes: [(&str, &dyn Fn(&mut Vec<Certificate>)); 5] = [
+    type Altered<'a> = (&'a str, &'a dyn Fn(&mut Vec<Certificate>));
+    let changes: [Altered; 5] = [
         ("certificates for", &|list| list.clear()),
         ("is missing", &|list| drop(list[0].claims.pop())),
         ("other ranges", &|list| {
