@@ -3,6 +3,7 @@
 //! Each property becomes a question about a netlist (`question`), longer duties by a monitor (`monitor`); `decide` asks the engines. What
 //! they have no form for is left to the explorer, or told to be open.
 
+mod back;
 mod decide;
 mod every;
 mod explored;
@@ -20,9 +21,7 @@ use stillpoint_certify::proof::clause::Clause;
 use stillpoint_engine::label;
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::ir::{Form, Property};
-use stillpoint_model::proof::{
-    Budget, Invariant, Lit, Netlist, Recovery, Run, Spent, Ways, Word, ways,
-};
+use stillpoint_model::proof::{Budget, Invariant, Lit, Netlist, Run, Spent, Ways};
 use stillpoint_model::{Interrupt, Trace, Verdict};
 
 use crate::export::Unsupported;
@@ -397,61 +396,6 @@ impl<'a> Judge<'a> {
             }
             Decision::Open(why) => entry.reason = Some(why),
         }
-    }
-
-    /// Whether ways to the goal are found from every reachable state.
-    fn ways(&self, asked: &Asked, entry: &mut Judged, (goal, using, end): (Lit, Lit, Lit)) -> bool {
-        if !matches!(self.settings.choice, Choice::Auto | Choice::Pdr) {
-            entry.reason = Some("what can always be reached needs pdr".to_owned());
-            return false;
-        }
-        let translated = &asked.translated;
-        let counting = asked.numbers();
-        let numbers: Vec<Word> = counting.iter().map(|k| translated.variable(*k).0).collect();
-        let timer = |latch: &usize| {
-            let place = translated.place(*latch);
-            place.is_some_and(|(k, _)| k >= asked.own || counting.contains(&k))
-        };
-        let timers: Vec<usize> = (0..translated.netlist.latches.len())
-            .filter(timer)
-            .collect();
-        let recovery = Recovery {
-            netlist: &translated.netlist,
-            goal,
-            using,
-            numbers: &numbers,
-            timers: &timers,
-        };
-        let checked = |ways: Option<Ways>| match ways {
-            Some(ways) => Ok(Some((ways.check(&recovery, &self.budget)?, ways))),
-            None => Ok(None),
-        };
-        match ways(&recovery, &self.budget).and_then(checked) {
-            Ok(Some((false, _))) => {
-                entry.reason =
-                    Some("the engine's ways lead nowhere: please report this".to_owned());
-            }
-            Ok(Some((true, ways))) => {
-                // The shortest way from the start shows what it is about.
-                let Decision::Seen(run) = self.decide(asked, end) else {
-                    entry.reason = Some("the limit was reached first".to_owned());
-                    return false;
-                };
-                entry.length = Some(run.cycles.len() as u64);
-                entry.trace = Some(asked.translated.trace(&run));
-                entry.verdict = Verdict::Holds;
-                entry.engine = Some(Engine::Pdr);
-                let proof = Proof::Ways(ways);
-                entry.shown = Some(asked.shown(&proof, self.known.clone()));
-                entry.proof = Some(proof);
-                return true;
-            }
-            Ok(None) => {
-                entry.reason = Some("no way to the goal was found from some states".to_owned())
-            }
-            Err(Spent) => entry.reason = Some("the limit was reached first".to_owned()),
-        }
-        false
     }
 
     fn never(

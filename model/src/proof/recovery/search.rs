@@ -1,226 +1,18 @@
-//! Recoverability (`AG EF goal`): from every reachable state some inputs lead to a cycle with the goal.
-//!
-//! The proof is a ranking function in pieces: a list of regions, cubes of states, with inputs for each. With these inputs a cycle from a
-//! region shows the goal, or ends in an earlier region, or stays in it while a number falls (or rises: it is bounded). Every state of an
-//! inductive invariant is in a region. So from each reachable state the inputs of the regions lead to the goal, however long a timer
-//! is, and whatever parameters are part of the state.
-//!
-//! Regions are found from states that are in none yet: the inputs of a short run from there into the regions, and then all states that
-//! these inputs lead there alike. Where no short run does, inputs under which some number falls and nothing else changes.
+//! Finds regions and ways out of them.
 
-use super::graph::{Graph, Lit, Node, value};
-use super::invariant::Invariant;
-use super::netlist::{Netlist, Problem};
-use super::pdr::{Reachability, reachability};
-use super::sat::{Budget, Encoding, Solver, Spent, Term};
-use super::word::Word;
+use super::super::graph::{Graph, Lit, Node, value};
+use super::super::invariant::Invariant;
+use super::super::netlist::Problem;
+use super::super::sat::{Budget, Encoding, Solver, Spent, Term};
+use super::{Rank, Recovery, Step, Values, Ways};
 
 /// Cycles of the runs that are looked for, and of those that are looked for last.
 const CYCLES: usize = 6;
 const MORE: usize = 40;
 
-/// A proof of more regions is none that anybody wants to read.
-const REGIONS: usize = 2000;
-
 /// How many states are looked at for the sake of one, and in all.
 const DEPTH: usize = 40;
 const LOOKS: usize = 20_000;
-
-/// Values of bits, by the place of a latch or an input in the netlist.
-pub type Values = Vec<(usize, bool)>;
-
-/// A region and the way out of it.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Step {
-    /// The states with these latches.
-    pub region: Values,
-    /// The inputs.
-    pub inputs: Values,
-    /// What falls as long as the region is not left.
-    pub rank: Option<Rank>,
-}
-
-/// A number that falls with each cycle, or rises.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Rank {
-    /// Its place in the list of numbers.
-    pub number: usize,
-    /// It rises.
-    pub rises: bool,
-}
-
-/// Ways to the goal from all reachable states.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Ways {
-    /// What holds in every reachable state, beside the invariants of the netlist.
-    pub invariant: Invariant,
-    /// The regions, each of the states that are in none before.
-    pub steps: Vec<Step>,
-}
-
-impl Ways {
-    /// Whether they lead to the goal from every reachable state: by questions to a solver, with nothing of what found them.
-    ///
-    /// # Errors
-    /// The budget is spent.
-    pub fn check(&self, recovery: &Recovery, budget: &Budget) -> Result<bool, Spent> {
-        let mut netlist = recovery.netlist.clone();
-        let kept = self.kept(&mut netlist, budget)?;
-        let map: Vec<Lit> = moved(&netlist);
-        let latch = |k: &usize| (netlist.latches[*k].lit, netlist.latches[*k].next);
-        let latches = (0..netlist.latches.len()).map(|k| latch(&k));
-        let (now, next): (Vec<Lit>, Vec<Lit>) = latches.unzip();
-        let inputs: Vec<Lit> = netlist.inputs.iter().map(|input| input.lit).collect();
-        let cube = |values: &Values, lits: &[Lit]| -> Vec<Lit> {
-            values.iter().map(|(k, v)| lits[*k].flipped(!v)).collect()
-        };
-        // Inputs on which nothing of this depends have possible values by themselves.
-        let end = netlist.graph.and(recovery.goal, recovery.using);
-        let assumed = Problem::new(&netlist, end).assumed;
-        let graph = &mut netlist.graph;
-        let mut given = netlist.invariants.clone();
-        for clause in &self.invariant.clauses {
-            let parts = clause.iter().map(|(k, v)| now[*k].flipped(!v));
-            given.push(graph.any(parts.collect::<Vec<_>>()));
-        }
-        let used = assumed.into_iter().chain([recovery.using]);
-        let used = graph.all(used.collect::<Vec<_>>());
-        // For each region what is asked: a state of it, with its inputs, and no way out.
-        let mut questions = Vec::new();
-        let (mut outside, mut arrives) = (Vec::new(), recovery.goal);
-        for step in &self.steps {
-            let (here, there) = (cube(&step.region, &now), cube(&step.region, &next));
-            let there = graph.all(there);
-            let mut ends = arrives;
-            if let Some(rank) = step.rank {
-                let number = &recovery.numbers[rank.number];
-                let (now, then) = (number.clone(), number.placed(&map));
-                let (small, great) = if rank.rises { (now, then) } else { (then, now) };
-                let moves = small.less(graph, &great);
-                let stays = graph.and(there, moves);
-                ends = graph.or(ends, stays);
-            }
-            let fine = graph.and(ends, used);
-            let fixed = cube(&step.inputs, &inputs);
-            questions.push([&outside[..], &here, &fixed, &[!fine]].concat());
-            outside.push(!graph.all(here));
-            arrives = graph.or(arrives, there);
-        }
-        questions.push(outside);
-        let mut solver = Solver::new(budget);
-        let mut encoding = Encoding::new(graph);
-        for lit in given {
-            let term = encoding.term(&mut solver, graph, lit);
-            solver.clause([term]);
-        }
-        for question in questions {
-            let terms: Vec<Term> = (question.iter())
-                .map(|lit| encoding.term(&mut solver, graph, *lit))
-                .collect();
-            if solver.solve(&terms)? {
-                return Ok(false);
-            }
-        }
-        Ok(kept)
-    }
-
-    /// Whether the invariant is one.
-    fn kept(&self, netlist: &mut Netlist, budget: &Budget) -> Result<bool, Spent> {
-        let clauses = self.invariant.clauses.iter();
-        let clauses: Vec<Vec<Lit>> = clauses
-            .map(|clause| {
-                let parts = clause.iter();
-                let part = |(k, v): &(usize, bool)| netlist.latches[*k].lit.flipped(!v);
-                parts.map(part).collect()
-            })
-            .collect();
-        let mut holds = Lit::TRUE;
-        for clause in clauses {
-            let any = netlist.graph.any(clause);
-            holds = netlist.graph.and(holds, any);
-        }
-        Ok(self.invariant.check(netlist, !holds, budget)?.is_ok())
-    }
-}
-
-/// By node of a variable what it becomes in a cycle.
-fn moved(netlist: &Netlist) -> Vec<Lit> {
-    let mut map: Vec<Lit> = (0..netlist.graph.size()).map(Lit::of).collect();
-    for latch in &netlist.latches {
-        map[latch.lit.node()] = latch.next;
-    }
-    map
-}
-
-/// What a proof is looked for.
-pub struct Recovery<'a> {
-    /// The system.
-    pub netlist: &'a Netlist,
-    /// What must stay possible, over the state and the inputs of a cycle.
-    pub goal: Lit,
-    /// What must hold in each cycle on the way, the last one with the goal included.
-    pub using: Lit,
-    /// Numbers over the latches that may fall or rise.
-    pub numbers: &'a [Word],
-    /// Latches that may change while one of them does, by their places in the netlist.
-    pub timers: &'a [usize],
-}
-
-/// Ways to the goal from all reachable states; none if they are not found, which says nothing.
-///
-/// # Errors
-/// The budget is spent.
-pub fn ways(recovery: &Recovery, budget: &Budget) -> Result<Option<Ways>, Spent> {
-    let mut netlist = recovery.netlist.clone();
-    let end = netlist.graph.and(recovery.goal, recovery.using);
-    if end == Lit::FALSE {
-        return Ok(None);
-    }
-    let problem = Problem::new(&netlist, end);
-    let mut search = Search::new(&problem, recovery, budget);
-    while let Some(state) = search.uncovered()? {
-        if search.ways.steps.len() > REGIONS {
-            return Ok(None);
-        }
-        if search.reach(&state, 0)? {
-            continue;
-        }
-        // A state that is not reached needs no way. Where no inputs are possible the invariant need not exclude it.
-        let invariant = unreachable(&netlist, &search, &state, budget)?;
-        let Some(invariant) = invariant.filter(|own| search.excludes(own, &state)) else {
-            return Ok(None);
-        };
-        search.learn(invariant);
-    }
-    Ok(Some(search.ways))
-}
-
-/// An invariant that excludes a state; none if it is reached.
-fn unreachable(
-    netlist: &Netlist,
-    search: &Search,
-    state: &[bool],
-    budget: &Budget,
-) -> Result<Option<Invariant>, Spent> {
-    let mut netlist = netlist.clone();
-    let graph = &mut netlist.graph;
-    for clause in &search.ways.invariant.clauses {
-        let parts = clause.iter();
-        let parts = parts.map(|(k, v)| netlist.latches[*k].lit.flipped(!v));
-        netlist
-            .invariants
-            .push(graph.any(parts.collect::<Vec<_>>()));
-    }
-    let here = search.problem.latches.iter().zip(state);
-    let here = here.map(|(k, value)| netlist.latches[*k].lit.flipped(!value));
-    let bad = graph.all(here.collect::<Vec<_>>());
-    Ok(
-        match reachability(&Problem::new(&netlist, bad), budget)?.0 {
-            Reachability::Proved(invariant) => Some(invariant),
-            Reachability::Found(_) => None,
-        },
-    )
-}
 
 /// A cycle, over the graph of the search.
 struct Frame {
@@ -233,8 +25,8 @@ struct Frame {
     arrives: Lit,
 }
 
-struct Search<'a> {
-    problem: &'a Problem<'a>,
+pub(super) struct Search<'a> {
+    pub(super) problem: &'a Problem<'a>,
     recovery: &'a Recovery<'a>,
     budget: &'a Budget,
     graph: Graph,
@@ -248,7 +40,7 @@ struct Search<'a> {
     /// By place in the cone: latches that stay as they are while a number falls.
     phase: Vec<bool>,
     looks: usize,
-    ways: Ways,
+    pub(super) ways: Ways,
 }
 
 fn of(values: &[bool], lits: &[Lit]) -> Vec<bool> {
@@ -259,7 +51,11 @@ fn of(values: &[bool], lits: &[Lit]) -> Vec<bool> {
 type Choice = (Vec<bool>, Rank);
 
 impl<'a> Search<'a> {
-    fn new(problem: &'a Problem<'a>, recovery: &'a Recovery<'a>, budget: &'a Budget) -> Self {
+    pub(super) fn new(
+        problem: &'a Problem<'a>,
+        recovery: &'a Recovery<'a>,
+        budget: &'a Budget,
+    ) -> Self {
         let graph = Graph::default();
         let phase = problem.latches.iter();
         let phase = phase.map(|k| !recovery.timers.contains(k)).collect();
@@ -371,7 +167,7 @@ impl<'a> Search<'a> {
     }
 
     /// Every state keeps to this too. It may speak of latches that are not in the cone: then it says nothing here.
-    fn learn(&mut self, invariant: Invariant) {
+    pub(super) fn learn(&mut self, invariant: Invariant) {
         for clause in invariant.clauses {
             let state = &self.frames[0].state;
             let part =
@@ -385,7 +181,7 @@ impl<'a> Search<'a> {
     }
 
     /// Whether the invariant has a clause that this state breaks.
-    fn excludes(&self, invariant: &Invariant, state: &[bool]) -> bool {
+    pub(super) fn excludes(&self, invariant: &Invariant, state: &[bool]) -> bool {
         let wrong = |(latch, value): &(usize, bool)| {
             let place = self.place(*latch);
             place.is_some_and(|place| state[place] != *value)
@@ -412,7 +208,7 @@ impl<'a> Search<'a> {
     }
 
     /// A state of the invariant that is in no region.
-    fn uncovered(&mut self) -> Result<Option<Vec<bool>>, Spent> {
+    pub(super) fn uncovered(&mut self) -> Result<Option<Vec<bool>>, Spent> {
         let found = self.solve(&[!self.covered])?;
         Ok(found.then(|| of(&self.answer(), &self.frames[0].state)))
     }
@@ -423,7 +219,7 @@ impl<'a> Search<'a> {
     }
 
     /// Whether there are regions now that lead from this state to the goal.
-    fn reach(&mut self, state: &[bool], depth: usize) -> Result<bool, Spent> {
+    pub(super) fn reach(&mut self, state: &[bool], depth: usize) -> Result<bool, Spent> {
         let here = Self::fixed(&self.frames[0].state, state);
         let known = [&here[..], &[self.covered]].concat();
         if self.solve(&known)? {
@@ -632,147 +428,5 @@ impl<'a> Search<'a> {
             }
         }
         Ok(cube)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A stop that ends when its timer has run down and a reset comes. The timer begins with a limit, which has any value and never
-    /// changes. A machine that is locked stays so.
-    struct Stop {
-        netlist: Netlist,
-        free: Lit,
-        numbers: Vec<Word>,
-        timers: Vec<usize>,
-    }
-
-    const BITS: usize = 12;
-
-    fn stop(lockable: bool) -> Stop {
-        let mut netlist = Netlist::default();
-        let stopped = netlist.latch("stopped".to_owned(), Some(false));
-        let locked = netlist.latch("locked".to_owned(), Some(false));
-        let word = |netlist: &mut Netlist, name: &str, init| -> Vec<Lit> {
-            (0..BITS)
-                .map(|k| netlist.latch(format!("{name}.{k}"), init))
-                .collect()
-        };
-        let timer = word(&mut netlist, "timer", Some(false));
-        let limit = word(&mut netlist, "limit", None);
-        let inputs = ["stop", "reset", "lock"].map(|name| netlist.input(name.to_owned()));
-        let [stop, reset, lock] = inputs;
-        let graph = &mut netlist.graph;
-        let number = |bits: &[Lit]| Word::variable(bits.to_vec(), 0);
-        let zero = number(&timer).equals(graph, &Word::constant(0));
-        let less = number(&timer).minus(graph, &Word::constant(1));
-        let ends = graph.all([reset, zero, !locked]);
-        let begins = graph.and(stop, !stopped);
-        let stays = graph.and(stopped, !ends);
-        let next = graph.or(begins, stays);
-        let locks = match lockable {
-            true => graph.and(lock, stopped),
-            false => Lit::FALSE,
-        };
-        let locks = graph.or(locks, locked);
-        let timers: Vec<Lit> = (0..BITS)
-            .map(|k| {
-                let run = graph.choice(zero, Lit::FALSE, less.bit(k));
-                graph.choice(begins, limit[k], run)
-            })
-            .collect();
-        let mut places = netlist.latches.iter_mut();
-        places.next().expect("stopped").next = next;
-        places.next().expect("locked").next = locks;
-        places
-            .zip(timers)
-            .for_each(|(latch, next)| latch.next = next);
-        Stop {
-            free: !stopped,
-            numbers: vec![Word::variable(timer, 0)],
-            timers: (2..2 + 2 * BITS).collect(),
-            netlist,
-        }
-    }
-
-    fn recovery(stop: &Stop) -> Recovery {
-        Recovery {
-            netlist: &stop.netlist,
-            goal: stop.free,
-            using: Lit::TRUE,
-            numbers: &stop.numbers,
-            timers: &stop.timers,
-        }
-    }
-
-    fn ways_of(stop: &Stop) -> Option<Ways> {
-        ways(&recovery(stop), &Budget::default()).expect("no limit")
-    }
-
-    /// Whatever the limit is: 4096 configurations, none of them looked at by itself.
-    #[test]
-    fn a_timer_of_any_length_runs_down() {
-        let ways = ways_of(&stop(false)).expect("there is a way");
-        assert!(ways.steps.iter().any(|step| step.rank.is_some()));
-        assert!(ways.steps.len() < 12, "{}", ways.steps.len());
-        // Other code agrees; a region less, and a state is left out or not led anywhere.
-        let stop = stop(false);
-        let check = |ways: &Ways| ways.check(&recovery(&stop), &Budget::default());
-        assert_eq!(check(&ways), Ok(true));
-        for k in 0..ways.steps.len() {
-            let mut less = ways.clone();
-            less.steps.remove(k);
-            assert_eq!(check(&less), Ok(false), "{k}");
-            let mut other = ways.clone();
-            other.steps[k].rank = match other.steps[k].rank {
-                Some(_) => None,
-                None => continue,
-            };
-            assert_eq!(check(&other), Ok(false), "{k}");
-        }
-        let mut unknown = ways.clone();
-        unknown.invariant.clauses.clear();
-        assert_eq!(check(&unknown), Ok(false));
-        // What is locked is never reached, and has no way.
-        assert!(!ways.invariant.clauses.is_empty());
-    }
-
-    #[test]
-    fn a_state_that_nothing_leaves_has_no_way() {
-        assert_eq!(ways_of(&stop(true)), None);
-    }
-
-    /// Every state of the invariant is led to the goal by its region, one after the other.
-    #[test]
-    fn the_ways_lead_to_the_goal() {
-        let stop = stop(false);
-        let ways = ways_of(&stop).expect("there is a way");
-        let netlist = &stop.netlist;
-        for limit in [0, 1, 2, 77, 4095] {
-            for timer in [0, 1, limit / 2, limit] {
-                let bit = |k: usize, number: usize| number >> (k % BITS) & 1 == 1;
-                let mut state = vec![true, false];
-                state.extend((0..BITS).map(|k| bit(k, timer)));
-                state.extend((0..BITS).map(|k| bit(k, limit)));
-                let mut cycles = 0;
-                while state[0] {
-                    let inside = |step: &&Step| step.region.iter().all(|(k, v)| state[*k] == *v);
-                    let step = ways.steps.iter().find(inside).expect("a region");
-                    let mut leaves = vec![false; netlist.graph.size()];
-                    for (latch, value) in netlist.latches.iter().zip(&state) {
-                        leaves[latch.lit.node()] = *value;
-                    }
-                    for (k, value) in &step.inputs {
-                        leaves[netlist.inputs[*k].lit.node()] = *value;
-                    }
-                    let values = netlist.graph.values(|node| leaves[node]);
-                    let next = netlist.latches.iter();
-                    state = next.map(|latch| value(&values, latch.next)).collect();
-                    cycles += 1;
-                    assert!(cycles <= timer + 2, "{limit} {timer}");
-                }
-            }
-        }
     }
 }
