@@ -339,6 +339,30 @@ fn a_brake_that_slips_is_defective_until_it_is_tested_in_a_safe_place() {
     assert_eq!(brake.step(&safe).step, holding_brake::Phase::TorqueKnown);
 }
 
+/// HFS-BRT-002: a brake that does not hold at all lets the axis fall as soon as the drive lets go; the drive takes it at once.
+#[test]
+fn an_axis_that_falls_before_the_test_torque_is_taken() {
+    let mut brake =
+        holding_brake::Monitor::new(holding_brake::Config::new(10).expect("in the range"));
+    let start = holding_brake::Inputs {
+        start: true,
+        ..holding_brake::Inputs::default()
+    };
+    let done = holding_brake::Inputs {
+        done: true,
+        ..holding_brake::Inputs::default()
+    };
+    brake.step(&start);
+    brake.step(&done);
+    assert_eq!(brake.step(&done).step, holding_brake::Phase::ControlOff);
+    let falls = holding_brake::Inputs {
+        too_far: true,
+        ..holding_brake::Inputs::default()
+    };
+    let bad = brake.step(&falls);
+    assert!(bad.step == holding_brake::Phase::Defective && bad.controlled && !bad.passed);
+}
+
 /// HFS-STO-003, HFS-TEST-010, HFS-BCT-004, HFS-BCT-005: the whole test with sound feedback, and its beginning with an axis that
 /// leaves its place.
 #[test]

@@ -130,8 +130,9 @@ monitor! { heidenhain::holding_brake;
                     || (s.before.step.is_bad() && s.inputs.safe_now)),
                 Phase::Closes => s.before.step == Phase::TorqueKnown && s.inputs.done,
                 Phase::ControlOff => s.before.step == Phase::Closes && s.inputs.done,
-                Phase::TestTorque => s.before.step == Phase::ControlOff && s.inputs.done,
-                Phase::Good | Phase::NoCurrent | Phase::Defective => s.before.step == Phase::TestTorque,
+                Phase::TestTorque => s.before.step == Phase::ControlOff && s.inputs.done && !s.inputs.too_far,
+                Phase::Defective => matches!(s.before.step, Phase::ControlOff | Phase::TestTorque),
+                Phase::Good | Phase::NoCurrent => s.before.step == Phase::TestTorque,
             };
 
     /// The drive lets go of the axis only behind a closed brake.
@@ -139,9 +140,11 @@ monitor! { heidenhain::holding_brake;
         when |s| !s.outputs.controlled
             => s.outputs.closed && matches!(s.before.step, Phase::Closes | Phase::ControlOff | Phase::TestTorque);
 
-    /// More path than SMP2232 under the test torque: the brake is defective, and the drive takes the axis.
+    /// More path than SMP2232 while the drive has let go, with the test torque or before it: the brake is defective, and the drive
+    /// takes the axis.
     path_shows_a_defect ["HFS-BRT-002", "HFS-PARAM-022"]:
-        when |s| s.config.is_tested() && s.before.step == Phase::TestTorque && s.inputs.too_far
+        when |s| s.config.is_tested() && matches!(s.before.step, Phase::ControlOff | Phase::TestTorque)
+            && s.inputs.too_far
             => s.after.step == Phase::Defective && s.outputs.controlled && !s.outputs.passed;
 
     /// Without a rise of the current there was no test torque: not passed.
@@ -186,7 +189,8 @@ const fn advanced(step: Phase, config: &Config, inputs: &Inputs) -> Phase {
         Phase::Defective | Phase::NoCurrent if inputs.start && inputs.safe_now => {
             Phase::TorqueKnown
         }
-        Phase::TestTorque if inputs.too_far => Phase::Defective,
+        // The path counts from when the drive lets go: a brake that does not hold at all lets the axis fall before there is a torque.
+        Phase::ControlOff | Phase::TestTorque if inputs.too_far => Phase::Defective,
         Phase::TestTorque if inputs.done && inputs.current => Phase::Good,
         Phase::TestTorque if inputs.done => Phase::NoCurrent,
         Phase::TorqueKnown if inputs.done => Phase::Closes,
