@@ -1,6 +1,6 @@
 //! `stillpoint theorems`, and what `check` of a machine does with them.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::common::{Folder, copied, messages, root, status, stderr, stdout, stillpoint};
 
@@ -35,27 +35,29 @@ fn a_folder_without_a_family_is_refused() {
     assert!(told.contains("spec/families/sinumerik-840d"), "{told}");
 }
 
-/// Nothing is proved anew of tables that are as they were, and the file is the same to the last byte.
+/// The folder of a copy of a family.
+fn copy_of(name: &str, family: &str) -> PathBuf {
+    let machine = copied(name, "spec/machines/storage-crane.toml", family, &[]);
+    let root = Path::new(&machine).ancestors().nth(3).expect("its root");
+    root.join(family)
+}
+
+/// Nothing is proved anew of tables that are as they were, and the files are the same to the last byte.
 #[test]
 fn what_is_proved_stays() {
     let family = "spec/families/srm-fblocks";
-    let machine = copied(
-        "theorems-stay",
-        "spec/machines/storage-crane.toml",
-        family,
-        &[],
-    );
-    let copy = Path::new(&machine)
-        .ancestors()
-        .nth(3)
-        .expect("its root")
-        .join(family);
-    let file = copy.join("theorems.toml");
-    let before = std::fs::read(&file).expect("readable");
+    let copy = copy_of("theorems-stay", family);
+    let files = ["theorems.toml", "theorems.cert"].map(|name| copy.join(name));
+    let read = || {
+        files
+            .clone()
+            .map(|file| std::fs::read(file).expect("readable"))
+    };
+    let before = read();
     let output = stillpoint(&["theorems", copy.to_str().expect("UTF-8"), "--prove"]);
     assert_eq!(status(&output), 0, "{}", stderr(&output));
     assert_eq!(stdout(&output).lines().count(), 1, "{}", stdout(&output));
-    assert_eq!(std::fs::read(&file).expect("readable"), before);
+    assert!(read() == before);
 }
 
 /// The certificates confirm what stands there; one that says less is told, and which theorem it is of.
@@ -82,17 +84,7 @@ fn certificates_are_checked() {
         messages(&output)
     );
     // A file that was altered, and none.
-    let machine = copied(
-        "theorems-check",
-        "spec/machines/storage-crane.toml",
-        family,
-        &[],
-    );
-    let copy = Path::new(&machine)
-        .ancestors()
-        .nth(3)
-        .expect("its root")
-        .join(family);
+    let copy = copy_of("theorems-check", family);
     let text = std::fs::read_to_string(copy.join("theorems.cert")).expect("readable");
     let folder = copy.to_str().expect("UTF-8");
     std::fs::write(

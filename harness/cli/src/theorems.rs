@@ -11,7 +11,6 @@ use stillpoint_harness::theorems::certificates::{self, Certificates};
 use stillpoint_harness::theorems::{
     All, Failed, Proving, check, count, is_family, prove, text, told, unknown,
 };
-
 use stillpoint_model::proof::Budget;
 
 use super::interrupt::Interruptible;
@@ -22,7 +21,7 @@ pub struct Arguments {
     /// The folder of a family
     #[arg(value_name = "FAMILY")]
     family: PathBuf,
-    /// Prove those whose tables have changed, and write the family's theorems.toml
+    /// Prove those whose tables have changed, and write the family's theorems.toml and theorems.cert
     #[arg(long)]
     prove: bool,
     /// Check the certificates of all theorems, without the engines that have found them

@@ -70,7 +70,7 @@ impl Invariant {
     }
 
     /// The clauses, where `value` gives a latch before or after the cycle.
-    fn over(&self, graph: &mut Graph, value: impl Fn(usize) -> Lit) -> Vec<Lit> {
+    pub(super) fn over(&self, graph: &mut Graph, value: impl Fn(usize) -> Lit) -> Vec<Lit> {
         let mut out = Vec::with_capacity(self.clauses.len());
         for clause in &self.clauses {
             let parts = clause.iter().map(|(k, v)| value(*k).flipped(!*v));

@@ -159,6 +159,26 @@ impl<'a> Problem<'a> {
         &self.netlist.graph
     }
 
+    /// The nodes of the cone over another graph, where the latches and inputs of the cone are these.
+    pub(super) fn copy(&self, graph: &mut Graph, state: &[Lit], inputs: &[Lit]) -> Vec<Lit> {
+        let original = self.graph();
+        let mut map = vec![Lit::FALSE; original.size()];
+        for (latch, lit) in self.cone().zip(state) {
+            map[latch.lit.node()] = *lit;
+        }
+        for (place, lit) in self.inputs.iter().zip(inputs) {
+            map[self.netlist.inputs[*place].lit.node()] = *lit;
+        }
+        for node in &self.nodes {
+            if let Node::And(a, b) = original.node(*node) {
+                let a = map[a.node()].flipped(a.negated());
+                let b = map[b.node()].flipped(b.negated());
+                map[*node] = graph.and(a, b);
+            }
+        }
+        map
+    }
+
     /// The latches of the cone.
     pub(super) fn cone(&self) -> impl Iterator<Item = &'a Latch> + '_ {
         let netlist = self.netlist;
@@ -213,12 +233,18 @@ impl<'a> Problem<'a> {
     }
 }
 
-/// Conditions on the latches over the state after the cycle, in a graph that has grown from that of the netlist.
-pub(super) fn after(graph: &mut Graph, netlist: &Netlist, conditions: &[Lit]) -> Vec<Lit> {
-    let mut map: Vec<Lit> = (0..graph.size()).map(Lit::of).collect();
+/// By node of a graph of this size, what a latch becomes in a cycle; all else stays.
+pub(super) fn moved(netlist: &Netlist, size: usize) -> Vec<Lit> {
+    let mut map: Vec<Lit> = (0..size).map(Lit::of).collect();
     for latch in &netlist.latches {
         map[latch.lit.node()] = latch.next;
     }
+    map
+}
+
+/// Conditions on the latches over the state after the cycle, in a graph that has grown from that of the netlist.
+pub(super) fn after(graph: &mut Graph, netlist: &Netlist, conditions: &[Lit]) -> Vec<Lit> {
+    let mut map = moved(netlist, graph.size());
     let needed = graph.below(conditions.iter().copied());
     for node in 0..needed.len() {
         if !needed[node] {

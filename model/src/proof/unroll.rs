@@ -1,6 +1,6 @@
 //! Cycles one after the other (unrolling): an and-inverter graph over the inputs of each cycle.
 
-use super::graph::{Graph, Lit, Node, value};
+use super::graph::{Graph, Lit, value};
 use super::netlist::{Problem, Run};
 use super::sat::{Budget, Encoding, Solver, Spent};
 
@@ -60,39 +60,18 @@ impl<'a> Unrolling<'a> {
 
     /// These conditions on the latches hold in the first cycle.
     fn hold(&mut self, conditions: &[Lit]) {
-        let map = self.copy(0, &[]);
+        let map = (self.problem).copy(&mut self.graph, &self.states[0], &[]);
         for lit in conditions {
             let lit = map[lit.node()].flipped(lit.negated());
             self.require(lit);
         }
     }
 
-    /// The nodes of the cone over the state of this number and these inputs.
-    fn copy(&mut self, state: usize, inputs: &[Lit]) -> Vec<Lit> {
-        let problem = self.problem;
-        let original = problem.graph();
-        let mut map = vec![Lit::FALSE; original.size()];
-        for (latch, lit) in problem.cone().zip(&self.states[state]) {
-            map[latch.lit.node()] = *lit;
-        }
-        for (place, lit) in problem.inputs.iter().zip(inputs) {
-            map[problem.netlist.inputs[*place].lit.node()] = *lit;
-        }
-        for node in &problem.nodes {
-            if let Node::And(a, b) = original.node(*node) {
-                let a = map[a.node()].flipped(a.negated());
-                let b = map[b.node()].flipped(b.negated());
-                map[*node] = self.graph.and(a, b);
-            }
-        }
-        map
-    }
-
     /// One cycle more.
     pub(super) fn extend(&mut self) {
         let problem = self.problem;
         let inputs: Vec<Lit> = problem.inputs.iter().map(|_| self.graph.leaf()).collect();
-        let map = self.copy(self.cycles(), &inputs);
+        let map = problem.copy(&mut self.graph, &self.states[self.bad.len()], &inputs);
         let at = |lit: Lit| map[lit.node()].flipped(lit.negated());
         for lit in problem.invariants.iter().chain(&problem.assumed) {
             self.require(at(*lit));

@@ -1,7 +1,7 @@
 //! Checks ways that were found, by other questions than those that have found them.
 
 use super::super::graph::Lit;
-use super::super::netlist::{Netlist, Problem};
+use super::super::netlist::{Problem, moved};
 use super::super::sat::{Budget, Encoding, Solver, Spent, Term};
 use super::{Recovery, Values, Ways};
 
@@ -12,10 +12,11 @@ impl Ways {
     /// The budget is spent.
     pub fn check(&self, recovery: &Recovery, budget: &Budget) -> Result<bool, Spent> {
         let mut netlist = recovery.netlist.clone();
-        let kept = self.kept(&mut netlist, budget)?;
-        let map: Vec<Lit> = moved(&netlist);
-        let latch = |k: &usize| (netlist.latches[*k].lit, netlist.latches[*k].next);
-        let latches = (0..netlist.latches.len()).map(|k| latch(&k));
+        let clauses = (self.invariant).over(&mut netlist.graph, |k| netlist.latches[k].lit);
+        let holds = netlist.graph.all(clauses.iter().copied());
+        let kept = self.invariant.check(&netlist, !holds, budget)?.is_ok();
+        let map = moved(&netlist, netlist.graph.size());
+        let latches = netlist.latches.iter().map(|latch| (latch.lit, latch.next));
         let (now, next): (Vec<Lit>, Vec<Lit>) = latches.unzip();
         let inputs: Vec<Lit> = netlist.inputs.iter().map(|input| input.lit).collect();
         let cube = |values: &Values, lits: &[Lit]| -> Vec<Lit> {
@@ -25,11 +26,7 @@ impl Ways {
         let end = netlist.graph.and(recovery.goal, recovery.using);
         let assumed = Problem::new(&netlist, end).assumed;
         let graph = &mut netlist.graph;
-        let mut given = netlist.invariants.clone();
-        for clause in &self.invariant.clauses {
-            let parts = clause.iter().map(|(k, v)| now[*k].flipped(!v));
-            given.push(graph.any(parts.collect::<Vec<_>>()));
-        }
+        let given = [&netlist.invariants[..], &clauses].concat();
         let used = assumed.into_iter().chain([recovery.using]);
         let used = graph.all(used.collect::<Vec<_>>());
         // For each region what is asked: a state of it, with its inputs, and no way out.
@@ -70,31 +67,4 @@ impl Ways {
         }
         Ok(kept)
     }
-
-    /// Whether the invariant is one.
-    fn kept(&self, netlist: &mut Netlist, budget: &Budget) -> Result<bool, Spent> {
-        let clauses = self.invariant.clauses.iter();
-        let clauses: Vec<Vec<Lit>> = clauses
-            .map(|clause| {
-                let parts = clause.iter();
-                let part = |(k, v): &(usize, bool)| netlist.latches[*k].lit.flipped(!v);
-                parts.map(part).collect()
-            })
-            .collect();
-        let mut holds = Lit::TRUE;
-        for clause in clauses {
-            let any = netlist.graph.any(clause);
-            holds = netlist.graph.and(holds, any);
-        }
-        Ok(self.invariant.check(netlist, !holds, budget)?.is_ok())
-    }
-}
-
-/// By node of a variable what it becomes in a cycle.
-fn moved(netlist: &Netlist) -> Vec<Lit> {
-    let mut map: Vec<Lit> = (0..netlist.graph.size()).map(Lit::of).collect();
-    for latch in &netlist.latches {
-        map[latch.lit.node()] = latch.next;
-    }
-    map
 }

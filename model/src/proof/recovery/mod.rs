@@ -105,17 +105,12 @@ fn unreachable(
     budget: &Budget,
 ) -> Result<Option<Invariant>, Spent> {
     let mut netlist = netlist.clone();
-    let graph = &mut netlist.graph;
-    for clause in &search.ways.invariant.clauses {
-        let parts = clause.iter();
-        let parts = parts.map(|(k, v)| netlist.latches[*k].lit.flipped(!v));
-        netlist
-            .invariants
-            .push(graph.any(parts.collect::<Vec<_>>()));
-    }
+    let known = &search.ways.invariant;
+    let clauses = known.over(&mut netlist.graph, |k| netlist.latches[k].lit);
+    netlist.invariants.extend(clauses);
     let here = search.problem.latches.iter().zip(state);
     let here = here.map(|(k, value)| netlist.latches[*k].lit.flipped(!value));
-    let bad = graph.all(here.collect::<Vec<_>>());
+    let bad = netlist.graph.all(here.collect::<Vec<_>>());
     Ok(
         match reachability(&Problem::new(&netlist, bad), budget)?.0 {
             Reachability::Proved(invariant) => Some(invariant),

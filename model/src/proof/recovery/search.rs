@@ -1,6 +1,6 @@
 //! Finds regions and ways out of them.
 
-use super::super::graph::{Graph, Lit, Node, value};
+use super::super::graph::{Graph, Lit, value};
 use super::super::invariant::Invariant;
 use super::super::netlist::Problem;
 use super::super::sat::{Budget, Encoding, Solver, Spent, Term};
@@ -98,21 +98,7 @@ impl<'a> Search<'a> {
             None => problem.cone().map(|_| self.graph.leaf()).collect(),
         };
         let inputs: Vec<Lit> = problem.inputs.iter().map(|_| self.graph.leaf()).collect();
-        let original = problem.graph();
-        let mut map = vec![Lit::FALSE; original.size()];
-        for (latch, lit) in problem.cone().zip(&state) {
-            map[latch.lit.node()] = *lit;
-        }
-        for (place, lit) in problem.inputs.iter().zip(&inputs) {
-            map[problem.netlist.inputs[*place].lit.node()] = *lit;
-        }
-        for node in &problem.nodes {
-            if let Node::And(a, b) = original.node(*node) {
-                let a = map[a.node()].flipped(a.negated());
-                let b = map[b.node()].flipped(b.negated());
-                map[*node] = self.graph.and(a, b);
-            }
-        }
+        let map = problem.copy(&mut self.graph, &state, &inputs);
         let at = |lit: Lit| map[lit.node()].flipped(lit.negated());
         if self.frames.is_empty() {
             // Of later cycles this follows, if the inputs are possible: to require it would exclude those that are not.
