@@ -44,7 +44,7 @@ fn without_encoder_some_functions_do_not_exist() {
                 encoder,
                 false,
                 false,
-                Slsd::Restart,
+                Slsd::Keep,
             );
             let sdi = sdi::Config::new(
                 Permitted::Positive,
@@ -197,7 +197,7 @@ fn speed_limits(delay: Cycles) -> sls::Monitor {
         true,
         false,
         false,
-        Slsd::Restart,
+        Slsd::Keep,
     );
     sls::Monitor::new(config.expect("accepted"))
 }

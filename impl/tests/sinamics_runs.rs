@@ -44,7 +44,7 @@ impl Axis {
             true,
             false,
             false,
-            Slsd::Restart,
+            Slsd::Keep,
         );
         let sam = sam::Config::new(
             Speed(20),

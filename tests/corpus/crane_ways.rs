@@ -10,6 +10,12 @@ const CRANE: &str = "spec/machines/storage-crane.toml";
 /// From the call that finds it to the drive that brakes, in seconds: cycle of the drive, `signal`, cycle of the program, its runtime, delay.
 const DEAD: f64 = 0.012 + 0.020 + CYCLE + 0.007 + 0.100;
 
+/// The cycles of the drive between two calls, of which its velocity is the mean.
+const MEAN: f64 = 0.024;
+
+/// How hard the axis accelerates until the drive brakes, mm/s2.
+const GAIN: f64 = 500.0;
+
 /// T_SAMPLE, s.
 const CYCLE: f64 = 0.020;
 
@@ -66,8 +72,11 @@ impl Axis {
 
     /// How far it goes from one velocity until the ramp, and with it the axis, is down to the other one.
     fn way(&self, from: f64, to: f64) -> f64 {
-        let time = DEAD + (from - to).max(0.0) / self.braking;
-        let told = from * DEAD + (from * from - to * to).max(0.0) / (2.0 * self.braking);
+        let late = DEAD + MEAN;
+        let fast = from + GAIN * late;
+        let time = late + (fast - to).max(0.0) / self.braking;
+        let told =
+            (from + fast) / 2.0 * late + (fast * fast - to * to).max(0.0) / (2.0 * self.braking);
         told + self.off + SLIP * (MORE + time)
     }
 
@@ -86,8 +95,9 @@ impl Axis {
         let kept = |speed: &u32| {
             let slow = (f64::from(*speed) / 60.0 - SLIP).max(0.0);
             let down = (slow - self.faster).max(0.0);
+            let calm = slow - GAIN * (DEAD + MEAN);
             self.everywhere()
-                .all(|(x, v)| v <= slow || self.way(v, down) <= x - distance)
+                .all(|(x, v)| v <= calm || self.way(v, down) <= x - distance)
         };
         (0..300_000)
             .step_by(10)
@@ -160,10 +170,12 @@ fn an_axis_with_slp_stops_where_its_values_say() {
     let text = "family = \"srm-fblocks\"\n[control]\nRUNTIME = \"7 ms\"\n[axis.X]\nkind = \"linear\"\nfunctions = [\"safe position\", \"SLP\", \"ramp\"]\n\
                 V_MAX = \"30000 mm/min\"\nSBR_V_MAX = \"30000 mm/min\"\nSBR_T_RAMP = \"1 s\"\nSBR_MAXTOL_V = \"3000 mm/min\"\n\
                 SBR_MAXTOL_POS = \"100 mm\"\nX_NEGATIVE = \"1000 mm\"\nX_POSITIVE = \"99000 mm\"\n\
-                [guarantee.stops]\npattern = \"stops_in_time\"\naxes = [\"X\"]\nbeyond = \"900 mm\"\nsignal = \"20 ms\"\ndelay = \"100 ms\"\n";
+                [guarantee.stops]\npattern = \"stops_in_time\"\naxes = [\"X\"]\nbeyond = \"900 mm\"\nsignal = \"20 ms\"\ndelay = \"100 ms\"\nacceleration = \"500 mm/s2\"\n";
+    // A position is no mean.
+    let fast = 500.0 + GAIN * DEAD;
     let (way, off) = (
-        500.0 * DEAD + 250.0,
-        100.0 + 110.0 + 500.0 * CYCLE / 2.0 + SLIP * (MORE + DEAD + 1.0),
+        (500.0 + fast) / 2.0 * DEAD + fast * fast / 1000.0,
+        100.0 + 110.0 + 500.0 * CYCLE / 2.0 + SLIP * (MORE + DEAD + fast / 500.0),
     );
     let with = |mm: f64| {
         let beyond = format!("beyond = \"{mm} mm\"");

@@ -6,7 +6,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use stillpoint_certify::format::{Verdict, bodies, open};
-use stillpoint_certify::proof::format::{read, text as proofs_text};
+use stillpoint_certify::proof::format::text as proofs_text;
+use stillpoint_certify::proof::read::read;
 use stillpoint_certify::proof::ways::{Rank, Step};
 use stillpoint_certify::{Confirmed, certify_bytes};
 use stillpoint_engine::check::{Settings, check};

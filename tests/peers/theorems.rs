@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use stillpoint_certify::format::Verdict as CertifiedVerdict;
-use stillpoint_certify::proof::format::{System as Certificate, read_theorems, theorems_text};
+use stillpoint_certify::proof::format::{System as Certificate, theorems_text};
+use stillpoint_certify::proof::read::read_theorems;
 use stillpoint_engine::check::{Settings as CheckSettings, check, summarise};
 use stillpoint_engine::label;
 use stillpoint_engine::subject::{self, Readings};

@@ -101,7 +101,7 @@ pub fn certify_bytes(
 }
 
 fn certify_proofs(bytes: &[u8], spec: Option<&Path>) -> Result<Confirmed, Failure> {
-    let file = proof::format::read(bytes)?;
+    let file = proof::read::read(bytes)?;
     let header = file.header;
     let path = spec.map_or_else(|| PathBuf::from(&header.subject), Path::to_owned);
     let subject = Subject::load(&path, header.kind, &header.readings)?;

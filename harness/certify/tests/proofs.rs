@@ -7,7 +7,8 @@ use std::path::{Path, PathBuf};
 
 use stillpoint_certify::format::Verdict;
 use stillpoint_certify::proof::clause::{Clause, Literal};
-use stillpoint_certify::proof::format::{Claim, File, Proof, Run, read, text};
+use stillpoint_certify::proof::format::{Claim, File, Proof, Run, text};
+use stillpoint_certify::proof::read::read;
 use stillpoint_certify::proof::ways::Step;
 use stillpoint_certify::{Confirmed, Failure, certify_bytes};
 

@@ -186,6 +186,7 @@ impl<'a> Writer<'a> {
         let proof = Proof {
             invariant: shown.invariant.clone(),
             induction: shown.induction.clone(),
+            measure: shown.measure.clone(),
             ways: shown.ways.clone(),
             ..Proof::default()
         };
@@ -266,7 +267,7 @@ pub(crate) fn with_lemmas(
     budget: &Budget,
 ) -> Result<Proof, Unwritten> {
     let mut found = Vec::new();
-    let question = Question::new(symbolic, target, &proof.invariant);
+    let question = Question::new(symbolic, target, &proof.invariant, proof.measure.as_ref());
     let mut question = question.map_err(Unwritten::Untold)?;
     if let Some((_, what)) = question.unknown() {
         return Err(Unwritten::Untold(what));

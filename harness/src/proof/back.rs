@@ -56,7 +56,8 @@ impl Judge<'_> {
                 entry.verdict = Verdict::Holds;
                 entry.engine = Some(Engine::Pdr);
                 let proof = Proof::Ways(ways);
-                entry.shown = Some(asked.shown(&proof, self.known.clone()));
+                entry.shown =
+                    Some(asked.shown(&asked.translated.netlist, &proof, self.known.clone()));
                 entry.proof = Some(proof);
                 return true;
             }

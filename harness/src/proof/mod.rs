@@ -7,6 +7,7 @@ mod back;
 mod decide;
 mod every;
 mod explored;
+mod forever;
 mod help;
 mod monitor;
 mod pairs;
@@ -80,8 +81,19 @@ pub enum Proof {
     Invariant(Invariant),
     /// From every reachable state these ways lead to the goal.
     Ways(Ways),
+    /// A measure of a response without a bound, and what shows that it is one.
+    Measured(Measured, Box<Proof>),
     /// All states were enumerated: so many.
     States(u64),
+}
+
+/// What shows that a response without a bound comes.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Measured {
+    /// How often at most a round of the fairness conditions is idle.
+    pub rounds: i64,
+    /// Numbers that move, and whether they rise, by their places among those that count.
+    pub numbers: Vec<(usize, bool)>,
 }
 
 /// Who judged.
@@ -226,7 +238,9 @@ impl<'a> Judge<'a> {
         let mut order: Vec<usize> = (0..asked.questions.len()).collect();
         order.sort_by_key(|k| match asked.questions[*k] {
             Question::Twice => 2,
-            Question::Never { duty: Some(_), .. } | Question::Way { .. } => 1,
+            Question::Never { duty: Some(_), .. } | Question::Way { .. } | Question::Forever(_) => {
+                1
+            }
             _ => 0,
         });
         let mut told = BTreeMap::new();
@@ -257,6 +271,11 @@ impl<'a> Judge<'a> {
                 }
                 Question::Way { goal, using, end } => {
                     if !self.ways(&asked, &mut entry, (*goal, *using, *end)) {
+                        left.push(k);
+                    }
+                }
+                Question::Forever(response) => {
+                    if !self.forever(&asked, &mut entry, response) {
                         left.push(k);
                     }
                 }
@@ -391,10 +410,30 @@ impl<'a> Judge<'a> {
             Decision::Never(proof) => {
                 entry.verdict = Verdict::Unreachable;
                 entry.engine = Some(self.engine(&proof));
-                entry.shown = Some(asked.shown(&proof, Vec::new()));
+                entry.shown = Some(asked.shown(&asked.translated.netlist, &proof, Vec::new()));
                 entry.proof = Some(proof);
             }
             Decision::Open(why) => entry.reason = Some(why),
+        }
+    }
+
+    /// What is never broken holds if it is put to the test at all.
+    fn first(&self, asked: &Asked, entry: &mut Judged, first: Lit) {
+        match self.decide(asked, first) {
+            Decision::Seen(run) => {
+                entry.verdict = Verdict::Holds;
+                entry.length = Some(run.cycles.len() as u64);
+                entry.trace = Some(asked.translated.trace(&run));
+            }
+            Decision::Never(proof) => {
+                entry.verdict = Verdict::Vacuous;
+                let netlist = &asked.translated.netlist;
+                entry.shown = Some(asked.shown(netlist, &proof, self.known.clone()));
+                entry.proof = Some(proof);
+            }
+            Decision::Open(why) => {
+                entry.reason = Some(format!("it is not broken, but may say nothing: {why}"));
+            }
         }
     }
 
@@ -419,27 +458,15 @@ impl<'a> Judge<'a> {
             Decision::Never(proof) => proof,
         };
         entry.engine = Some(self.engine(&proof));
-        entry.shown = Some(asked.shown(&proof, known));
+        entry.shown = Some(asked.shown(&asked.translated.netlist, &proof, known));
         entry.proof = Some(proof);
-        if let Some(first) = first {
-            match self.decide(asked, first) {
-                Decision::Seen(run) => {
-                    entry.length = Some(run.cycles.len() as u64);
-                    entry.trace = Some(asked.translated.trace(&run));
-                }
-                Decision::Never(proof) => {
-                    entry.verdict = Verdict::Vacuous;
-                    entry.shown = Some(asked.shown(&proof, self.known.clone()));
-                    entry.proof = Some(proof);
-                    return;
-                }
-                Decision::Open(why) => {
-                    entry.reason = Some(format!("it is not broken, but may say nothing: {why}"));
-                    return;
-                }
-            }
+        match first {
+            Some(first) => self.first(asked, entry, first),
+            None => entry.verdict = Verdict::Holds,
         }
-        entry.verdict = Verdict::Holds;
+        if entry.verdict != Verdict::Holds {
+            return;
+        }
         for fact in stated {
             let right = match self.decide_duty(asked, fact.what, fact.duty.as_ref()).0 {
                 Decision::Seen(_) => fact.seen,
@@ -465,7 +492,8 @@ impl<'a> Judge<'a> {
 pub fn has_engine(form: &Form) -> bool {
     match form {
         Form::Always { .. } | Form::Reachable { .. } | Form::Unless { .. } => true,
-        Form::LeadsTo { within, .. } => within.is_some(),
+        // Without a bound where a measure is found.
+        Form::LeadsTo { .. } => true,
         // Where the pairs of runs are no more than it is about.
         Form::Independent { .. } => true,
         // Where regions and inputs for each are found.

@@ -127,6 +127,98 @@ pub(super) fn within(
     (broken, duty)
 }
 
+/// A response without a bound.
+pub(super) struct Forever {
+    /// What must be seen for it to say something.
+    pub first: Lit,
+    pub when: Lit,
+    pub goal: Lit,
+    /// Holds in each cycle after the first.
+    pub assuming: Lit,
+    /// Each holds infinitely often.
+    pub fair: Vec<Lit>,
+}
+
+/// What a response without a bound is measured by.
+pub(super) struct Measure<'a> {
+    /// How often at most a round of the fairness conditions is idle, or a number moves back.
+    pub rounds: i64,
+    /// The numbers; whether they are to rise.
+    pub numbers: &'a [(Word, bool)],
+}
+
+/// What is seen of a measure in a cycle.
+pub(super) struct Measuring {
+    /// It is one too many of what is counted.
+    pub broken: Lit,
+    /// The duty lasts, and this is counted.
+    pub counts: Lit,
+    pub duty: Duty,
+}
+
+/// The measure of a response without a bound. A round ends when each fairness condition has been seen in it; it is idle if no number
+/// has moved in it as it is to. If what is counted, idle rounds and cycles in which a number moves back, is never more than `rounds`,
+/// then no run is without the goal for ever: after the last one a number moves in each round, and none back.
+pub(super) fn measured(
+    netlist: &mut Netlist,
+    fault: Lit,
+    response: &Forever,
+    measure: &Measure,
+) -> Measuring {
+    let moves: Vec<(Word, &Word, bool)> = (measure.numbers.iter())
+        .map(|(number, rises)| (netlist.after(number), number, *rises))
+        .collect();
+    let first = netlist.latches.len();
+    let pending = netlist.latch("monitor.pending".to_owned(), Some(false));
+    let rest = counter(netlist, "monitor.rest", measure.rounds);
+    let latch = |netlist: &mut Netlist, name| netlist.latch(name, Some(false));
+    let seen: Vec<Lit> = (0..response.fair.len())
+        .map(|k| latch(netlist, format!("monitor.seen.{k}")))
+        .collect();
+    let moved = latch(netlist, "monitor.moved".to_owned());
+    let graph = &mut netlist.graph;
+    let (mut forth, mut back) = (Lit::FALSE, Lit::FALSE);
+    for (then, now, rises) in &moves {
+        let (small, great) = if *rises { (*now, then) } else { (then, *now) };
+        let (to, from) = (small.less(graph, great), great.less(graph, small));
+        (forth, back) = (graph.or(forth, to), graph.or(back, from));
+    }
+    let lasts = graph.all([pending, response.assuming, !response.goal]);
+    let seen: Vec<Lit> = (seen.iter().zip(&response.fair))
+        .map(|(before, now)| graph.or(*before, *now))
+        .collect();
+    let ends = graph.all(seen.iter().copied());
+    let moved = graph.or(moved, forth);
+    let idle = graph.and(ends, !moved);
+    let any = graph.or(idle, back);
+    let counts = graph.all([lasts, any, !fault]);
+    let over = is_zero(graph, &rest);
+    let broken = graph.and(counts, over);
+    let starts = graph.and(response.when, !response.goal);
+    let open = graph.or(lasts, starts);
+    let less = rest.minus(graph, &Word::constant(1));
+    let fewer = graph.and(counts, !over);
+    let left = less.choice(graph, fewer, &rest);
+    let count = left.choice(graph, lasts, &Word::constant(measure.rounds));
+    let goes_on = graph.and(lasts, !ends);
+    let next: Vec<Lit> = (seen.iter().chain([&moved]))
+        .map(|bit| graph.and(goes_on, *bit))
+        .collect();
+    keep(netlist, fault, first, open, &count, measure.rounds);
+    let behind = netlist.latches.len() - next.len();
+    set(netlist, fault, behind, &next);
+    let duty = Duty {
+        pending,
+        rest,
+        most: measure.rounds,
+    };
+    Measuring {
+        broken,
+        counts,
+        duty,
+    }
+}
+
 /// The fastest response: what shows a cycle with the goal fewer than `cycles`, and one exactly so many after one with `when`, with no
 /// goal between. Of several duties the youngest one counts.
 pub(super) fn fastest(

@@ -8,7 +8,7 @@ use stillpoint_model::Trace;
 use stillpoint_model::proof::Lit;
 
 use super::every::Every;
-use super::monitor::{self, Cycles, Duty};
+use super::monitor::{self, Cycles, Duty, Forever};
 use crate::export::{Translated, Unsupported};
 
 /// Longer bounds have no monitor: its counter would outgrow what the engines decide.
@@ -31,6 +31,8 @@ pub(super) enum Question {
     Seen(Lit),
     /// What must stay possible, what holds on the way, and both.
     Way { goal: Lit, using: Lit, end: Lit },
+    /// A response without a bound.
+    Forever(Forever),
     /// It is about two runs.
     Twice,
     /// No engine here has an answer, and why.
@@ -215,8 +217,26 @@ impl<'a> Asked<'a> {
                     stated,
                 }
             }
-            Form::LeadsTo { .. } => {
-                Question::None("a response without a bound is about runs without an end")
+            Form::LeadsTo {
+                when,
+                goal,
+                within: None,
+                fair,
+                assuming,
+            } => {
+                let fair: Option<Vec<Lit>> = fair.iter().map(|k| self.atom(*k)).collect();
+                let assuming = match assuming {
+                    Some(assuming) => self.atom(*assuming)?,
+                    None => Lit::TRUE,
+                };
+                let when = self.atom(*when)?;
+                Question::Forever(Forever {
+                    first: graph(self, &[!fault, when]),
+                    when,
+                    goal: self.atom(*goal)?,
+                    assuming,
+                    fair: fair?,
+                })
             }
             Form::CanAlwaysReach { goal, using } => {
                 let goal = self.atom(*goal)?;

@@ -49,6 +49,10 @@ impl Proof {
                 counted(ways.steps.len(), "region"),
                 counted(ways.invariant.clauses.len(), "clause")
             ),
+            Proof::Measured(measure, proof) => {
+                let rounds = counted(measure.rounds.unsigned_abs() as usize, "idle round");
+                format!("measure of at most {rounds}, {}", proof.text())
+            }
             Proof::States(states) => format!("all {states} states"),
         }
     }

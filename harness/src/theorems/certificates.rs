@@ -9,9 +9,8 @@ use std::path::Path;
 
 use stillpoint_certify::format::Verdict;
 use stillpoint_certify::proof::check::confirm;
-use stillpoint_certify::proof::format::{
-    Claim, Proof, RANGE, System, read_theorems, theorems_text,
-};
+use stillpoint_certify::proof::format::{Claim, Proof, RANGE, System, theorems_text};
+use stillpoint_certify::proof::read::read_theorems;
 use stillpoint_certify::proof::symbolic::Symbolic;
 use stillpoint_certify::proof::target::Target;
 use stillpoint_engine::label;

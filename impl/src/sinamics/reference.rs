@@ -3,8 +3,9 @@
 //! A position that the control declares is safe once the operator has agreed to it in both channels. The agreement and the position
 //! of the last standstill are kept over POWER ON and parking: a position declared afterwards is safe if it is where the axis was left.
 //!
-//! Reading AF-5 is a choice of the configuration, the recommended one first. The values of the agreement are parameters that stay
-//! as they are written: what counts is that both are AC hex at the same time.
+//! Reading AF-5 is a choice of the configuration, the recommended one first. The values of the agreement are parameters that may stay
+//! as they are written: what counts is that both are AC hex at the same time, and that they were not so already as the position was
+//! declared. Nobody can have compared that position with the real one before (3545).
 
 use crate::kernel::{ConfigError, Cycles, Distance, Position};
 
@@ -75,6 +76,8 @@ fields! {
         pub left: Cycles,
         /// The window is over without an agreement: a new one must be begun first.
         pub missed: bool,
+        /// Both values have stood since before the position was declared: they are no agreement to it.
+        pub stale: bool,
         /// The agreement is buffered (non-volatile).
         pub agreed: bool,
         /// The last position while it was safe (non-volatile); 0 without an agreement.
@@ -88,6 +91,7 @@ impl State {
         phase: Phase::Not,
         left: Cycles::ZERO,
         missed: false,
+        stale: false,
         agreed: false,
         stored: Position(0),
     };
@@ -107,6 +111,7 @@ impl State {
             && (self.left.is_zero() || waits)
             && (!must || !self.left.is_zero())
             && (!self.missed || self.phase == Phase::Referenced)
+            && (!self.stale || self.phase == Phase::Referenced)
     }
 }
 
@@ -174,8 +179,13 @@ monitor! { sinamics::reference;
             => if s.before.agreed {
                 s.inputs.references() && s.inputs.position.distance(s.before.stored) <= s.config.tolerance
             } else {
-                s.before.phase == Phase::Referenced && s.inputs.agrees && s.inputs.other_agrees
+                s.before.phase == Phase::Referenced && s.inputs.agrees && s.inputs.other_agrees && !s.before.stale
             };
+
+    /// Values that have stood since before the position was declared agree to nothing, until one of them is withdrawn.
+    standing_values_are_no_agreement ["S120-REF-004", "S120-REF-008"]:
+        when |s| s.inputs.references() && !s.before.agreed
+            => s.after.stale == (s.inputs.agrees && s.inputs.other_agrees);
 
     /// One channel alone is never enough.
     one_channel_is_not_enough ["S120-REF-004", "S120-PF-13"]:
@@ -218,8 +228,8 @@ monitor! { sinamics::reference;
 
     /// Both values within their time make the position safe, and the agreement is kept.
     agreement_makes_it_safe ["S120-REF-004"]:
-        when |s| s.before.phase == Phase::Referenced && !s.before.missed && s.inputs.agrees && s.inputs.other_agrees
-            && !s.inputs.power_on && !s.inputs.parking && !s.inputs.gear_change && !s.inputs.epos && !s.inputs.declared
+        when |s| s.before.phase == Phase::Referenced && !s.before.missed && !s.before.stale && s.inputs.agrees
+            && s.inputs.other_agrees && !s.inputs.power_on && !s.inputs.parking && !s.inputs.gear_change && !s.inputs.epos && !s.inputs.declared
             => s.outputs.safe && s.after.agreed && s.after.stored == s.inputs.position;
 
     /// After a miss they count for nothing, until a new referencing, or until both have been withdrawn (AF-5).
@@ -229,7 +239,7 @@ monitor! { sinamics::reference;
 
     /// A window that ends without them is told once; the axis stays referenced.
     miss_is_told ["S120-REF-004"]:
-        when |s| s.before.left == Cycles::new(1) && !both_agree(&s) && !s.inputs.references()
+        when |s| s.before.left == Cycles::new(1) && (!both_agree(&s) || s.before.stale) && !s.inputs.references()
             && !s.inputs.power_on && !s.inputs.parking && !s.inputs.gear_change
             && (s.inputs.agrees || s.inputs.other_agrees || s.config.agreement == Ua::Both)
             => s.outputs.missed && s.after.missed && s.outputs.referenced && !s.outputs.safe;
@@ -263,6 +273,7 @@ fn declared(state: &State, config: &Config, inputs: &Inputs) -> State {
         return State {
             phase: Phase::Referenced,
             left: if waits { config.window } else { Cycles::ZERO },
+            stale: inputs.agrees && inputs.other_agrees,
             ..State::INITIAL
         };
     }
@@ -278,6 +289,7 @@ fn safe(inputs: &Inputs) -> State {
         phase: Phase::Safe,
         left: Cycles::ZERO,
         missed: false,
+        stale: false,
         agreed: true,
         stored: inputs.position,
     }
@@ -289,14 +301,16 @@ fn agreeing(state: &State, config: &Config, inputs: &Inputs) -> State {
         inputs.agrees || inputs.other_agrees,
         inputs.agrees && inputs.other_agrees,
     );
+    let stale = state.stale && both;
     if state.missed {
         let again = config.agreement == Ua::Pair && !one;
         return State {
             missed: !again,
+            stale,
             ..*state
         };
     }
-    if both {
+    if both && !stale {
         return safe(inputs);
     }
     let left = match config.agreement {
@@ -305,6 +319,7 @@ fn agreeing(state: &State, config: &Config, inputs: &Inputs) -> State {
         Ua::Pair if !one => {
             return State {
                 left: Cycles::ZERO,
+                stale,
                 ..*state
             };
         }
@@ -314,6 +329,7 @@ fn agreeing(state: &State, config: &Config, inputs: &Inputs) -> State {
     State {
         left,
         missed: left.is_zero(),
+        stale,
         ..*state
     }
 }
@@ -385,6 +401,32 @@ mod tests {
             assert_eq!(outputs.safe, safe);
             assert_eq!(outputs.moved, position == 499);
         }
+    }
+
+    /// S120-REF-004, S120-REF-008 (3545): values that nobody has withdrawn agree to no new position.
+    #[test]
+    fn an_agreement_that_stands_is_none() {
+        let mut monitor = monitor(Ua::Both);
+        let mut inputs = Inputs {
+            declared: true,
+            standstill: true,
+            agrees: true,
+            other_agrees: true,
+            ..Inputs::default()
+        };
+        monitor.step(&inputs);
+        inputs.declared = false;
+        assert!(!monitor.step(&inputs).safe);
+        inputs.agrees = false;
+        assert!(!monitor.step(&inputs).safe);
+        inputs.agrees = true;
+        assert!(monitor.step(&inputs).missed, "too late now");
+        inputs.declared = true;
+        inputs.agrees = false;
+        monitor.step(&inputs);
+        inputs.declared = false;
+        inputs.agrees = true;
+        assert!(monitor.step(&inputs).safe);
     }
 
     /// S120-REF-004: without an agreement in time the message comes once (AF-5, both readings).

@@ -1,6 +1,7 @@
 //! Transition systems over an and-inverter graph: latches with their start and next values, inputs, and what is known of both.
 
 use super::graph::{Graph, Lit, Node, value};
+use super::word::Word;
 
 /// A bit of the state.
 #[derive(Clone, Debug)]
@@ -55,6 +56,11 @@ impl Netlist {
             next: lit,
         });
         lit
+    }
+
+    /// What a number over the latches becomes in a cycle.
+    pub fn after(&self, number: &Word) -> Word {
+        number.placed(&moved(self, self.graph.size()))
     }
 
     /// A new input.
@@ -197,6 +203,11 @@ impl<'a> Problem<'a> {
 
     /// Whether a run is one of the netlist and ends in a cycle with `bad`.
     pub fn shows(&self, run: &Run) -> bool {
+        self.play(run, |_| {})
+    }
+
+    /// The same; `each` is told the values of all nodes in each cycle.
+    pub fn play(&self, run: &Run, mut each: impl FnMut(&[bool])) -> bool {
         let netlist = self.netlist;
         let holds = |values: &[bool], list: &[Lit]| list.iter().all(|lit| value(values, *lit));
         let mut state: Vec<bool> = (netlist.latches.iter().zip(&run.start))
@@ -222,6 +233,7 @@ impl<'a> Problem<'a> {
             if !begins || !holds(&values, &self.invariants) || !holds(&values, &self.assumed) {
                 return false;
             }
+            each(&values);
             if number + 1 == run.cycles.len() {
                 return value(&values, self.bad);
             }

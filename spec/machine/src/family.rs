@@ -254,6 +254,7 @@ pub(super) enum Quantity {
     Speed,
     /// A speed in revolutions, whatever the kind of axis.
     Rotation,
+    Acceleration,
     Time,
     Percent,
     Frequency,
@@ -276,6 +277,8 @@ impl Quantity {
             (Self::Pitch, _) => Dimension::Pitch,
             (Self::Speed, AxisKind::Linear) => Dimension::Speed,
             (Self::Speed, AxisKind::Rotary) | (Self::Rotation, _) => Dimension::Rotation,
+            (Self::Acceleration, AxisKind::Linear) => Dimension::Acceleration,
+            (Self::Acceleration, AxisKind::Rotary) => Dimension::AngularAcceleration,
             (Self::Time, _) => Dimension::Time,
             (Self::Percent, _) => Dimension::Percent,
             (Self::Frequency, _) => Dimension::Frequency,

@@ -314,7 +314,12 @@ impl Checker<'_> {
                 return self.here(Err(format!("an induction over more than {LONGEST} cycles")));
             }
         }
-        let question = Question::new(self.symbolic, target, &proof.invariant);
+        let question = Question::new(
+            self.symbolic,
+            target,
+            &proof.invariant,
+            proof.measure.as_ref(),
+        );
         let mut question = self.here(question)?;
         if let Some((number, what)) = question.unknown() {
             return Err((proof.line + number, what));
@@ -376,6 +381,9 @@ impl Checker<'_> {
             "invariant of {} clauses, {lemmas} lemmas",
             proof.invariant.len()
         );
+        if let Some(measure) = &proof.measure {
+            by = format!("measure of {} rounds, {by}", measure.rounds);
+        }
         if !proof.ways.is_empty() {
             by = format!("{} regions, {by}", proof.ways.len());
         }

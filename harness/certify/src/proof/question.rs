@@ -1,36 +1,19 @@
 //! What has to be shown so that something is never seen, as clauses that nothing satisfies.
 //!
-//! A duty over several cycles is told by two numbers beside the state. `@pending` says that one is open; `@rest` are the cycles left to
-//! a bounded response, of which the oldest one counts: it begins with the bound less one, counts down, and at 0 the goal must come.
-//! `@within:ID` is the bound of a response.
+//! A duty over several cycles is told by numbers beside the state, see [`super::duty`]. `@within:ID` is the bound of a response.
 
 use std::collections::BTreeMap;
 
 use stillpoint_lang::ir::Form;
 
 use super::clause::{Clause, Literal, written};
+use super::duty::{Duty, Measure, Measured};
 use super::gates::{Bit, Gates};
-use super::symbolic::{Cycle, Symbolic};
+use super::symbolic::Symbolic;
 use super::target::Target;
 use super::ways::Step;
 use super::word::Word;
 use crate::subject::label;
-
-/// The duty at the start of a cycle.
-#[derive(Clone)]
-pub(super) struct Duty {
-    pending: Bit,
-    rest: Word,
-}
-
-impl Duty {
-    fn none() -> Self {
-        Duty {
-            pending: Bit::FALSE,
-            rest: Word::constant(0),
-        }
-    }
-}
 
 /// The state and the duty.
 #[derive(Clone)]
@@ -90,7 +73,9 @@ pub struct Induction {
 pub struct Question<'a> {
     pub(super) system: Symbolic<'a>,
     pub(super) target: Target<'a>,
-    within: Word,
+    /// The bound of a response, in cycles or in what is counted in their place.
+    pub(super) within: Word,
+    pub(super) measured: Measured,
     clauses: &'a [Clause],
     /// State variables, parameters and bounds by their written names.
     names: BTreeMap<String, Named>,
@@ -104,19 +89,21 @@ enum Named {
 }
 
 impl<'a> Question<'a> {
-    /// A question.
+    /// A question; a response without a bound needs a measure, and nothing else does.
     ///
     /// # Errors
-    /// Names of which there are two; a bound that is no expression of parameters.
+    /// Names of which there are two; a bound that is no expression of parameters; a measure that is none.
     pub fn new(
         system: &Symbolic<'a>,
         target: Target<'a>,
         clauses: &'a [Clause],
+        measure: Option<&Measure>,
     ) -> Result<Self, String> {
         let mut system = system.clone();
+        let measured = Measured::new(&system.bound.system, &target, measure)?;
         let within = match &target {
             Target::Late { within, .. } => system.constant(within)?,
-            _ => Word::constant(0),
+            _ => Word::constant(measured.rounds),
         };
         let mut named = Vec::new();
         let own = &system.bound.system;
@@ -146,6 +133,7 @@ impl<'a> Question<'a> {
             system,
             target,
             within,
+            measured,
             clauses,
             names,
         })
@@ -157,9 +145,8 @@ impl<'a> Question<'a> {
             Literal::Bit { name, .. } | Literal::Is { name, .. } => (name, None),
             Literal::Most { name, other, .. } => (name, other.as_ref()),
         };
-        let known = |name: &String| {
-            ["@pending", "@rest"].contains(&name.as_str()) || self.names.contains_key(name)
-        };
+        let known =
+            |name: &String| Duty::none().number(name).is_some() || self.names.contains_key(name);
         self.clauses.iter().enumerate().find_map(|(k, clause)| {
             let all = clause.0.iter().map(names);
             let mut all = all.flat_map(|(one, other)| [Some(one), other]).flatten();
@@ -203,7 +190,7 @@ impl<'a> Question<'a> {
         given.extend(starts);
         let place = Place {
             state,
-            duty: Duty::none(),
+            duty: self.no_duty(),
         };
         let mut goals = Vec::new();
         for (k, clause) in self.clauses.iter().enumerate() {
@@ -235,7 +222,7 @@ impl<'a> Question<'a> {
         given.extend(units(starts));
         let mut place = Place {
             state,
-            duty: Duty::none(),
+            duty: self.no_duty(),
         };
         let (mut fine, mut goals) = (Vec::new(), Vec::new());
         for k in 0..induction.cycles {
@@ -294,26 +281,6 @@ impl<'a> Question<'a> {
         clauses.iter().map(|c| self.clause(c, place)).collect()
     }
 
-    fn any_duty(&mut self) -> Duty {
-        match self.target {
-            Target::Until { .. } => Duty {
-                pending: self.gates().free(),
-                ..Duty::none()
-            },
-            Target::Late { .. } => {
-                // As many bits as the bound has; one of 0 or less opens no duty.
-                let mut bits = vec![Bit::FALSE; self.within.bits().len()];
-                let size = bits.len() - 1;
-                bits[..size].fill_with(|| self.system.gates.free());
-                Duty {
-                    pending: self.gates().free(),
-                    rest: Word::new(bits),
-                }
-            }
-            _ => Duty::none(),
-        }
-    }
-
     fn cycle(&mut self, before: Place, given: &mut Vec<Vec<Bit>>) -> Result<Judged, String> {
         let (mut cycle, inputs) = self.system.cycle(before.state.clone())?;
         given.extend(units(inputs));
@@ -333,57 +300,6 @@ impl<'a> Question<'a> {
             after,
             fault,
             bad,
-        })
-    }
-
-    /// Whether a cycle shows what must not be seen, and the duty after it.
-    fn judge(&mut self, cycle: &mut Cycle, duty: Duty) -> Result<(Bit, Duty), String> {
-        let system = &mut self.system;
-        Ok(match &self.target {
-            Target::Range | Target::Way { .. } => (Bit::FALSE, duty),
-            Target::Goal(goal) => (system.atom(*goal, cycle)?, duty),
-            Target::Broken(when, then) => {
-                let when = match when {
-                    Some(when) => system.atom(*when, cycle)?,
-                    None => Bit::TRUE,
-                };
-                let then = system.atom(*then, cycle)?;
-                (system.gates.and(when, !then), duty)
-            }
-            Target::Until {
-                when,
-                holds,
-                unless,
-            } => {
-                let (when, holds) = (system.atom(*when, cycle)?, system.atom(*holds, cycle)?);
-                let unless = system.atom(*unless, cycle)?;
-                let gates = &mut system.gates;
-                let begun = gates.or(duty.pending, when);
-                let open = gates.and(begun, !unless);
-                let pending = gates.and(open, holds);
-                (gates.and(open, !holds), Duty { pending, ..duty })
-            }
-            Target::Late { when, goal, .. } => {
-                let (when, goal) = (system.atom(*when, cycle)?, system.atom(*goal, cycle)?);
-                let (gates, one) = (&mut system.gates, Word::constant(1));
-                let at_once = self.within.less(gates, &one);
-                let used_up = !duty.rest.is_true(gates);
-                let begins = gates.and(!duty.pending, when);
-                // Where the bound is 0 the goal must come with the trigger.
-                let broken = gates.choice(duty.pending, used_up, at_once);
-                let broken = gates.all([broken, !goal]);
-                let asked = gates.or(duty.pending, when);
-                let broken = gates.and(broken, asked);
-                let opens = gates.and(begins, !at_once);
-                let lasts = gates.and(duty.pending, !used_up);
-                let pending = gates.or(opens, lasts);
-                let pending = gates.and(pending, !goal);
-                let less = duty.rest.minus(gates, &one);
-                let whole = self.within.minus(gates, &one);
-                let rest = less.choice(gates, duty.pending, &whole);
-                let rest = rest.choice(gates, pending, &Word::constant(0));
-                (broken, Duty { pending, rest })
-            }
         })
     }
 
@@ -417,10 +333,8 @@ impl<'a> Question<'a> {
     }
 
     pub(super) fn number(&self, name: &str, place: &Place) -> Result<Word, String> {
-        match name {
-            "@pending" => return Ok(Word::truth(place.duty.pending)),
-            "@rest" => return Ok(place.duty.rest.clone()),
-            _ => {}
+        if let Some(number) = place.duty.number(name) {
+            return Ok(number);
         }
         match self.names.get(name) {
             Some(Named::State(k)) => Ok(place.state[*k].clone()),
@@ -436,9 +350,8 @@ impl<'a> Question<'a> {
         let (place, mut given) = self.anywhere()?;
         let own: Vec<Vec<Bit>> = place.state.iter().map(|w| w.bits().to_vec()).collect();
         let cycle = self.cycle(place, &mut given)?;
-        let duty = &cycle.after.duty;
-        let mut roots: Vec<Bit> = [cycle.bad, cycle.fault, duty.pending].to_vec();
-        roots.extend(duty.rest.bits());
+        let mut roots = vec![cycle.bad, cycle.fault];
+        roots.extend(cycle.after.duty.bits());
         let invariant = self.invariant(&cycle.before)?;
         roots.extend(invariant.concat());
         let mut inside = vec![false; own.len()];
@@ -458,10 +371,11 @@ impl<'a> Question<'a> {
 
     fn differ(&mut self, one: &Place, other: &Place, cone: &[bool]) -> Bit {
         let gates = &mut self.system.gates;
-        let mut differ = gates.xor(one.duty.pending, other.duty.pending);
+        let duties = one.duty.bits().zip(other.duty.bits());
+        let duties: Vec<Bit> = duties.map(|(a, b)| gates.xor(a, b)).collect();
+        let mut differ = gates.any(duties);
         let states = one.state.iter().zip(&other.state).zip(cone);
-        let states = states.filter(|(_, inside)| **inside).map(|(pair, _)| pair);
-        for (a, b) in states.chain([(&one.duty.rest, &other.duty.rest)]) {
+        for ((a, b), _) in states.filter(|(_, inside)| **inside) {
             let same = a.equals(gates, b);
             differ = gates.or(differ, !same);
         }

@@ -31,6 +31,18 @@ pub enum Target<'a> {
         /// After how many cycles at most.
         within: &'a Node,
     },
+    /// After `when` no `goal` ever, with `assuming` in each cycle and each of `fair` again and again: no single cycle shows it, but one
+    /// shows that its measure is none.
+    Forever {
+        /// What begins it.
+        when: usize,
+        /// What ends it.
+        goal: usize,
+        /// What holds in each cycle after the first.
+        assuming: Option<usize>,
+        /// What holds infinitely often.
+        fair: &'a [usize],
+    },
     /// A state from which no inputs lead to the goal.
     Way {
         /// The goal.
@@ -69,6 +81,21 @@ impl<'a> Target<'a> {
                 when: *when,
                 goal: *goal,
                 within,
+            },
+            (
+                Form::LeadsTo {
+                    when,
+                    goal,
+                    within: None,
+                    fair,
+                    assuming,
+                },
+                Verdict::Holds,
+            ) => Target::Forever {
+                when: *when,
+                goal: *goal,
+                assuming: *assuming,
+                fair,
             },
             (
                 Form::Always {

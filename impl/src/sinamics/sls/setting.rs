@@ -41,11 +41,11 @@ fields! {
     /// Reading AF-30: what a further change does while a lower limit waits.
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
     pub enum Slsd {
-        /// A still lower limit restarts the delay.
+        /// A still lower limit takes the place of the waiting one, whose delay goes on.
         #[default]
-        Restart,
-        /// It takes the place of the waiting one, whose delay goes on.
         Keep,
+        /// It restarts the delay: limits that go down again and again keep the old one for ever.
+        Restart,
     }
 }
 

@@ -14,7 +14,7 @@ fn config(by_telegram: bool) -> Config {
         true,
         by_telegram,
         false,
-        Slsd::Restart,
+        Slsd::Keep,
     );
     made.expect("accepted")
 }

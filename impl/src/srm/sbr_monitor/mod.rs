@@ -143,7 +143,8 @@ impl State {
         rest: 0,
         violated: false,
         overflowed: false,
-        execute_held: true,
+        // A CPU that starts while the axis is to brake: its ramp is monitored (SRM-SBR-007).
+        execute_held: false,
         ack_held: true,
     };
 

@@ -45,7 +45,7 @@ fn taken(value: i16, highest: Speed, subject: &Subject) -> Option<Speed> {
         true,
         true,
         false,
-        Slsd::Restart,
+        Slsd::Keep,
     );
     let inputs = sls::Inputs {
         selected: true,

@@ -196,10 +196,10 @@ monitor! { sinamics::stop_arbiter;
             => s.after.stop >= s.inputs.request;
 
     /// The level falls only by an acknowledgement whose cause is gone, or by POWER ON.
-    level_falls_only_by_acknowledgement ["S120-PC-01", "S120-PC-10", "S120-STOP-525", "S120-STOP-517"]:
+    level_falls_only_by_acknowledgement ["S120-PC-01", "S120-PC-10", "S120-STOP-501", "S120-STOP-525", "S120-STOP-517"]:
         when |s| s.after.stop < s.before.stop
             => s.inputs.power_on
-                || (s.inputs.acknowledge && s.before.stop != Stop::Locked && s.inputs.remaining < s.before.stop
+                || (s.inputs.acknowledge && s.before.phase != Phase::Running && s.before.stop != Stop::Locked && s.inputs.remaining < s.before.stop
                     && s.after.stop >= s.inputs.remaining);
 
     /// A stop that may not be acknowledged stays until POWER ON.
@@ -207,9 +207,10 @@ monitor! { sinamics::stop_arbiter;
         when |s| s.before.stop == Stop::Locked && !s.inputs.power_on
             => s.after.stop == Stop::Locked && s.outputs.pulses_off;
 
-    /// An acknowledgement clears what has no cause any more.
+    /// An acknowledgement clears what has no cause any more, and whose reaction has come to its end.
     acknowledgement_clears ["S120-ACK-503", "S120-STOP-509"]:
         when |s| s.inputs.acknowledge && !s.inputs.power_on && s.before.stop != Stop::Locked
+            && s.before.phase != Phase::Running
             && s.inputs.remaining == Stop::None && s.inputs.request == Stop::None && !s.inputs.difference
             => s.after == State::INITIAL && !s.outputs.blocks_run;
 
@@ -224,13 +225,14 @@ monitor! { sinamics::stop_arbiter;
 
     /// STOP B ends: in each cycle less of its time is left, whether it is carried out or covered; at the end it is STOP A.
     stop_b_ends_in_time ["S120-PC-03", "S120-STOP-501", "S120-STOP-508", "S120-STOP-520"]:
-        when |s| s.before.stop == Stop::B && !s.inputs.power_on && !s.inputs.acknowledge
+        when |s| s.before.stop == Stop::B && !s.inputs.power_on
+            && (!s.inputs.acknowledge || s.before.phase == Phase::Running)
             => s.after.stop >= Stop::A || (s.after.stop == Stop::B && s.after.timer < s.before.timer);
 
     /// STOP B is not cut short: before its time is up only standstill ends it, or a request for STOP A.
     stop_b_is_not_cut_short ["S120-STOP-501", "S120-STOP-524"]:
-        when |s| s.before.stop == Stop::B && s.before.timer > Cycles::new(1) && !s.inputs.power_on && !s.inputs.acknowledge
-            && s.inputs.request <= Stop::B && (s.config.external || !s.inputs.standstill)
+        when |s| s.before.stop == Stop::B && s.before.timer > Cycles::new(1) && !s.inputs.power_on
+            && (!s.inputs.acknowledge || s.before.phase == Phase::Running) && s.inputs.request <= Stop::B && (s.config.external || !s.inputs.standstill)
             => s.after.stop == Stop::B;
 
     /// STOP B of a drive that stands is STOP A at once, unless SS1 is braked externally: then the time alone counts.
@@ -286,7 +288,7 @@ monitor! { sinamics::stop_arbiter;
     /// A function of a higher class takes the place of a running stop, which stays latched.
     function_displaces_a_lower_stop ["S120-STOP-517", "S120-STOP-510", "S120-STOP-525"]:
         when |s| s.before.phase == Phase::Running && s.inputs.function.displaces(s.before.stop) && !s.inputs.power_on
-            && !s.inputs.acknowledge && s.after.stop == s.before.stop
+            && s.after.stop == s.before.stop
             => s.after.phase == Phase::Covered;
 
     /// STOP F whose time is up while something is monitored, or C, D or E is latched, is STOP B; with SS1, STO, B or A it is not.
@@ -389,6 +391,10 @@ fn acknowledged(mut state: State, config: &Config, inputs: &Inputs) -> State {
     if !inputs.difference {
         state.fault = false;
         state.fault_timer = Cycles::ZERO;
+    }
+    if state.phase == Phase::Running {
+        // SS1 cannot be interrupted (4.2.4), nor can the stops that correspond to it and to SS2.
+        return state;
     }
     let left = inputs.remaining.max(inputs.request);
     // While the cause of STOP F persists, what may have followed it stays.

@@ -59,3 +59,26 @@ fn stop_f_waits_for_a_monitored_function() {
     assert_eq!(arbiter.step(&function(Function::Ss1)).stop, Stop::None);
     assert_eq!(arbiter.step(&function(Function::Watching)).stop, Stop::B);
 }
+
+/// S120-STOP-501, S120-ACK-506: as SS1, which cannot be interrupted (2377): the braking comes to its end, and only then is it
+/// acknowledged.
+#[test]
+fn an_acknowledgement_does_not_end_the_braking() {
+    let acknowledge = Inputs {
+        acknowledge: true,
+        ..Inputs::default()
+    };
+    for (stop, cycles) in [(Stop::B, 3), (Stop::C, 4), (Stop::D, 2), (Stop::E, 2)] {
+        let mut arbiter = arbiter(false);
+        arbiter.step(&request(stop));
+        for _ in 1..cycles {
+            assert_eq!(arbiter.step(&acknowledge).stop, stop);
+        }
+        let ended = arbiter.step(&acknowledge);
+        assert!(
+            ended.sos || (stop == Stop::B && ended.pulses_off),
+            "{stop:?}"
+        );
+        assert_eq!(arbiter.step(&acknowledge).stop, Stop::None);
+    }
+}

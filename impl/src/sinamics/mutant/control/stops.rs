@@ -45,6 +45,17 @@ variants! { sinamics::basic_stop:
 }
 
 variants! { sinamics::stop_arbiter:
+    /// An acknowledgement ends a braking whose cause is gone.
+    "stop-arbiter-interrupted" |state, config, inputs| {
+        let state = match state.phase {
+            stop_arbiter::Phase::Running if inputs.acknowledge && inputs.remaining == Default::default() => {
+                stop_arbiter::State { fault: state.fault, fault_timer: state.fault_timer, ..stop_arbiter::State::INITIAL }
+            }
+            _ => state,
+        };
+        stop_arbiter::transition(state, config, inputs)
+    }
+
     /// SS1 does not cover STOP B, which begins its ramp anew.
     "stop-arbiter-restarts-the-ramp" |state, config, inputs| {
         let function = if inputs.function == Function::Ss1 { Function::Ss2 } else { inputs.function };

@@ -66,7 +66,7 @@ fn sls_config(p: &Params) -> Result<sls::Config, ConfigError> {
         true,
         p.is("graded"),
         p.is("static"),
-        sls::Slsd::Restart,
+        sls::Slsd::Keep,
     )
 }
 

@@ -1,0 +1,102 @@
+//! Responses without a bound: a measure, asked of the engines.
+//!
+//! Runs that are no run of a measure say what to count in its place: a number that moves one way in them, or one round more.
+
+use std::cmp::Reverse;
+
+use stillpoint_model::proof::{Lit, Netlist, Problem, Run, Word, value};
+
+use super::decide::Decision;
+use super::monitor::{Forever, Measure, Measuring, measured};
+use super::question::Asked;
+use super::{Judge, Judged, Measured, Proof};
+
+/// How many idle rounds a measure begins with, and the most that it has.
+const ROUNDS: i64 = 2;
+const MOST: i64 = 16;
+
+impl Judge<'_> {
+    /// Whether a measure shows that the goal always comes.
+    pub(super) fn forever(&self, asked: &Asked, entry: &mut Judged, response: &Forever) -> bool {
+        let (translated, fault) = (&asked.translated, asked.translated.fault);
+        let counting = asked.numbers();
+        let words: Vec<Word> = counting.iter().map(|k| translated.variable(*k).0).collect();
+        let mut measure = Measured {
+            rounds: ROUNDS,
+            numbers: Vec::new(),
+        };
+        while measure.rounds <= MOST {
+            let numbers = measure.numbers.iter();
+            let numbers: Vec<(Word, bool)> = numbers
+                .map(|(k, rises)| (words[*k].clone(), *rises))
+                .collect();
+            let mut netlist = translated.netlist.clone();
+            let own = Measure {
+                rounds: measure.rounds,
+                numbers: &numbers,
+            };
+            let measuring = measured(&mut netlist, fault, response, &own);
+            match self.ask(&netlist, measuring.broken) {
+                Decision::Never(proof) => {
+                    let known = [&[measuring.duty.keeps()][..], &self.known].concat();
+                    entry.engine = Some(self.engine(&proof));
+                    let mut shown = asked.shown(&netlist, &proof, known);
+                    shown.measure = Some(asked.measure(&measure));
+                    entry.shown = Some(shown);
+                    entry.proof = Some(Proof::Measured(measure, Box::new(proof)));
+                    self.first(asked, entry, response.first);
+                    return true;
+                }
+                Decision::Open(why) => {
+                    entry.reason = Some(why);
+                    return false;
+                }
+                Decision::Seen(run) => match moves(&netlist, &measuring, &run, &words, &measure) {
+                    Some(number) => measure.numbers.push(number),
+                    None => measure.rounds *= 2,
+                },
+            }
+        }
+        entry.reason = Some("no measure was found that shows it".to_owned());
+        false
+    }
+}
+
+/// The number, of those that are not part of the measure, that moves most often one way in what is counted in a run.
+fn moves(
+    netlist: &Netlist,
+    measuring: &Measuring,
+    run: &Run,
+    words: &[Word],
+    measure: &Measured,
+) -> Option<(usize, bool)> {
+    let mut netlist = netlist.clone();
+    let each: Vec<[Lit; 2]> = (words.iter())
+        .map(|now| {
+            let then = netlist.after(now);
+            let graph = &mut netlist.graph;
+            [then.less(graph, now), now.less(graph, &then)]
+        })
+        .collect();
+    let mut seen = vec![[0, 0]; words.len()];
+    Problem::new(&netlist, measuring.broken).play(run, |values| {
+        if !value(values, measuring.counts) {
+            return;
+        }
+        for (seen, lits) in seen.iter_mut().zip(&each) {
+            for (seen, lit) in seen.iter_mut().zip(lits) {
+                *seen += usize::from(value(values, *lit));
+            }
+        }
+    });
+    let mut best = None;
+    for (k, ways) in seen.iter().enumerate() {
+        for (way, other) in [(0, 1), (1, 0)] {
+            let known = measure.numbers.iter().any(|(number, _)| *number == k);
+            if !known && ways[way] > ways[other] {
+                best = best.max(Some((ways[way] - ways[other], Reverse(k), way == 1)));
+            }
+        }
+    }
+    best.map(|(_, Reverse(k), rises)| (k, rises))
+}
