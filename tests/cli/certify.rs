@@ -150,13 +150,13 @@ fn a_proof_is_written_confirmed_and_refused_when_altered() {
     let (status, text) = told(&["certify", &file]);
     assert_eq!(status, 0, "{text}");
     for line in [
-        "tests/certified/forms.toml: CONFIRMED, 17 claims",
+        "tests/certified/forms.toml: CONFIRMED, 19 claims",
         "  burn = 1 .. 4, every value\n",
         "  holds          ALWAYS: never longer than the burning time [invariant of ",
         "  violated       NEVER: the last two values are not used [run of 1 cycles]\n",
         "  holds          RECOVER: it goes out, also unknocked [5 regions, invariant of ",
         "  violated       range: no assignment leaves the range of its variable [run of 3 cycles]\n",
-        "  not certified  FAIR: ",
+        "  holds          FAIR: switched on again and again it burns or is broken [measure of 2 rounds, invariant of ",
     ] {
         assert!(text.contains(line), "{line}: {text}");
     }

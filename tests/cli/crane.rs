@@ -39,7 +39,7 @@ fn a_scenario_of_the_crane_can_fail() {
         [
             "over-speed.toml",
             "position = \"60000 mm\"",
-            "position = \"60000 mm\"\npath_braking = \"460 mm/s2\"",
+            "position = \"60000 mm\"\npath_braking = \"420 mm/s2\"",
             "never X.cpu.X_POSITIVE_OK = FALSE",
         ],
         // The external brake sticks open: T_CLOSE_BR_1 is over without its feedback.

@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 
 use stillpoint_engine as engine;
 use stillpoint_harness::export::aiger::aiger;
-use stillpoint_harness::proof::{Choice, Every, Settings, Which, has_engine, judge, judge_every};
+use stillpoint_harness::proof::{Choice, Every, Settings, Which, judge, judge_every};
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::ir::Form;
 use stillpoint_model::{Limits, Options, Verdict};
@@ -58,9 +58,6 @@ fn table() {
             .collect();
         let bound = Bound::new(task.bound.system.clone(), &values, &BTreeMap::new());
         let bound = bound.unwrap_or_else(|e| panic!("{whole}: {e}"));
-        // The explorer is asked for what the engines decide.
-        let mut bound = bound;
-        bound.system.properties.retain(|p| has_engine(&p.form));
         println!(
             "| {whole}, {what} | {} | {} | {} | {} | {} |",
             size(&bound),

@@ -7,9 +7,10 @@ use std::path::{Path, PathBuf};
 
 use stillpoint_certify::format::Verdict;
 use stillpoint_certify::proof::clause::{Clause, Literal};
+use stillpoint_certify::proof::duty::Measure;
 use stillpoint_certify::proof::format::{Claim, File, Proof, Run, text};
 use stillpoint_certify::proof::read::read;
-use stillpoint_certify::proof::ways::Step;
+use stillpoint_certify::proof::ways::{Rank, Step};
 use stillpoint_certify::{Confirmed, Failure, certify_bytes};
 
 fn forms() -> PathBuf {
@@ -470,4 +471,46 @@ fn ways_that_lead_nowhere_are_refused() {
         }
     }
     assert!(seen > 3 && gone > 1, "{seen} {gone}");
+}
+
+/// A response without a bound is shown by its own measure, and by no other that shows nothing; nothing else has one.
+#[test]
+fn measures_that_measure_nothing_are_refused() {
+    let (mut seen, mut fewer) = (0, 0);
+    for stored in STORED {
+        for (s, k, claim) in claims(stored) {
+            let Some(own) = claim.proof else {
+                continue;
+            };
+            let with = |change: &dyn Fn(&mut Measure)| {
+                refused(stored, |f| {
+                    change(proof(f, (s, k)).measure.get_or_insert_default())
+                })
+            };
+            if own.measure.is_none() {
+                let why = with(&|_| {});
+                assert!(why.is_some_and(|why| why.contains("nothing to measure")));
+                continue;
+            }
+            seen += 1;
+            rejected("no measure", stored, |f| proof(f, (s, k)).measure = None);
+            for rounds in [-1, 1001] {
+                let why = with(&|measure| measure.rounds = rounds);
+                assert!(why.is_some_and(|why| why.contains("0 to 1000 rounds")));
+            }
+            fewer += usize::from(with(&|measure| measure.rounds = 0).is_some());
+            for (name, what) in [
+                ("lamp.nothing", "no state variable"),
+                ("@rest", "no state variable"),
+            ] {
+                let rank = Rank {
+                    name: name.to_owned(),
+                    rises: false,
+                };
+                let why = with(&|measure| measure.numbers.push(rank.clone()));
+                assert!(why.is_some_and(|why| why.contains(what)), "{name}");
+            }
+        }
+    }
+    assert!(seen > 2 && fewer > 0, "{seen} {fewer}");
 }

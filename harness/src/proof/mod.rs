@@ -21,7 +21,7 @@ use std::time::{Duration, Instant};
 use stillpoint_certify::proof::clause::Clause;
 use stillpoint_engine::label;
 use stillpoint_lang::bind::Bound;
-use stillpoint_lang::ir::{Form, Property};
+use stillpoint_lang::ir::Property;
 use stillpoint_model::proof::{Budget, Invariant, Lit, Netlist, Run, Spent, Ways};
 use stillpoint_model::{Interrupt, Trace, Verdict};
 
@@ -485,18 +485,5 @@ impl<'a> Judge<'a> {
                 return;
             }
         }
-    }
-}
-
-/// Whether the engines have a form for this one.
-pub fn has_engine(form: &Form) -> bool {
-    match form {
-        Form::Always { .. } | Form::Reachable { .. } | Form::Unless { .. } => true,
-        // Without a bound where a measure is found.
-        Form::LeadsTo { .. } => true,
-        // Where the pairs of runs are no more than it is about.
-        Form::Independent { .. } => true,
-        // Where regions and inputs for each are found.
-        Form::CanAlwaysReach { .. } => true,
     }
 }

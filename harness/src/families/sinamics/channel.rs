@@ -238,9 +238,11 @@ impl Channel {
             .with(Message::Crosscheck, bare.no_current);
         let raised = self.functions.as_mut().map(|f| f.watch(&bits, &seen));
         let cause = raised.is_some_and(|r| r.request != Stop::None || r.difference);
+        // The message of a stop stays as long as the stop, which comes to its end first.
+        let reacts = self.functions.as_ref().is_some_and(|f| f.reacts());
         let acknowledged = self.acknowledgement.step(&acknowledgement::Inputs {
             message: cause || bare.no_current || raised.is_some_and(|r| r.notice),
-            cause,
+            cause: cause || reacts,
             ..edges
         });
         let told = match (&mut self.functions, &raised) {

@@ -420,6 +420,11 @@ impl Functions {
         }
     }
 
+    /// Whether the reaction of a stop runs, which an acknowledgement does not end.
+    pub fn reacts(&self) -> bool {
+        self.arbiter.state().phase == stop_arbiter::Phase::Running
+    }
+
     /// The arbiter, and what the setpoint may be.
     pub(super) fn arbitrate(
         &mut self,
