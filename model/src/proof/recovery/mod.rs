@@ -87,28 +87,37 @@ pub fn ways(recovery: &Recovery, budget: &Budget) -> Result<Option<Ways>, Spent>
         if search.reach(&state, 0)? {
             continue;
         }
-        // A state that is not reached needs no way. Where no inputs are possible the invariant need not exclude it.
-        let invariant = unreachable(&netlist, &search, &state, budget)?;
-        let Some(invariant) = invariant.filter(|own| search.excludes(own, &state)) else {
+        // A state that is not reached needs no way. Whatever its numbers are, that is told soonest.
+        let mut left = true;
+        for numbers in [false, true] {
+            let cube = search.cube(&state, numbers);
+            let invariant = unreachable(&netlist, &search, &cube, budget)?;
+            // Where no inputs are possible the invariant need not exclude it.
+            if let Some(invariant) = invariant.filter(|own| search.excludes(own, &state)) {
+                search.learn(invariant);
+                left = false;
+                break;
+            }
+        }
+        if left {
             return Ok(None);
-        };
-        search.learn(invariant);
+        }
     }
     Ok(Some(search.ways))
 }
 
-/// An invariant that excludes a state; none if it is reached.
+/// An invariant that excludes these states; none if one of them is reached.
 fn unreachable(
     netlist: &Netlist,
     search: &Search,
-    state: &[bool],
+    cube: &Values,
     budget: &Budget,
 ) -> Result<Option<Invariant>, Spent> {
     let mut netlist = netlist.clone();
     let known = &search.ways.invariant;
     let clauses = known.over(&mut netlist.graph, |k| netlist.latches[k].lit);
     netlist.invariants.extend(clauses);
-    let here = search.problem.latches.iter().zip(state);
+    let here = cube.iter();
     let here = here.map(|(k, value)| netlist.latches[*k].lit.flipped(!value));
     let bad = netlist.graph.all(here.collect::<Vec<_>>());
     Ok(

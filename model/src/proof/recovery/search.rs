@@ -166,6 +166,13 @@ impl<'a> Search<'a> {
         }
     }
 
+    /// A state, or all those that differ from it in numbers only.
+    pub(super) fn cube(&self, state: &[bool], numbers: bool) -> Values {
+        let latches = self.problem.latches.iter().zip(state).zip(&self.phase);
+        let kept = latches.filter(|(_, phase)| numbers || **phase);
+        kept.map(|((latch, value), _)| (*latch, *value)).collect()
+    }
+
     /// Whether the invariant has a clause that this state breaks.
     pub(super) fn excludes(&self, invariant: &Invariant, state: &[bool]) -> bool {
         let wrong = |(latch, value): &(usize, bool)| {
