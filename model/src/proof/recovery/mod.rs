@@ -84,48 +84,44 @@ pub fn ways(recovery: &Recovery, budget: &Budget) -> Result<Option<Ways>, Spent>
         if search.ways.steps.len() > REGIONS {
             return Ok(None);
         }
-        if search.reach(&state, 0)? {
+        // A state that is not reached needs no way. Whatever its numbers are, that is told soonest, and before long runs are looked for.
+        if search.reach(&state, 0)?
+            || excluded(&netlist, &mut search, (&state, false), budget)?
+            || search.far(&state)?
+            || excluded(&netlist, &mut search, (&state, true), budget)?
+        {
             continue;
         }
-        // A state that is not reached needs no way. Whatever its numbers are, that is told soonest.
-        let mut left = true;
-        for numbers in [false, true] {
-            let cube = search.cube(&state, numbers);
-            let invariant = unreachable(&netlist, &search, &cube, budget)?;
-            // Where no inputs are possible the invariant need not exclude it.
-            if let Some(invariant) = invariant.filter(|own| search.excludes(own, &state)) {
-                search.learn(invariant);
-                left = false;
-                break;
-            }
-        }
-        if left {
-            return Ok(None);
-        }
+        return Ok(None);
     }
     Ok(Some(search.ways))
 }
 
-/// An invariant that excludes these states; none if one of them is reached.
-fn unreachable(
+/// Whether a state, with its numbers or with any, is not reached; then the invariant excludes it.
+fn excluded(
     netlist: &Netlist,
-    search: &Search,
-    cube: &Values,
+    search: &mut Search,
+    (state, numbers): (&[bool], bool),
     budget: &Budget,
-) -> Result<Option<Invariant>, Spent> {
+) -> Result<bool, Spent> {
     let mut netlist = netlist.clone();
     let known = &search.ways.invariant;
     let clauses = known.over(&mut netlist.graph, |k| netlist.latches[k].lit);
     netlist.invariants.extend(clauses);
+    let cube = search.cube(state, numbers);
     let here = cube.iter();
     let here = here.map(|(k, value)| netlist.latches[*k].lit.flipped(!value));
     let bad = netlist.graph.all(here.collect::<Vec<_>>());
-    Ok(
-        match reachability(&Problem::new(&netlist, bad), budget)?.0 {
-            Reachability::Proved(invariant) => Some(invariant),
-            Reachability::Found(_) => None,
-        },
-    )
+    let Reachability::Proved(invariant) = reachability(&Problem::new(&netlist, bad), budget)?.0
+    else {
+        return Ok(false);
+    };
+    // Where no inputs are possible the invariant need not exclude it.
+    let excludes = search.excludes(&invariant, state);
+    if excludes {
+        search.learn(invariant);
+    }
+    Ok(excludes)
 }
 
 #[cfg(test)]

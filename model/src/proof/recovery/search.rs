@@ -234,7 +234,13 @@ impl<'a> Search<'a> {
                 }
             }
         }
-        for cycles in CYCLES + 1..=if depth == 0 { MORE } else { CYCLES } {
+        Ok(false)
+    }
+
+    /// The same by longer runs.
+    pub(super) fn far(&mut self, state: &[bool]) -> Result<bool, Spent> {
+        let here = Self::fixed(&self.frames[0].state, state);
+        for cycles in CYCLES + 1..=MORE {
             if self.run(&here, cycles)? {
                 return Ok(true);
             }
