@@ -171,11 +171,12 @@ fn an_axis_with_slp_stops_where_its_values_say() {
                 V_MAX = \"30000 mm/min\"\nSBR_V_MAX = \"30000 mm/min\"\nSBR_T_RAMP = \"1 s\"\nSBR_MAXTOL_V = \"3000 mm/min\"\n\
                 SBR_MAXTOL_POS = \"100 mm\"\nX_NEGATIVE = \"1000 mm\"\nX_POSITIVE = \"99000 mm\"\n\
                 [guarantee.stops]\npattern = \"stops_in_time\"\naxes = [\"X\"]\nbeyond = \"900 mm\"\nsignal = \"20 ms\"\ndelay = \"100 ms\"\nacceleration = \"500 mm/s2\"\n";
-    // A position is no mean.
-    let fast = 500.0 + GAIN * DEAD;
+    // It is known to be no faster than V_MAX by its mean only.
+    let late = DEAD + MEAN;
+    let fast = 500.0 + GAIN * late;
     let (way, off) = (
-        (500.0 + fast) / 2.0 * DEAD + fast * fast / 1000.0,
-        100.0 + 110.0 + 500.0 * CYCLE / 2.0 + SLIP * (MORE + DEAD + fast / 500.0),
+        (500.0 + fast) / 2.0 * late + fast * fast / 1000.0,
+        100.0 + 110.0 + 500.0 * CYCLE / 2.0 + SLIP * (MORE + late + fast / 500.0),
     );
     let with = |mm: f64| {
         let beyond = format!("beyond = \"{mm} mm\"");

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use stillpoint_certify::format::Verdict as CertifiedVerdict;
+use stillpoint_certify::proof::duty::Measure;
 use stillpoint_certify::proof::format::{System as Certificate, theorems_text};
 use stillpoint_certify::proof::read::read_theorems;
 use stillpoint_engine::check::{Settings as CheckSettings, check, summarise};
@@ -215,6 +216,36 @@ fn another_certificate_confirms_nothing() {
     let cut = text.rsplit_once("claim").expect("claims").0;
     assert!(read_theorems(cut.as_bytes()).is_err());
     assert!(read_theorems(text.replacen("holds", "vacuous", 1).as_bytes()).is_err());
+}
+
+/// A measure whose number is to move the other way, or either way, shows nothing.
+#[test]
+fn a_measure_is_shown_by_the_direction_of_its_number() {
+    let (known, family) = (theorems("sinumerik-840d"), folder("sinumerik-840d"));
+    let all = Certificates::load(&family).unwrap_or_else(|e| panic!("{e}"));
+    let bound = bound(&family.join("axis.toml"), "stop");
+    let own = &known.systems[&bound.system.name];
+    let shown = &all.systems[&bound.system.name];
+    let turned = |measure: &mut Measure| measure.numbers[0].rises ^= true;
+    let either = |measure: &mut Measure| {
+        let mut other = measure.numbers[0].clone();
+        other.rises ^= true;
+        measure.numbers.push(other);
+    };
+    let changes: [&dyn Fn(&mut Measure); 2] = [&turned, &either];
+    for change in changes {
+        let mut other = shown.clone();
+        let claims = other.iter_mut().flat_map(|c| &mut c.claims);
+        let mut measures = claims.filter_map(|c| c.proof.as_mut()?.measure.as_mut());
+        change(
+            measures
+                .find(|m| !m.numbers.is_empty())
+                .expect("one with a number"),
+        );
+        let why = check_certificates(&bound, own, &other, &Budget::default());
+        let why = why.expect_err("it is altered");
+        assert!(why.contains("does not show it"), "{why}");
+    }
 }
 
 type Change = fn(&mut System);

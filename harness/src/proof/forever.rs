@@ -21,11 +21,12 @@ impl Judge<'_> {
         let (translated, fault) = (&asked.translated, asked.translated.fault);
         let counting = asked.numbers();
         let words: Vec<Word> = counting.iter().map(|k| translated.variable(*k).0).collect();
-        let mut measure = Measured {
+        let begin = Measured {
             rounds: ROUNDS,
             numbers: Vec::new(),
         };
-        while measure.rounds <= MOST {
+        let (mut measure, mut without) = (begin.clone(), Vec::new());
+        loop {
             let numbers = measure.numbers.iter();
             let numbers: Vec<(Word, bool)> = numbers
                 .map(|(k, rises)| (words[*k].clone(), *rises))
@@ -36,7 +37,7 @@ impl Judge<'_> {
                 numbers: &numbers,
             };
             let measuring = measured(&mut netlist, fault, response, &own);
-            match self.ask(&netlist, measuring.broken) {
+            let run = match self.ask(&netlist, measuring.broken) {
                 Decision::Never(proof) => {
                     let known = [&[measuring.duty.keeps()][..], &self.known].concat();
                     entry.engine = Some(self.engine(&proof));
@@ -51,9 +52,20 @@ impl Judge<'_> {
                     entry.reason = Some(why);
                     return false;
                 }
-                Decision::Seen(run) => match moves(&netlist, &measuring, &run, &words, &measure) {
-                    Some(number) => measure.numbers.push(number),
-                    None => measure.rounds *= 2,
+                Decision::Seen(run) => run,
+            };
+            let known = measure.numbers.iter().map(|(k, _)| *k);
+            let known: Vec<usize> = known.chain(without.iter().copied()).collect();
+            match moves(&netlist, &measuring, &run, &words, &known) {
+                Some(number) => measure.numbers.push(number),
+                None if measure.rounds < MOST => measure.rounds *= 2,
+                // Perhaps one of them spoils it: anew without the first.
+                None => match measure.numbers.first() {
+                    Some((k, _)) => {
+                        without.push(*k);
+                        measure = begin.clone();
+                    }
+                    None => break,
                 },
             }
         }
@@ -62,13 +74,13 @@ impl Judge<'_> {
     }
 }
 
-/// The number, of those that are not part of the measure, that moves most often one way in what is counted in a run.
+/// The number, of those that are not named, that moves most often one way in the last cycles of a run, while the duty is open.
 fn moves(
     netlist: &Netlist,
     measuring: &Measuring,
     run: &Run,
     words: &[Word],
-    measure: &Measured,
+    known: &[usize],
 ) -> Option<(usize, bool)> {
     let mut netlist = netlist.clone();
     let each: Vec<[Lit; 2]> = (words.iter())
@@ -80,8 +92,8 @@ fn moves(
         .collect();
     let mut seen = vec![[0, 0]; words.len()];
     Problem::new(&netlist, measuring.broken).play(run, |values| {
-        if !value(values, measuring.counts) {
-            return;
+        if !value(values, measuring.duty.pending) {
+            seen.fill([0, 0]);
         }
         for (seen, lits) in seen.iter_mut().zip(&each) {
             for (seen, lit) in seen.iter_mut().zip(lits) {
@@ -92,8 +104,7 @@ fn moves(
     let mut best = None;
     for (k, ways) in seen.iter().enumerate() {
         for (way, other) in [(0, 1), (1, 0)] {
-            let known = measure.numbers.iter().any(|(number, _)| *number == k);
-            if !known && ways[way] > ways[other] {
+            if !known.contains(&k) && ways[way] > ways[other] {
                 best = best.max(Some((ways[way] - ways[other], Reverse(k), way == 1)));
             }
         }

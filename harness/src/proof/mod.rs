@@ -90,7 +90,7 @@ pub enum Proof {
 /// What shows that a response without a bound comes.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Measured {
-    /// How often at most a round of the fairness conditions is idle.
+    /// How often at most a round of the fairness conditions is idle, or a number moves back.
     pub rounds: i64,
     /// Numbers that move, and whether they rise, by their places among those that count.
     pub numbers: Vec<(usize, bool)>,

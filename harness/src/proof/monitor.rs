@@ -151,8 +151,6 @@ pub(super) struct Measure<'a> {
 pub(super) struct Measuring {
     /// It is one too many of what is counted.
     pub broken: Lit,
-    /// The duty lasts, and this is counted.
-    pub counts: Lit,
     pub duty: Duty,
 }
 
@@ -212,11 +210,7 @@ pub(super) fn measured(
         rest,
         most: measure.rounds,
     };
-    Measuring {
-        broken,
-        counts,
-        duty,
-    }
+    Measuring { broken, duty }
 }
 
 /// The fastest response: what shows a cycle with the goal fewer than `cycles`, and one exactly so many after one with `when`, with no

@@ -51,7 +51,11 @@ impl Proof {
             ),
             Proof::Measured(measure, proof) => {
                 let rounds = counted(measure.rounds.unsigned_abs() as usize, "idle round");
-                format!("measure of at most {rounds}, {}", proof.text())
+                let steps = match measure.numbers.len() {
+                    0 => String::new(),
+                    n => format!(" or steps back of {}", counted(n, "number")),
+                };
+                format!("measure of at most {rounds}{steps}, {}", proof.text())
             }
             Proof::States(states) => format!("all {states} states"),
         }

@@ -97,9 +97,18 @@ impl Duty {
         })
     }
 
+    /// What is no number of several bits.
+    pub(super) fn flags(&self) -> impl Iterator<Item = Bit> + '_ {
+        let own = [self.pending, self.moved].into_iter();
+        own.chain(self.seen.iter().copied())
+    }
+
+    pub(super) fn rest(&self) -> &Word {
+        &self.rest
+    }
+
     pub(super) fn bits(&self) -> impl Iterator<Item = Bit> + '_ {
-        let all = [self.pending, self.moved].into_iter();
-        all.chain(self.seen.iter().chain(self.rest.bits()).copied())
+        self.flags().chain(self.rest.bits().iter().copied())
     }
 }
 

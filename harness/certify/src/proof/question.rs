@@ -371,11 +371,14 @@ impl<'a> Question<'a> {
 
     fn differ(&mut self, one: &Place, other: &Place, cone: &[bool]) -> Bit {
         let gates = &mut self.system.gates;
-        let duties = one.duty.bits().zip(other.duty.bits());
-        let duties: Vec<Bit> = duties.map(|(a, b)| gates.xor(a, b)).collect();
-        let mut differ = gates.any(duties);
+        let mut differ = Bit::FALSE;
+        for (a, b) in one.duty.flags().zip(other.duty.flags()) {
+            let other = gates.xor(a, b);
+            differ = gates.or(differ, other);
+        }
         let states = one.state.iter().zip(&other.state).zip(cone);
-        for ((a, b), _) in states.filter(|(_, inside)| **inside) {
+        let states = states.filter(|(_, inside)| **inside).map(|(pair, _)| pair);
+        for (a, b) in states.chain([(one.duty.rest(), other.duty.rest())]) {
             let same = a.equals(gates, b);
             differ = gates.or(differ, !same);
         }

@@ -28,6 +28,8 @@ pub(super) struct Shared {
     brake_on: bool,
     /// The user agreement.
     agrees: bool,
+    /// The reaction of a stop runs.
+    reacts: bool,
     /// Its switch-off path has suppressed the pulses.
     path_off: bool,
 }
@@ -238,8 +240,8 @@ impl Channel {
             .with(Message::Crosscheck, bare.no_current);
         let raised = self.functions.as_mut().map(|f| f.watch(&bits, &seen));
         let cause = raised.is_some_and(|r| r.request != Stop::None || r.difference);
-        // The message of a stop stays as long as the stop, which comes to its end first.
-        let reacts = self.functions.as_ref().is_some_and(|f| f.reacts());
+        // The message of a stop stays as long as the stop, which comes to its end in both channels first.
+        let reacts = self.reacts() || other.reacts;
         let acknowledged = self.acknowledgement.step(&acknowledgement::Inputs {
             message: cause || bare.no_current || raised.is_some_and(|r| r.notice),
             cause: cause || reacts,
@@ -247,7 +249,7 @@ impl Channel {
         });
         let told = match (&mut self.functions, &raised) {
             (Some(functions), Some(raised)) => {
-                *functions.arbitrate(&bits, &seen, raised, acknowledged.acknowledge)
+                *functions.arbitrate(&bits, &seen, raised, acknowledged.acknowledge && !reacts)
             }
             _ => Default::default(),
         };
@@ -337,6 +339,7 @@ impl Channel {
             brake_on: brake.on,
             agrees: read.is(Flag::Agrees),
             path_off: sto.pulses_off && !read.is(Flag::PathFault),
+            reacts: self.reacts(),
         };
         self.silent = silent || self.silent && basic.stop != Latched::None;
         self.path_error = sto.pulses_off && read.is(Flag::PathFault);
@@ -404,6 +407,11 @@ impl Channel {
             bare,
             service,
         }
+    }
+
+    /// Whether the reaction of a stop runs.
+    fn reacts(&self) -> bool {
+        self.functions.as_ref().is_some_and(|f| f.reacts())
     }
 
     /// The brake: open while there is torque and no test closes it, and both channels say so.
