@@ -4,10 +4,10 @@
 
 use std::cmp::Reverse;
 
-use stillpoint_model::proof::{Lit, Netlist, Problem, Run, Word, value};
+use stillpoint_model::proof::{Lit, Netlist, Problem, Rank, Run, Word, value};
 
 use super::decide::Decision;
-use super::monitor::{Forever, Measure, Measuring, measured};
+use super::monitor::{Forever, measured};
 use super::question::Asked;
 use super::{Judge, Judged, Measured, Proof};
 
@@ -28,18 +28,13 @@ impl Judge<'_> {
         let (mut measure, mut without) = (begin.clone(), Vec::new());
         loop {
             let numbers = measure.numbers.iter();
-            let numbers: Vec<(Word, bool)> = numbers
-                .map(|(k, rises)| (words[*k].clone(), *rises))
-                .collect();
+            let numbers: Vec<(&Word, bool)> =
+                numbers.map(|r| (&words[r.number], r.rises)).collect();
             let mut netlist = translated.netlist.clone();
-            let own = Measure {
-                rounds: measure.rounds,
-                numbers: &numbers,
-            };
-            let measuring = measured(&mut netlist, fault, response, &own);
-            let run = match self.ask(&netlist, measuring.broken) {
+            let (broken, duty) = measured(&mut netlist, fault, response, measure.rounds, &numbers);
+            let run = match self.ask(&netlist, broken) {
                 Decision::Never(proof) => {
-                    let known = [&[measuring.duty.keeps()][..], &self.known].concat();
+                    let known = [&[duty.keeps()][..], &self.known].concat();
                     entry.engine = Some(self.engine(&proof));
                     let mut shown = asked.shown(&netlist, &proof, known);
                     shown.measure = Some(asked.measure(&measure));
@@ -54,15 +49,15 @@ impl Judge<'_> {
                 }
                 Decision::Seen(run) => run,
             };
-            let known = measure.numbers.iter().map(|(k, _)| *k);
+            let known = measure.numbers.iter().map(|rank| rank.number);
             let known: Vec<usize> = known.chain(without.iter().copied()).collect();
-            match moves(&netlist, &measuring, &run, &words, &known) {
+            match moves(&netlist, (broken, duty.pending), &run, &words, &known) {
                 Some(number) => measure.numbers.push(number),
                 None if measure.rounds < MOST => measure.rounds *= 2,
                 // Perhaps one of them spoils it: anew without the first.
                 None => match measure.numbers.first() {
-                    Some((k, _)) => {
-                        without.push(*k);
+                    Some(rank) => {
+                        without.push(rank.number);
                         measure = begin.clone();
                     }
                     None => break,
@@ -77,22 +72,16 @@ impl Judge<'_> {
 /// The number, of those that are not named, that moves most often one way in the last cycles of a run, while the duty is open.
 fn moves(
     netlist: &Netlist,
-    measuring: &Measuring,
+    (broken, pending): (Lit, Lit),
     run: &Run,
     words: &[Word],
     known: &[usize],
-) -> Option<(usize, bool)> {
+) -> Option<Rank> {
     let mut netlist = netlist.clone();
-    let each: Vec<[Lit; 2]> = (words.iter())
-        .map(|now| {
-            let then = netlist.after(now);
-            let graph = &mut netlist.graph;
-            [then.less(graph, now), now.less(graph, &then)]
-        })
-        .collect();
+    let each: Vec<[Lit; 2]> = words.iter().map(|word| netlist.moves(word)).collect();
     let mut seen = vec![[0, 0]; words.len()];
-    Problem::new(&netlist, measuring.broken).play(run, |values| {
-        if !value(values, measuring.duty.pending) {
+    Problem::new(&netlist, broken).play(run, |values| {
+        if !value(values, pending) {
             seen.fill([0, 0]);
         }
         for (seen, lits) in seen.iter_mut().zip(&each) {
@@ -109,5 +98,5 @@ fn moves(
             }
         }
     }
-    best.map(|(_, Reverse(k), rises)| (k, rises))
+    best.map(|(_, Reverse(number), rises)| Rank { number, rises })
 }

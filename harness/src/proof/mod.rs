@@ -22,7 +22,7 @@ use stillpoint_certify::proof::clause::Clause;
 use stillpoint_engine::label;
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::ir::Property;
-use stillpoint_model::proof::{Budget, Invariant, Lit, Netlist, Run, Spent, Ways};
+use stillpoint_model::proof::{Budget, Invariant, Lit, Netlist, Rank, Run, Spent, Ways};
 use stillpoint_model::{Interrupt, Trace, Verdict};
 
 use crate::export::Unsupported;
@@ -92,8 +92,8 @@ pub enum Proof {
 pub struct Measured {
     /// How often at most a round of the fairness conditions is idle, or a number moves back.
     pub rounds: i64,
-    /// Numbers that move, and whether they rise, by their places among those that count.
-    pub numbers: Vec<(usize, bool)>,
+    /// Numbers that move.
+    pub numbers: Vec<Rank>,
 }
 
 /// Who judged.

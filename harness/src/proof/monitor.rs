@@ -139,48 +139,33 @@ pub(super) struct Forever {
     pub fair: Vec<Lit>,
 }
 
-/// What a response without a bound is measured by.
-pub(super) struct Measure<'a> {
-    /// How often at most a round of the fairness conditions is idle, or a number moves back.
-    pub rounds: i64,
-    /// The numbers; whether they are to rise.
-    pub numbers: &'a [(Word, bool)],
-}
-
-/// What is seen of a measure in a cycle.
-pub(super) struct Measuring {
-    /// It is one too many of what is counted.
-    pub broken: Lit,
-    pub duty: Duty,
-}
-
 /// The measure of a response without a bound. A round ends when each fairness condition has been seen in it; it is idle if no number
 /// has moved in it as it is to. If what is counted, idle rounds and cycles in which a number moves back, is never more than `rounds`,
-/// then no run is without the goal for ever: after the last one a number moves in each round, and none back.
+/// then no run is without the goal for ever: after the last one a number moves in each round, and none back. The answer is what shows
+/// one too many. Of each number: whether it is to rise.
 pub(super) fn measured(
     netlist: &mut Netlist,
     fault: Lit,
     response: &Forever,
-    measure: &Measure,
-) -> Measuring {
-    let moves: Vec<(Word, &Word, bool)> = (measure.numbers.iter())
-        .map(|(number, rises)| (netlist.after(number), number, *rises))
-        .collect();
+    rounds: i64,
+    numbers: &[(&Word, bool)],
+) -> (Lit, Duty) {
+    let (mut forth, mut back) = (Lit::FALSE, Lit::FALSE);
+    for (number, rises) in numbers {
+        let [falls, rise] = netlist.moves(number);
+        let (to, from) = if *rises { (rise, falls) } else { (falls, rise) };
+        let graph = &mut netlist.graph;
+        (forth, back) = (graph.or(forth, to), graph.or(back, from));
+    }
     let first = netlist.latches.len();
     let pending = netlist.latch("monitor.pending".to_owned(), Some(false));
-    let rest = counter(netlist, "monitor.rest", measure.rounds);
+    let rest = counter(netlist, "monitor.rest", rounds);
     let latch = |netlist: &mut Netlist, name| netlist.latch(name, Some(false));
     let seen: Vec<Lit> = (0..response.fair.len())
         .map(|k| latch(netlist, format!("monitor.seen.{k}")))
         .collect();
     let moved = latch(netlist, "monitor.moved".to_owned());
     let graph = &mut netlist.graph;
-    let (mut forth, mut back) = (Lit::FALSE, Lit::FALSE);
-    for (then, now, rises) in &moves {
-        let (small, great) = if *rises { (*now, then) } else { (then, *now) };
-        let (to, from) = (small.less(graph, great), great.less(graph, small));
-        (forth, back) = (graph.or(forth, to), graph.or(back, from));
-    }
     let lasts = graph.all([pending, response.assuming, !response.goal]);
     let seen: Vec<Lit> = (seen.iter().zip(&response.fair))
         .map(|(before, now)| graph.or(*before, *now))
@@ -197,20 +182,20 @@ pub(super) fn measured(
     let less = rest.minus(graph, &Word::constant(1));
     let fewer = graph.and(counts, !over);
     let left = less.choice(graph, fewer, &rest);
-    let count = left.choice(graph, lasts, &Word::constant(measure.rounds));
+    let count = left.choice(graph, lasts, &Word::constant(rounds));
     let goes_on = graph.and(lasts, !ends);
     let next: Vec<Lit> = (seen.iter().chain([&moved]))
         .map(|bit| graph.and(goes_on, *bit))
         .collect();
-    keep(netlist, fault, first, open, &count, measure.rounds);
+    keep(netlist, fault, first, open, &count, rounds);
     let behind = netlist.latches.len() - next.len();
     set(netlist, fault, behind, &next);
     let duty = Duty {
         pending,
         rest,
-        most: measure.rounds,
+        most: rounds,
     };
-    Measuring { broken, duty }
+    (broken, duty)
 }
 
 /// The fastest response: what shows a cycle with the goal fewer than `cycles`, and one exactly so many after one with `when`, with no

@@ -151,6 +151,11 @@ impl<'a> Asked<'a> {
         self.translated.atoms.get(k).copied().flatten()
     }
 
+    /// The same of a condition; without one everything satisfies it.
+    fn given(&self, condition: Option<usize>) -> Option<Lit> {
+        condition.map_or(Some(Lit::TRUE), |k| self.atom(k))
+    }
+
     fn question(&mut self, property: &Property, variable: Option<usize>) -> Option<Question> {
         let fault = self.translated.fault;
         let graph = |asked: &mut Self, list: &[Lit]| {
@@ -225,10 +230,7 @@ impl<'a> Asked<'a> {
                 assuming,
             } => {
                 let fair: Option<Vec<Lit>> = fair.iter().map(|k| self.atom(*k)).collect();
-                let assuming = match assuming {
-                    Some(assuming) => self.atom(*assuming)?,
-                    None => Lit::TRUE,
-                };
+                let assuming = self.given(*assuming)?;
                 let when = self.atom(*when)?;
                 Question::Forever(Forever {
                     first: graph(self, &[!fault, when]),
@@ -240,10 +242,7 @@ impl<'a> Asked<'a> {
             }
             Form::CanAlwaysReach { goal, using } => {
                 let goal = self.atom(*goal)?;
-                let using = match using {
-                    Some(using) => self.atom(*using)?,
-                    None => Lit::TRUE,
-                };
+                let using = self.given(*using)?;
                 let using = graph(self, &[!fault, using]);
                 let end = graph(self, &[using, goal]);
                 Question::Way { goal, using, end }

@@ -58,13 +58,17 @@ impl Asked<'_> {
 
     /// The numbers of a measure by their names.
     pub(super) fn measure(&self, measure: &Measured) -> Measure {
-        let numbers = measure.numbers.iter().map(|(k, rises)| Rank {
-            name: self.name(self.numbers()[*k]),
-            rises: *rises,
-        });
+        let numbers = measure.numbers.iter().map(|rank| self.rank(rank));
         Measure {
             rounds: measure.rounds,
             numbers: numbers.collect(),
+        }
+    }
+
+    fn rank(&self, rank: &proof::Rank) -> Rank {
+        Rank {
+            name: self.name(self.numbers()[rank.number]),
+            rises: rank.rises,
         }
     }
 
@@ -86,10 +90,7 @@ impl Asked<'_> {
     fn step(&self, netlist: &Netlist, step: &proof::Step) -> Step {
         let system = &self.translated.bound.system;
         let inputs = self.translated.chosen(&step.inputs).into_iter();
-        let rank = step.rank.map(|rank| Rank {
-            name: self.name(self.numbers()[rank.number]),
-            rises: rank.rises,
-        });
+        let rank = step.rank.as_ref().map(|rank| self.rank(rank));
         Step {
             region: self.bits(netlist, &step.region),
             inputs: inputs

@@ -58,9 +58,11 @@ impl Netlist {
         lit
     }
 
-    /// What a number over the latches becomes in a cycle.
-    pub fn after(&self, number: &Word) -> Word {
-        number.placed(&moved(self, self.graph.size()))
+    /// That a number over the latches falls in a cycle, and that it rises.
+    pub fn moves(&mut self, number: &Word) -> [Lit; 2] {
+        let then = number.placed(&moved(self, self.graph.size()));
+        let graph = &mut self.graph;
+        [then.less(graph, number), number.less(graph, &then)]
     }
 
     /// A new input.

@@ -135,9 +135,9 @@ impl Question<'_> {
             duty.seen.fill_with(|| self.system.gates.free());
             duty.moved = self.gates().free();
         }
-        if !matches!(
+        if matches!(
             self.target,
-            Target::Range | Target::Goal(_) | Target::Broken(..) | Target::Way { .. }
+            Target::Until { .. } | Target::Late { .. } | Target::Forever { .. }
         ) {
             duty.pending = self.gates().free();
         }
@@ -151,10 +151,7 @@ impl Question<'_> {
             Target::Range | Target::Way { .. } => (Bit::FALSE, duty),
             Target::Goal(goal) => (system.atom(*goal, cycle)?, duty),
             Target::Broken(when, then) => {
-                let when = match when {
-                    Some(when) => system.atom(*when, cycle)?,
-                    None => Bit::TRUE,
-                };
+                let when = system.condition(*when, cycle)?;
                 let then = system.atom(*then, cycle)?;
                 (system.gates.and(when, !then), duty)
             }
@@ -206,10 +203,7 @@ impl Question<'_> {
                 fair,
             } => {
                 let (when, goal) = (system.atom(*when, cycle)?, system.atom(*goal, cycle)?);
-                let assumed = match assuming {
-                    Some(assuming) => system.atom(*assuming, cycle)?,
-                    None => Bit::TRUE,
-                };
+                let assumed = system.condition(*assuming, cycle)?;
                 let mut seen = Vec::new();
                 for (seen_before, condition) in duty.seen.iter().zip(*fair) {
                     let now = system.atom(*condition, cycle)?;

@@ -317,6 +317,14 @@ impl<'a> Symbolic<'a> {
         self.truth(&bound.system.atoms[k], cycle)
     }
 
+    /// The same of a condition; without one every cycle satisfies it.
+    ///
+    /// # Errors
+    /// As [`Symbolic::cycle`].
+    pub fn condition(&mut self, k: Option<usize>, cycle: &mut Cycle) -> Result<Bit, String> {
+        k.map_or(Ok(Bit::TRUE), |k| self.atom(k, cycle))
+    }
+
     fn cells<'c>(&'c self, space: Space, cycle: &'c Cycle) -> &'c [Word] {
         match space {
             Space::Param => &self.params,

@@ -69,10 +69,7 @@ impl Question<'_> {
                 }
             }
             let mut ends = self.system.atom(goal, &mut cycle)?;
-            let used = match using {
-                Some(using) => self.system.atom(using, &mut cycle)?,
-                None => Bit::TRUE,
-            };
+            let used = self.system.condition(using, &mut cycle)?;
             let after = Place {
                 state: cycle.now.clone(),
                 duty: place.duty.clone(),
