@@ -29,6 +29,8 @@ pub enum Engine {
     Kinduction,
     /// Property-directed reachability (IC3): runs and proofs of any length
     Pdr,
+    /// Sets of states as binary decision diagrams: shortest runs, and the exact number of reachable states
+    Bdd,
     /// Each property by the engine that has a form for it: pdr after a look at short runs, else the explorer
     Auto,
 }
@@ -40,6 +42,7 @@ impl Engine {
             Engine::Bmc => Choice::Bmc,
             Engine::Kinduction => Choice::Induction,
             Engine::Pdr => Choice::Pdr,
+            Engine::Bdd => Choice::Bdd,
             Engine::Auto => Choice::Auto,
         }
     }
@@ -115,6 +118,11 @@ pub fn run(subject: &mut Subject, asked: &Asked) -> Result<u8, Failure> {
         return Err(Failure::Other(
             "--certificate: leave out --engine, and the explorer writes its own certificate"
                 .to_owned(),
+        ));
+    }
+    if asked.certificate.is_some() && asked.engine == Engine::Bdd {
+        return Err(Failure::Other(
+            "--certificate: a set of states has none; --engine pdr writes one".to_owned(),
         ));
     }
     let bounds: Vec<Bound> = subject.tasks.iter().map(|t| t.bound.clone()).collect();

@@ -43,7 +43,7 @@ pub(super) fn decide(
         Choice::Bmc => bounded(&problem, depth, budget),
         Choice::Induction => inductive(&problem, depth, budget),
         Choice::Pdr => reached(&problem, 0, budget),
-        Choice::Auto | Choice::Explorer => reached(&problem, SHORT, budget),
+        Choice::Auto | Choice::Explorer | Choice::Bdd => reached(&problem, SHORT, budget),
     };
     match decision {
         // Whatever an engine says is checked by other code.

@@ -13,8 +13,10 @@ mod monitor;
 mod pairs;
 mod question;
 mod shown;
+mod states;
 mod text;
 
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
@@ -22,7 +24,7 @@ use stillpoint_certify::proof::clause::Clause;
 use stillpoint_engine::label;
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::ir::Property;
-use stillpoint_model::proof::{Budget, Invariant, Lit, Netlist, Rank, Run, Spent, Ways};
+use stillpoint_model::proof::{Budget, Invariant, Lit, Netlist, Rank, Run, Spent, States, Ways};
 use stillpoint_model::{Interrupt, Trace, Verdict};
 
 use crate::export::Unsupported;
@@ -46,6 +48,8 @@ pub enum Choice {
     Induction,
     /// Property-directed reachability.
     Pdr,
+    /// Sets of states as binary decision diagrams: counts them, too.
+    Bdd,
     /// For each property the engine that decides it: property-directed reachability after short runs; the explorer where that has no
     /// form.
     Auto,
@@ -85,6 +89,13 @@ pub enum Proof {
     Measured(Measured, Box<Proof>),
     /// All states were enumerated: so many.
     States(u64),
+    /// All reachable states of what it depends on are known as a set.
+    Reached {
+        /// How many; none if they are more than 2^128 - 1.
+        states: Option<u128>,
+        /// The number of cycles to the farthest.
+        cycles: usize,
+    },
 }
 
 /// What shows that a response without a bound comes.
@@ -107,6 +118,8 @@ pub enum Engine {
     Induction,
     /// Property-directed reachability.
     Pdr,
+    /// Binary decision diagrams.
+    Bdd,
 }
 
 /// A property and what was found.
@@ -173,6 +186,8 @@ struct Judge<'a> {
     ranges: bool,
     /// Of the conditions that the netlist calls invariants those that a certificate does not know by itself.
     known: Vec<Clause>,
+    /// Those of the whole system, where all properties are asked of them.
+    states: RefCell<Option<States>>,
     out: Vec<Judged>,
 }
 
@@ -190,6 +205,7 @@ impl<'a> Judge<'a> {
             leave_to_explorer: settings.choice == Choice::Auto,
             ranges: true,
             known: Vec::new(),
+            states: RefCell::new(None),
             out: Vec::new(),
         }
     }
@@ -233,6 +249,12 @@ impl<'a> Judge<'a> {
             Ok(asked) => asked,
             Err(why) => return self.unsupported(&why.0),
         };
+        let bdd = self.settings.choice == Choice::Bdd;
+        // Of all configurations at once there are too many.
+        let sets = bdd || self.leave_to_explorer;
+        if bdd {
+            self.begin_states(&asked);
+        }
         let mut left = Vec::new();
         // What may take long comes last, so that a limit leaves less open.
         let mut order: Vec<usize> = (0..asked.questions.len()).collect();
@@ -270,12 +292,14 @@ impl<'a> Judge<'a> {
                     }
                 }
                 Question::Way { goal, using, end } => {
-                    if !self.ways(&asked, &mut entry, (*goal, *using, *end)) {
+                    let ways = !bdd && self.ways(&asked, &mut entry, (*goal, *using, *end));
+                    if !ways && !(sets && self.recovers(&asked, &mut entry, (*using, *end))) {
                         left.push(k);
                     }
                 }
                 Question::Forever(response) => {
-                    if !self.forever(&asked, &mut entry, response) {
+                    let measured = !bdd && self.forever(&asked, &mut entry, response);
+                    if !measured && !(sets && self.comes(&asked, &mut entry, response)) {
                         left.push(k);
                     }
                 }
@@ -294,6 +318,8 @@ impl<'a> Judge<'a> {
                     self.never(&asked, &mut entry, broken, *first, stated);
                 }
             }
+            // A set of states has no certificate.
+            entry.shown = entry.shown.filter(|_| entry.engine != Some(Engine::Bdd));
             entry.seconds = begin.elapsed().as_secs_f64();
             told.insert(k, entry);
         }
@@ -309,6 +335,13 @@ impl<'a> Judge<'a> {
                 None,
                 &[],
             );
+            entry.seconds = begin.elapsed().as_secs_f64();
+            self.out.push(entry);
+        }
+        if bdd && self.ranges {
+            let begin = self.begin();
+            let mut entry = self.entry("states".to_owned(), "the reachable states are known");
+            self.count_states(&mut entry);
             entry.seconds = begin.elapsed().as_secs_f64();
             self.out.push(entry);
         }
@@ -349,6 +382,9 @@ impl<'a> Judge<'a> {
 
     fn ask(&self, netlist: &Netlist, target: Lit) -> Decision {
         let (choice, depth) = (self.settings.choice, Depth(self.settings.depth));
+        if choice == Choice::Bdd {
+            return self.reached(netlist, target);
+        }
         decide(netlist, target, choice, depth, &self.budget)
     }
 
@@ -384,6 +420,7 @@ impl<'a> Judge<'a> {
         match (proof, self.settings.choice) {
             (Proof::Induction(..), _) | (Proof::Nothing, Choice::Induction) => Engine::Induction,
             (Proof::Nothing, Choice::Bmc) => Engine::Bmc,
+            (_, Choice::Bdd) => Engine::Bdd,
             _ => Engine::Pdr,
         }
     }
@@ -392,6 +429,7 @@ impl<'a> Judge<'a> {
     fn found(&self, asked: &Asked, entry: &mut Judged, run: &Run) {
         entry.engine = Some(match self.settings.choice {
             Choice::Induction => Engine::Induction,
+            Choice::Bdd => Engine::Bdd,
             // The shortest run is always one that bounded model checking has looked for.
             _ => Engine::Bmc,
         });

@@ -55,6 +55,8 @@ pub(super) struct Asked<'a> {
     pub questions: Vec<Question>,
     /// Parameters that are part of the state: places of their state variables.
     pub parameters: &'a [usize],
+    /// The number of latches that are no monitor's: the first ones.
+    pub latches: usize,
     /// The number of state variables that are neither parameters nor bounds over them: the first ones.
     pub own: usize,
     /// By property the state variable that has its bound, if there is such.
@@ -63,8 +65,10 @@ pub(super) struct Asked<'a> {
 
 impl<'a> Asked<'a> {
     pub(super) fn new(bound: &'a Bound) -> Result<Self, Unsupported> {
+        let translated = Translated::new(bound)?;
         let mut asked = Asked {
-            translated: Translated::new(bound)?,
+            latches: translated.netlist.latches.len(),
+            translated,
             questions: Vec::new(),
             parameters: &[],
             own: bound.states.len(),
@@ -76,8 +80,10 @@ impl<'a> Asked<'a> {
 
     /// The same for all values of some parameters.
     pub(super) fn every(every: &'a Every) -> Result<Self, Unsupported> {
+        let translated = Translated::new(&every.bound)?;
         let mut asked = Asked {
-            translated: Translated::new(&every.bound)?,
+            latches: translated.netlist.latches.len(),
+            translated,
             questions: Vec::new(),
             parameters: &every.parameters,
             own: every.own,

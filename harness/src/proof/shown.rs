@@ -51,7 +51,7 @@ impl Asked<'_> {
                     .collect();
             }
             // A measure is told beside what shows it.
-            Proof::Measured(..) | Proof::Nothing | Proof::States(_) => {}
+            Proof::Measured(..) | Proof::Nothing | Proof::States(_) | Proof::Reached { .. } => {}
         }
         shown
     }

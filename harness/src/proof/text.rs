@@ -26,6 +26,7 @@ impl Engine {
             Engine::Bmc => "bmc",
             Engine::Induction => "kinduction",
             Engine::Pdr => "pdr",
+            Engine::Bdd => "bdd",
         }
     }
 }
@@ -58,6 +59,11 @@ impl Proof {
                 format!("measure of at most {rounds}{steps}, {}", proof.text())
             }
             Proof::States(states) => format!("all {states} states"),
+            Proof::Reached { states, cycles } => {
+                let states = states.map_or("more than 2^128".to_owned(), |n| n.to_string());
+                let cycles = counted(*cycles, "cycle");
+                format!("all {states} states, the farthest after {cycles}")
+            }
         }
     }
 }
@@ -94,6 +100,7 @@ impl Told<'_> {
             Engine::Bmc,
             Engine::Induction,
             Engine::Pdr,
+            Engine::Bdd,
         ] {
             parts.push((count(Some(engine)), engine.name()));
         }

@@ -17,6 +17,7 @@
 //! other tools. Answers do not depend on time, except that a [`Budget`] may be spent before there is one.
 
 pub mod aiger;
+mod bdd;
 mod bounded;
 mod graph;
 mod houdini;
@@ -29,6 +30,7 @@ mod sat;
 mod unroll;
 mod word;
 
+pub use bdd::{Condition, Lasso, States};
 pub use bounded::{Bounded, Induction, induction};
 pub use graph::{Graph, Lit, Node, value};
 pub use houdini::inductive;

@@ -102,8 +102,13 @@ pub struct Problem<'a> {
 impl<'a> Problem<'a> {
     /// Whether a cycle with `bad` can be reached.
     pub fn new(netlist: &'a Netlist, bad: Lit) -> Self {
+        Problem::with(netlist, bad, &[])
+    }
+
+    /// The same of a cone that has these functions too.
+    pub fn with(netlist: &'a Netlist, bad: Lit, also: &[Lit]) -> Self {
         let graph = &netlist.graph;
-        let mut seen = graph.below([bad, Lit::FALSE]);
+        let mut seen = graph.below(also.iter().copied().chain([bad, Lit::FALSE]));
         let conditions: Vec<(Lit, Vec<usize>)> = [
             &netlist.start[..],
             &netlist.invariants[..],

@@ -16,4 +16,5 @@ mod parts;
 mod proof;
 mod random;
 mod scale;
+mod states;
 mod twin;

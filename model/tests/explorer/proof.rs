@@ -10,7 +10,7 @@ use stillpoint_model::proof::{
 };
 
 /// A netlist with something to look for; some have start values that are open, with a condition on them.
-fn random_netlist(seed: u64) -> (Netlist, Lit) {
+pub fn random_netlist(seed: u64) -> (Netlist, Lit) {
     let mut random = Random(seed);
     let mut netlist = Netlist::default();
     let (latches, inputs) = (1 + random.below(6), random.below(4));
@@ -66,7 +66,7 @@ fn bits(number: usize, count: usize) -> impl Iterator<Item = bool> {
 }
 
 /// Values of all nodes in a state with inputs.
-fn cycle(netlist: &Netlist, state: usize, inputs: usize) -> Vec<bool> {
+pub fn cycle(netlist: &Netlist, state: usize, inputs: usize) -> Vec<bool> {
     let mut leaves = vec![false; netlist.graph.size()];
     for (latch, bit) in netlist.latches.iter().zip(bits(state, 32)) {
         leaves[latch.lit.node()] = bit;
@@ -78,12 +78,12 @@ fn cycle(netlist: &Netlist, state: usize, inputs: usize) -> Vec<bool> {
 }
 
 /// The length of a shortest run to a bad cycle, state by state.
-fn naive(netlist: &Netlist, bad: Lit) -> Option<usize> {
+pub fn naive(netlist: &Netlist, bad: Lit) -> Option<usize> {
     explored(netlist, bad).0
 }
 
 /// The same, and the states seen before it.
-fn explored(netlist: &Netlist, bad: Lit) -> (Option<usize>, BTreeSet<usize>) {
+pub fn explored(netlist: &Netlist, bad: Lit) -> (Option<usize>, BTreeSet<usize>) {
     let holds = |values: &[bool], list: &[Lit]| list.iter().all(|lit| value(values, *lit));
     let starts = (0..1 << netlist.latches.len()).filter(|state| {
         let right = netlist.latches.iter().zip(bits(*state, 32));
@@ -119,7 +119,7 @@ fn explored(netlist: &Netlist, bad: Lit) -> (Option<usize>, BTreeSet<usize>) {
 }
 
 /// Whether the netlist has a start state at all, and an input in each cycle: else nothing can be asked of it.
-fn sensible(netlist: &Netlist) -> bool {
+pub fn sensible(netlist: &Netlist) -> bool {
     naive(netlist, Lit::TRUE).is_some()
 }
 
