@@ -144,7 +144,7 @@ fields! {
         pub checked: bool,
         /// The axis may move.
         pub may_move: bool,
-        /// It moves, not checked, with the door open outside the mode for homing and testing: SS2 of its group.
+        /// It moves and must not: SS2 of its group.
         pub untested: bool,
         /// The stop to be raised.
         pub demand: Stop,
@@ -211,10 +211,10 @@ monitor! { heidenhain::reference;
         when |s| s.outputs.ax_safe
             => s.config.safe_axis && s.after.axis == AxisRef::Checked && s.inputs.peer_checked;
 
-    /// A moving safe axis that is not checked, door open, outside homing and testing: SS2.
+    /// A moving safe axis, outside homing and testing: SS2 if it is not homed, or not checked with the door open.
     untested_axis_is_stopped ["HFS-P-19", "HFS-REF-009", "HFS-CHK-010"]:
-        when |s| s.config.safe_axis && s.after.axis != AxisRef::Checked && s.inputs.moving && s.inputs.door_open
-            && s.inputs.unit != Unit::Reference
+        when |s| s.config.safe_axis && s.after.axis != AxisRef::Checked && s.inputs.moving
+            && s.inputs.unit != Unit::Reference && (s.inputs.door_open || s.after.axis != AxisRef::NotChecked)
             => s.outputs.untested && s.outputs.demand == Stop::Ss2 && !s.outputs.may_move;
 
     /// Before homing a safe axis moves in the mode for it only, whatever the door.
@@ -285,7 +285,7 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
             AxisRef::NotHomed | AxisRef::Homed => homing,
             AxisRef::NotChecked => homing || !inputs.door_open,
         };
-    let untested = config.safe_axis && !checked && inputs.moving && inputs.door_open && !homing;
+    let untested = inputs.moving && !may_move;
     let outputs = Outputs {
         ax_safe: config.safe_axis && checked && inputs.peer_checked,
         checked,

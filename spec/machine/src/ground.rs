@@ -14,6 +14,7 @@ use super::family_file::Check;
 use super::guarantee::Guarantee;
 use super::plausible::insert;
 use super::signal::Signals;
+use super::whole::before;
 use super::{Axis, AxisKind, Door, Group, Machine, Settings};
 use stillpoint_lang::diag::{Diagnostic, Result};
 use stillpoint_lang::read_text;
@@ -127,6 +128,8 @@ impl About {
         if matches!(self, Self::Axis | Self::DoorAxis | Self::Guarantee) {
             known.extend(["kind", "spindle", "LINEAR", "ROTARY", PATH, OTHERS].map(str::to_owned));
             known.extend([DIFFERS, PAIRED].map(str::to_owned));
+            // What the groups that stop before its own take.
+            known.extend(family.group_lets.iter().map(|(name, _)| before(name)));
             known.extend(family.axis.keys().cloned());
         }
         if self == Self::Machine {
@@ -211,6 +214,12 @@ pub(super) fn grounds<'a>(machine: &'a Machine, about: About) -> Vec<Ground<'a>>
             ..whole.clone()
         };
         ground.set(PATH, partners);
+        let groups = machine.axis_groups.iter().zip(&machine.basis.judged.groups);
+        let own = groups.into_iter().find(|(group, _)| group.has(&axis.name));
+        for (name, _) in &machine.basis.family.group_lets {
+            let sum = own.and_then(|(_, values)| values.get(&before(name)).cloned());
+            ground.values.insert(before(name), sum.unwrap_or(vec![0]));
+        }
         let others = others(machine, axis).count();
         ground.set(OTHERS, i64::try_from(others).unwrap_or(i64::MAX));
         let differs = machine.differences(axis).len();

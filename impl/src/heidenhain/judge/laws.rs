@@ -74,11 +74,11 @@ monitor! { heidenhain::judge;
                 || (s.inputs.state == GroupState::Sls4 && s.inputs.unit == Unit::Handwheel))
             => s.outputs.asks_ss1d && s.outputs.stops_axes;
 
-    /// So does a spindle that turns without permissive as its door is opened.
+    /// So does a spindle that turns without permissive as its door is opened, also where restricted operation is requested.
     opened_door_stops_the_spindle ["HFS-MODE-011", "HFS-AXG-007"]:
         when |s| s.config.kind() == Kind::Spindle && s.inputs.moving && !s.inputs.permissive
             && s.inputs.state == GroupState::Auto
-            && matches!(s.inputs.request, GroupState::Sls2 | GroupState::Sls3 | GroupState::Sls4)
+            && matches!(s.inputs.request, GroupState::Sls2 | GroupState::Sls3 | GroupState::Sls4 | GroupState::SlsS)
             => s.outputs.asks_ss1d && s.outputs.stops_axes;
 
     /// With the permissive, in restricted operation and in SOM_4 at the panel a spindle goes on.
@@ -92,6 +92,12 @@ monitor! { heidenhain::judge;
         when |s| s.config.kind() != Kind::Spindle && s.inputs.moving && !s.inputs.permissive
             && matches!(s.inputs.state, GroupState::Sls2 | GroupState::Sls3 | GroupState::Sls4)
             && s.inputs.unit == Unit::Handwheel
+            => s.outputs.asks_ss2;
+
+    /// So do a magazine and other auxiliary axes, however they are operated.
+    magazine_needs_the_permissive ["HFS-PB-003", "HFS-API-012"]:
+        when |s| s.config.kind() == Kind::Auxiliary && s.inputs.moving && !s.inputs.permissive
+            && matches!(s.inputs.state, GroupState::Sls2 | GroupState::Sls3 | GroupState::Sls4)
             => s.outputs.asks_ss2;
 
     /// A change between panel, handwheel and reference run stops a released group.

@@ -130,7 +130,7 @@ fields! {
         pub idle: bool,
         /// `NN_GenSafe`: the self-test has passed and is not overdue.
         pub gen_safe: bool,
-        /// An axis that is not checked moves with the door open outside the reference mode.
+        /// An axis moves that must not: outside the reference mode not homed, or not checked with the door open.
         pub untested: bool,
     }
 }
@@ -191,14 +191,14 @@ impl Inputs {
     }
 
     /// A spindle in this situation needs its permissive to go on: as the door opens, and then in all but SOM_4 at the panel
-    /// and restricted operation.
+    /// and restricted operation, which it has to be started for.
     const fn needs_permissive(&self) -> bool {
         match self.state {
             GroupState::Sls2 | GroupState::Sls3 => true,
             GroupState::Sls4 => matches!(self.unit, Unit::Handwheel),
             GroupState::Auto => matches!(
                 self.request,
-                GroupState::Sls2 | GroupState::Sls3 | GroupState::Sls4
+                GroupState::Sls2 | GroupState::Sls3 | GroupState::Sls4 | GroupState::SlsS
             ),
             _ => false,
         }
@@ -222,7 +222,8 @@ pub(crate) fn transition(state: State, config: &Config, inputs: &Inputs) -> (Sta
     let released = inputs.state.is_released();
     let lost = inputs.moving && !inputs.permissive;
     let crossed = state.modes != Modes::None && modes != Modes::None && modes != state.modes;
-    let by_hand = inputs.unit == Unit::Handwheel
+    // Axes by the handwheel; the magazine and other auxiliary axes however they are operated.
+    let by_hand = (inputs.unit == Unit::Handwheel || config.kind == Kind::Auxiliary)
         && matches!(
             inputs.state,
             GroupState::Sls2 | GroupState::Sls3 | GroupState::Sls4

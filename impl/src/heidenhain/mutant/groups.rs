@@ -1,6 +1,6 @@
 //! Wrong variants of what is asked of an axis group and of its monitoring state.
 
-use crate::heidenhain::types::{GroupState, Left, Phase, Stop};
+use crate::heidenhain::types::{GroupState, Kind, Left, Phase, Stop, Unit};
 use crate::heidenhain::{axis_release, group, judge, startup};
 
 variants! { heidenhain::judge:
@@ -17,6 +17,20 @@ variants! { heidenhain::judge:
         if inputs.state == GroupState::Auto && !inputs.idle {
             inputs.permissive = true;
         }
+        judge::transition(state, config, &inputs)
+    }
+
+    /// Restricted operation asked for as the door opens hides that nobody holds the permissive.
+    "judge-restricted-needs-no-permissive" |state, config, inputs| {
+        let mut inputs = *inputs;
+        inputs.permissive |= inputs.state == GroupState::Auto && inputs.request == GroupState::SlsS;
+        judge::transition(state, config, &inputs)
+    }
+
+    /// Auxiliary axes need their permissive at the handwheel only.
+    "judge-magazine-unheld" |state, config, inputs| {
+        let mut inputs = *inputs;
+        inputs.permissive |= config.kind() == Kind::Auxiliary && inputs.unit != Unit::Handwheel;
         judge::transition(state, config, &inputs)
     }
 

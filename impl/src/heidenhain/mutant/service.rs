@@ -20,6 +20,14 @@ variants! { heidenhain::reference:
         reference::transition(state, config, &inputs)
     }
 
+    /// An axis that is not homed moves behind a closed door.
+    "reference-unhomed-behind-the-door" |state, config, inputs| {
+        let (after, mut outputs) = reference::transition(state, config, inputs);
+        outputs.untested &= inputs.door_open;
+        outputs.demand = if outputs.untested { Stop::Ss2 } else { Stop::None };
+        (after, outputs)
+    }
+
     /// The other channel is not asked.
     "reference-one-channel" |state, config, inputs| {
         let inputs = reference::Inputs { peer_matches: true, peer_checked: true, ..*inputs };
