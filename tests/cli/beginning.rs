@@ -186,7 +186,6 @@ axes       = [\"Y\"]
 contactors = 2
 switching  = \"60 ms\"
 within     = \"66 ms\"
-after      = \"any single fault of a channel or contact\"
 
 [[accepted]]
 warning = \"brake-test-none\"
@@ -328,26 +327,6 @@ fn what_cannot_begin_is_refused_and_nothing_is_overwritten() {
     assert_eq!(std::fs::read_to_string(&file).expect("the file"), "mine");
 }
 
-#[test]
-fn a_sweep_tells_where_guarantees_begin_to_hold() {
-    let mut said = String::new();
-    for (place, expected) in [
-        ("axis.X.STANDSTILL_TOL", 0),
-        ("axis.X.VELO_LIMIT[0]", 0),
-        ("door.front.open", 0),
-        ("guarantee.tool.speed", 0),
-        ("axis.X.STANDSTIL_TOL", 2),
-        ("axis.X.colour", 2),
-        ("table", 2),
-    ] {
-        let arguments = ["check", MILLING, "--sweep", place];
-        let output = stillpoint(&arguments);
-        assert_eq!(status(&output), expected, "{place}: {}", stderr(&output));
-        said.push_str(&session(&arguments, &output));
-    }
-    insta::assert_snapshot!(said);
-}
-
 /// The place where a sweep finds the change is that of a check with the values beside it.
 #[test]
 fn a_sweep_agrees_with_checks() {
@@ -364,4 +343,30 @@ fn a_sweep_agrees_with_checks() {
     assert_eq!(sweep("1248 ms").0, 0);
     let (status, said) = sweep("1247 ms");
     assert_eq!(status, 1, "{said}");
+}
+
+/// What takes a minute: `.ci/run` has it beside the daily tests.
+mod slow {
+    use super::*;
+
+    #[test]
+    #[ignore = "slow: a step of .ci/run"]
+    fn a_sweep_tells_where_guarantees_begin_to_hold() {
+        let mut said = String::new();
+        for (place, expected) in [
+            ("axis.X.STANDSTILL_TOL", 0),
+            ("axis.X.VELO_LIMIT[0]", 0),
+            ("door.front.open", 0),
+            ("guarantee.tool.speed", 0),
+            ("axis.X.STANDSTIL_TOL", 2),
+            ("axis.X.colour", 2),
+            ("table", 2),
+        ] {
+            let arguments = ["check", MILLING, "--sweep", place];
+            let output = stillpoint(&arguments);
+            assert_eq!(status(&output), expected, "{place}: {}", stderr(&output));
+            said.push_str(&session(&arguments, &output));
+        }
+        insta::assert_snapshot!(said);
+    }
 }

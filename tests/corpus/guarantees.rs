@@ -61,36 +61,6 @@ fn guarantees_of_the_milling_machine_hold_with_their_bounds() {
     }
 }
 
-#[test]
-fn guarantees_of_the_machining_centre_hold_with_their_bounds() {
-    let found = verdicts(&machines::MACHINING_CENTRE.0, &machines::MACHINING_CENTRE.1);
-    for name in ["no_start", "no_start_tool", "no_start_magazine"] {
-        assert_eq!(found[name].0, Verdict::Holds, "{name}");
-    }
-    // The signal and the discrepancy of the contacts, capture and telegram (4.8.20), two cycles of the program, the SS1 of the slowest axis of
-    // the group.
-    for (name, times) in [
-        ("table_som_1", &[30, 28, 42, 600][..]),
-        ("table_som_2", &[30, 28, 42, 600]),
-        ("table_som_3", &[30, 28, 42, 600]),
-        ("tool_som_1", &[30, 28, 42, 2300]),
-        ("tool_som_2", &[30, 28, 42, 2300]),
-        ("magazine", &[30, 28, 42, 800]),
-        ("emergency_stop", &[30, 6, 600]),
-        ("emergency_stop_tool", &[30, 6, 2300]),
-    ] {
-        let (verdict, bound) = found[name];
-        assert_eq!(verdict, Verdict::Holds, "{name}");
-        // What takes a monitor's cycle is at most two of them each, and the contact opens at any moment of a cycle.
-        let least: u64 = times.iter().map(|ms: &u64| ms / 3).sum();
-        let cycles = bound.expect("a bound") / 3;
-        assert!(
-            (least..=least + 6).contains(&cycles),
-            "{name}: {cycles}, at least {least}"
-        );
-    }
-}
-
 /// What `reaction` adds up for an axis, summand by summand, is never longer than the bound that `check` finds for it: both are made from
 /// the manual by themselves.
 #[test]
@@ -146,29 +116,6 @@ struct Change {
     replace: String,
     by: String,
     breaks: String,
-}
-
-#[test]
-fn every_dangerous_value_breaks_a_guarantee() {
-    let path = root().join("tests/machines/dangerous.toml");
-    let text = std::fs::read_to_string(path).expect("readable");
-    let mut file: BTreeMap<String, Vec<Dangers>> =
-        toml::from_str(&text).unwrap_or_else(|e| panic!("{e}"));
-    let machines = file.remove("machine").expect("machines");
-    assert_eq!(machines.len(), 5);
-    let changes: usize = machines.iter().map(|machine| machine.change.len()).sum();
-    assert!(changes >= 134, "{changes}");
-    for machine in machines {
-        assert!(machine.change.len() >= 6, "{}", machine.file);
-        let wrong = each(&machine.change, |change| {
-            let broken = changed(&machine.file, &change.replace, &change.by);
-            let path = root().join(&machine.file);
-            let violated = is_violated(&path, &broken, &change.breaks);
-            (!violated).then(|| format!("{}: {} holds", change.text, change.breaks))
-        });
-        let wrong: Vec<String> = wrong.into_iter().flatten().collect();
-        assert!(wrong.is_empty(), "{}: {}", machine.file, wrong.join("\n"));
-    }
 }
 
 /// A change of a shipped machine that is an error.
@@ -278,5 +225,65 @@ fn the_fault_that_breaks_a_guarantee_is_named() {
                 .iter()
                 .any(|run| run.verdict == Verdict::Violated)
         );
+    }
+}
+
+/// What takes a minute: `.ci/run` has it beside the daily tests.
+mod slow {
+    use super::*;
+
+    #[test]
+    #[ignore = "slow: a step of .ci/run"]
+    fn guarantees_of_the_machining_centre_hold_with_their_bounds() {
+        let found = verdicts(&machines::MACHINING_CENTRE.0, &machines::MACHINING_CENTRE.1);
+        for name in ["no_start", "no_start_tool", "no_start_magazine"] {
+            assert_eq!(found[name].0, Verdict::Holds, "{name}");
+        }
+        // The signal and the discrepancy of the contacts, capture and telegram (4.8.20), two cycles of the program, the SS1 of the slowest axis of
+        // the group.
+        for (name, times) in [
+            ("table_som_1", &[30, 28, 42, 600][..]),
+            ("table_som_2", &[30, 28, 42, 600]),
+            ("table_som_3", &[30, 28, 42, 600]),
+            ("tool_som_1", &[30, 28, 42, 2300]),
+            ("tool_som_2", &[30, 28, 42, 2300]),
+            ("magazine", &[30, 28, 42, 800]),
+            ("emergency_stop", &[30, 6, 600]),
+            ("emergency_stop_tool", &[30, 6, 2300]),
+        ] {
+            let (verdict, bound) = found[name];
+            assert_eq!(verdict, Verdict::Holds, "{name}");
+            // What takes a monitor's cycle is at most two of them each, and the contact opens at any moment of a cycle.
+            let least: u64 = times.iter().map(|ms: &u64| ms / 3).sum();
+            let cycles = bound.expect("a bound") / 3;
+            assert!(
+                (least..=least + 6).contains(&cycles),
+                "{name}: {cycles}, at least {least}"
+            );
+        }
+    }
+
+    #[test]
+    #[ignore = "slow: a step of .ci/run"]
+    fn every_dangerous_value_breaks_a_guarantee() {
+        let path = root().join("tests/machines/dangerous.toml");
+        let text = std::fs::read_to_string(path).expect("readable");
+        let mut file: BTreeMap<String, Vec<Dangers>> =
+            toml::from_str(&text).unwrap_or_else(|e| panic!("{e}"));
+        let machines = file.remove("machine").expect("machines");
+        assert_eq!(machines.len(), 5);
+        let changes: usize = machines.iter().map(|machine| machine.change.len()).sum();
+        assert!(changes >= 134, "{changes}");
+        for machine in machines {
+            assert!(machine.change.len() >= 6, "{}", machine.file);
+            let wrong = each(&machine.change, |change| {
+                let broken = changed(&machine.file, &change.replace, &change.by);
+                let path = root().join(&machine.file);
+                let violated = is_violated(&path, &broken, &change.breaks);
+                (!violated).then(|| format!("{}: {} holds", change.text, change.breaks))
+            });
+            let wrong: Vec<String> = wrong.into_iter().flatten().collect();
+            assert!(wrong.is_empty(), "{}: {}", machine.file, wrong.join("\n"));
+        }
     }
 }

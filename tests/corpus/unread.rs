@@ -245,12 +245,6 @@ fn is_explored(case: &Case, knobs: &[Knob]) -> Option<bool> {
 }
 
 #[test]
-fn every_value_that_is_read_is_seen_to_decide() {
-    let blind = without_effect(machine_files(), &exceptions(HIDDEN), is_explored);
-    assert!(blind.is_empty(), "{HIDDEN}: {blind:#?}");
-}
-
-#[test]
 #[ignore = "deep: a minute"]
 fn what_no_machine_file_shows_to_decide_is_an_exception() {
     let blind = without_effect(machine_files(), &BTreeSet::new(), is_explored);
@@ -268,4 +262,16 @@ fn every_value_that_decides_changes_an_answer() {
         Some(altered.any(|other| case.answers_differ(&other)))
     });
     are_exceptions(&blind, "parameters that change no answer");
+}
+
+/// What takes a minute: `.ci/run` has it beside the daily tests.
+mod slow {
+    use super::*;
+
+    #[test]
+    #[ignore = "slow: a step of .ci/run"]
+    fn every_value_that_is_read_is_seen_to_decide() {
+        let blind = without_effect(machine_files(), &exceptions(HIDDEN), is_explored);
+        assert!(blind.is_empty(), "{HIDDEN}: {blind:#?}");
+    }
 }

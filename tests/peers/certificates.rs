@@ -209,7 +209,7 @@ fn confirm(file: &Path, choice: Choice, every: bool) -> (usize, usize) {
             // A recorded bound that is not the one found, and what an engine leaves open, is not certified.
             let decided = !(of_two && judged.shown.is_none())
                 && judged.verdict != Found::Inconclusive
-                && judged.engine != Some(Engine::Explorer)
+                && !matches!(judged.engine, Some(Engine::Explorer | Engine::Bdd))
                 && (judged.verdict != Found::Violated || judged.trace.is_some());
             let told = match decided {
                 true => format!("{:?}", judged.verdict),

@@ -9,6 +9,7 @@ mod evaluators;
 mod exports;
 mod nusmv;
 mod pair;
+mod products;
 mod proof;
 mod reductions;
 mod rumur;

@@ -170,6 +170,12 @@ impl<'a> Writer<'a> {
                     .to_owned(),
             ));
         }
+        if judged.engine == Some(Engine::Bdd) {
+            return Ok(Err(
+                "a set of states has no certificate; the explorer writes one: leave out --engine"
+                    .to_owned(),
+            ));
+        }
         if matches!(verdict, Verdict::Violated | Verdict::Reached) {
             return Ok(match claim.run {
                 Some(_) => Ok(claim),

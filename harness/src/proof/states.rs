@@ -103,13 +103,14 @@ impl Judge<'_> {
         let Ok((lost, shown, proof)) = answer else {
             return self.spent(entry);
         };
-        entry.engine = Some(Engine::Bdd);
         entry.reason = None;
         if let Some(run) = lost {
             self.found(asked, entry, &run);
+            entry.engine = Some(Engine::Bdd);
             entry.verdict = Verdict::Violated;
             return true;
         }
+        entry.engine = Some(Engine::Bdd);
         entry.verdict = Verdict::Holds;
         entry.proof = Some(proof);
         if let Some(run) = shown {
@@ -136,14 +137,15 @@ impl Judge<'_> {
         let Ok((lasso, proof)) = answer else {
             return self.spent(entry);
         };
-        entry.engine = Some(Engine::Bdd);
         entry.reason = None;
         let Some(lasso) = lasso else {
+            entry.engine = Some(Engine::Bdd);
             entry.proof = Some(proof);
             self.first(asked, entry, response.first);
             return true;
         };
         self.found(asked, entry, &lasso.run);
+        entry.engine = Some(Engine::Bdd);
         entry.verdict = Verdict::Violated;
         match (&mut entry.trace, lasso.back_to) {
             (Some(trace), Some(cycle)) => trace.loop_start = Some(cycle),

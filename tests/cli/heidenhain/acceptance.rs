@@ -121,7 +121,7 @@ fn values_times_and_what_a_test_depends_on() {
     let permissive = test(&json, "PERMISSIVE-NC");
     assert_eq!(
         permissive["expect"][1]["latest_us"],
-        6_000 + 42_000 + 400_000
+        28_000 + 42_000 + 3_000 + 400_000
     );
     assert_eq!(
         permissive["depends"]["SMP527"],
@@ -187,7 +187,10 @@ fn a_changed_parameter_repeats_its_tests() {
         ]
     );
     let repeat: Vec<String> = ids(&json).into_iter().collect();
-    assert_eq!(repeat, ["KEYS-NC", "PERMISSIVE-NC", "SS2-TIME-Z"]);
+    assert_eq!(
+        repeat,
+        ["KEYS-NC", "PERMISSIVE-NC", "PERMISSIVE-S", "SS2-TIME-Z"]
+    );
     assert_eq!(
         json["since"]["gone"],
         serde_json::json!(["STOP-SEQUENCE-S"])
