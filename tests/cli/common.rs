@@ -72,7 +72,11 @@ pub fn copied(name: &str, machine: &str, family: &str, replace: &[(&str, &str, &
         copy(&program);
     }
     for entry in std::fs::read_dir(root().join(family)).expect("the family") {
-        copy(&Path::new(family).join(entry.expect("an entry").file_name()));
+        let entry = entry.expect("an entry");
+        // A product of a whole machine is explored by no command that reads the copy.
+        if entry.path().is_file() {
+            copy(&Path::new(family).join(entry.file_name()));
+        }
     }
     for (file, from, to) in replace {
         let path = folder.join(file);

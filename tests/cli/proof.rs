@@ -1,6 +1,6 @@
 //! `check --engine`: what it prints and its exit status.
 
-use crate::common::{messages, status, stderr, stdout, stillpoint};
+use crate::common::{Folder, messages, status, stderr, stdout, stillpoint};
 
 const BROKEN: &str = "tests/must-fail/stop-b-without-timer.toml";
 const GOOD: &str = "spec/families/sinumerik-840d/axis.toml";
@@ -11,7 +11,7 @@ fn lines_with(text: &str, what: &str) -> usize {
 
 #[test]
 fn a_broken_property_is_shown_by_a_shortest_run() {
-    for engine in ["auto", "pdr", "bmc", "kinduction", "explorer"] {
+    for engine in ["auto", "pdr", "bdd", "bmc", "kinduction", "explorer"] {
         let output = stillpoint(&["check", BROKEN, "--engine", engine]);
         let text = stdout(&output);
         assert_eq!(status(&output), 1, "{engine}: {text}{}", stderr(&output));
@@ -43,7 +43,7 @@ fn what_an_engine_cannot_decide_is_open_with_its_reason() {
     assert_eq!(status(&output), 3, "{text}");
     assert!(text.contains("no run of up to 4 cycles"), "{text}");
     assert!(
-        text.contains("what can always be reached needs pdr"),
+        text.contains("what can always be reached needs pdr or bdd"),
         "{text}"
     );
 }
@@ -75,4 +75,52 @@ fn json_has_verdict_engine_and_proof() {
     assert_eq!(broken["verdict"], "violated");
     assert_eq!(broken["length"], 4);
     assert_eq!(broken["engine"], "bmc");
+}
+
+#[test]
+fn sets_of_states_are_counted_and_have_no_certificate() {
+    let output = stillpoint(&[
+        "check",
+        "spec/families/heidenhain-fs/reference.toml",
+        "--engine",
+        "bdd",
+    ]);
+    let text = stdout(&output);
+    assert_eq!(status(&output), 0, "{text}{}", stderr(&output));
+    assert!(text.contains("holds        bdd        states"), "{text}");
+    let output = stillpoint(&["check", GOOD, "--engine", "bdd", "--certificate", "x.cert"]);
+    assert_eq!(status(&output), 2);
+    assert!(messages(&output).contains("a set of states has none"));
+}
+
+/// A machine of three groups as one product, with its own program: an error in it is found there too.
+#[test]
+fn a_whole_machine_is_one_product() {
+    const MACHINE: &str = "spec/machines/machining-centre-heidenhain.toml";
+    let output = stillpoint(&["check", MACHINE, "--engine", "pdr", "--whole"]);
+    let text = stdout(&output);
+    assert_eq!(status(&output), 0, "{text}{}", stderr(&output));
+    assert!(lines_with(&text, "holds        pdr ") > 20, "{text}");
+    assert!(text.contains("HFS-P-09-START[3]"), "{text}");
+
+    let file = std::fs::read_to_string(crate::common::root().join(MACHINE)).expect("the machine");
+    let from = "gen_safe AND pb AND (jog OR turned)";
+    assert!(file.contains(from));
+    let folder = Folder::new("whole");
+    let to = "gen_safe AND (pb OR unit = PROGRAM) AND (jog OR turned)";
+    let path = folder.write("machine.toml", &file.replace(from, to));
+    let output = stillpoint(&["check", &path, "--engine", "pdr", "--whole"]);
+    let text = stdout(&output);
+    assert_eq!(status(&output), 1, "{text}{}", stderr(&output));
+    assert!(text.contains("VIOLATED  HFS-P-09-START[2]"), "{text}");
+
+    let output = stillpoint(&[
+        "check",
+        "spec/machines/milling-840d.toml",
+        "--engine",
+        "pdr",
+        "--whole",
+    ]);
+    assert_eq!(status(&output), 2);
+    assert!(messages(&output).contains("is described by its parts alone"));
 }

@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 
 use stillpoint_engine as engine;
 use stillpoint_harness::export::aiger::aiger;
-use stillpoint_harness::proof::{Choice, Every, Settings, Which, judge, judge_every};
+use stillpoint_harness::proof::{Choice, Every, Proof, Settings, Which, judge, judge_every};
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::ir::Form;
 use stillpoint_model::{Limits, Options, Verdict};
@@ -44,9 +44,9 @@ const SYSTEMS: [(&str, &str, &str, Values); 4] = [
 #[ignore = "deep: a table of times, for the book"]
 fn table() {
     println!(
-        "| system | latches / inputs / ANDs | explorer, states | engines | ABC pdr | every configuration |"
+        "| system | latches / inputs / ANDs | explorer, states | engines | sets of states | ABC pdr | every configuration |"
     );
-    println!("| --- | --- | --- | --- | --- | --- |");
+    println!("| --- | --- | --- | --- | --- | --- | --- |");
     for (file, name, what, values) in SYSTEMS {
         let subject = load(&root().join(format!("spec/families/{file}.toml")));
         let whole = format!("{file}/{name}");
@@ -59,10 +59,11 @@ fn table() {
         let bound = Bound::new(task.bound.system.clone(), &values, &BTreeMap::new());
         let bound = bound.unwrap_or_else(|e| panic!("{whole}: {e}"));
         println!(
-            "| {whole}, {what} | {} | {} | {} | {} | {} |",
+            "| {whole}, {what} | {} | {} | {} | {} | {} | {} |",
             size(&bound),
             explorer(&bound),
             engines(&bound),
+            sets(&bound),
             abc(&bound),
             every(&bound)
         );
@@ -113,6 +114,26 @@ fn settings() -> Settings {
 fn engines(bound: &Bound) -> String {
     let begin = Instant::now();
     told(begin, &judge(bound, &settings()))
+}
+
+/// What is decided by sets of states, and their number.
+fn sets(bound: &Bound) -> String {
+    let settings = Settings {
+        choice: Choice::Bdd,
+        each: Some(LIMIT / 3),
+        ..settings()
+    };
+    let begin = Instant::now();
+    let judged = judge(bound, &settings);
+    let answer = told(begin, &judged);
+    let counted = judged.iter().find(|one| one.id == "states");
+    match counted.and_then(|one| one.proof.as_ref()) {
+        Some(Proof::Reached {
+            states: Some(states),
+            ..
+        }) => format!("{answer}, {states}"),
+        _ => answer,
+    }
 }
 
 fn every(bound: &Bound) -> String {

@@ -6,10 +6,10 @@ use std::time::Duration;
 use stillpoint_harness::proof::{Choice, Every, Judged, Settings, Which, judge, judge_every};
 use stillpoint_model::Verdict;
 use stillpoint_tests::peer::load;
-use stillpoint_tests::root;
+use stillpoint_tests::{files, root};
 
 /// Changes of the machining centre between its parts, each with the property that finds it.
-const BROKEN: [(&str, &str, &str); 6] = [
+const BROKEN: [(&str, &str, &str); 7] = [
     // The spindle does not wait for the axes.
     (
         "\"i <> 2 OR NOT drive[1].moving\"",
@@ -26,6 +26,12 @@ const BROKEN: [(&str, &str, &str); 6] = [
     (
         "SEL(EXISTS(j IN stop, j <> i AND PREV(stop[j].level) >= SS1F), NONE, SS1F), ",
         "",
+        "HFS-SS1-001[1]",
+    ),
+    // It becomes an SS1 there, which needs no main switch.
+    (
+        ">= SS1F), NONE, SS1F), ",
+        ">= SS1F), NONE, SS1), ",
         "HFS-SS1-001[1]",
     ),
     // The kernel reads the permissive of the magazine for the spindle.
@@ -61,11 +67,7 @@ fn settings() -> Settings {
 }
 
 fn products() -> Vec<PathBuf> {
-    let folder = root().join("spec/products");
-    let files = std::fs::read_dir(folder).expect("the products");
-    let mut files: Vec<PathBuf> = files.map(|entry| entry.expect("a file").path()).collect();
-    files.sort();
-    files
+    files("spec/families/heidenhain-fs/products", "toml")
 }
 
 fn all_hold(judged: &[Judged], file: &Path) {
@@ -93,15 +95,19 @@ fn a_whole_machine_keeps_what_its_parts_keep() {
 
 #[test]
 fn an_error_between_its_parts_is_found() {
-    let text = std::fs::read_to_string(root().join("spec/products/machining-centre.toml"));
+    let text =
+        std::fs::read_to_string(root().join("spec/families/heidenhain-fs/products/machine.toml"));
     let text = text.expect("the machine");
-    let families = root().join("spec/families").display().to_string();
+    let family = root().join("spec/families/heidenhain-fs/");
+    let family = family.display().to_string();
     let folder = std::env::temp_dir().join(format!("stillpoint-products-{}", std::process::id()));
     std::fs::create_dir_all(&folder).expect("a folder");
     for (from, to, breaks) in BROKEN {
         assert!(text.contains(from), "{from}");
         let file = folder.join("broken.toml");
-        let broken = text.replace(from, to).replace("../families", &families);
+        let broken = text
+            .replace(from, to)
+            .replace("\"../", &format!("\"{family}"));
         std::fs::write(&file, broken).expect("written");
         let judged = judge(&load(&file).tasks[0].bound, &settings());
         let broken: Vec<&str> = (judged.iter())

@@ -97,6 +97,9 @@ pub struct Arguments {
     /// Judge for every value of these parameters at once: NAME over its whole range or NAME=LO..HI, several with commas, or `all`
     #[arg(long, value_name = "all|NAME[=LO..HI],...", value_parser = prove::every, requires = "engine")]
     every: Option<Which>,
+    /// Judge the whole machine as one product, which is too large to be explored, in place of its parts: of families that describe one
+    #[arg(long, requires = "engine", conflicts_with = "certificate")]
+    whole: bool,
     /// Explore also what is a theorem of the machine's family, see `stillpoint theorems`
     #[arg(long)]
     all: bool,
@@ -104,6 +107,24 @@ pub struct Arguments {
     warnings: Warnings,
     #[command(flatten)]
     cluster: ClusterOptions,
+}
+
+/// The products of a machine in place of its parts.
+fn whole(subject: Subject, readings: &subject::Readings) -> Result<Subject, Failure> {
+    let products = subject.machine.as_ref().map(|machine| machine.products());
+    let products = products.transpose()?.unwrap_or_default();
+    match subject.machine {
+        Some(machine) if !products.is_empty() => Ok(subject::of_runs(
+            &subject.path,
+            machine,
+            &products,
+            readings,
+        )?),
+        _ => Err(Failure::Other(format!(
+            "--whole: {} is described by its parts alone; leave it out",
+            subject.name
+        ))),
+    }
 }
 
 pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
@@ -119,6 +140,9 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
             return Err(Failure::Other(
                 "--readings all is for the explorer's report; with --engine choose options: --readings ID=OPTION".to_owned(),
             ));
+        }
+        if arguments.whole {
+            subject = whole(subject, &choice.chosen)?;
         }
         let asked = prove::Asked {
             engine,

@@ -31,7 +31,7 @@ pub enum Engine {
     Pdr,
     /// Sets of states as binary decision diagrams: shortest runs, and the exact number of reachable states
     Bdd,
-    /// Each property by the engine that has a form for it: pdr after a look at short runs, else the explorer
+    /// Each property by the engine that has a form for it: pdr after a look at short runs, else bdd, then the explorer
     Auto,
 }
 

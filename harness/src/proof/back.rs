@@ -16,7 +16,7 @@ impl Judge<'_> {
         (goal, using, end): (Lit, Lit, Lit),
     ) -> bool {
         if !matches!(self.settings.choice, Choice::Auto | Choice::Pdr) {
-            entry.reason = Some("what can always be reached needs pdr".to_owned());
+            entry.reason = Some("what can always be reached needs pdr or bdd".to_owned());
             return false;
         }
         let translated = &asked.translated;

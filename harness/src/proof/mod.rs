@@ -9,6 +9,7 @@ mod every;
 mod explored;
 mod forever;
 mod help;
+mod judged;
 mod monitor;
 mod pairs;
 mod question;
@@ -24,8 +25,8 @@ use stillpoint_certify::proof::clause::Clause;
 use stillpoint_engine::label;
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::ir::Property;
-use stillpoint_model::proof::{Budget, Invariant, Lit, Netlist, Rank, Run, Spent, States, Ways};
-use stillpoint_model::{Interrupt, Trace, Verdict};
+use stillpoint_model::Verdict;
+use stillpoint_model::proof::{Budget, Lit, Netlist, Run, Spent, States};
 
 use crate::export::Unsupported;
 use decide::{Decision, Depth, decide, until};
@@ -34,118 +35,9 @@ use monitor::Duty;
 use question::{Asked, Question, Stated};
 
 pub use every::{Every, Span, Which};
+pub use judged::{Choice, Engine, Judged, Measured, Proof, Settings};
 pub use shown::Shown;
 pub use text::{Told, exit_status, to_json};
-
-/// Which engine is to judge.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Choice {
-    /// The explorer, for every property.
-    Explorer,
-    /// Runs of rising length: finds shortest runs, proves nothing.
-    Bmc,
-    /// k-induction.
-    Induction,
-    /// Property-directed reachability.
-    Pdr,
-    /// Sets of states as binary decision diagrams: counts them, too.
-    Bdd,
-    /// For each property the engine that decides it: property-directed reachability after short runs; the explorer where that has no
-    /// form.
-    Auto,
-}
-
-/// How to judge.
-#[derive(Debug, Clone)]
-pub struct Settings {
-    /// Which engine.
-    pub choice: Choice,
-    /// Cycles that BMC and k-induction look at.
-    pub depth: usize,
-    /// Wall time for everything.
-    pub time: Option<Duration>,
-    /// Of that for each property.
-    pub each: Option<Duration>,
-    /// Bytes for the explorer.
-    pub memory: Option<u64>,
-    /// Threads of the explorer.
-    pub threads: usize,
-    /// Ends everything from outside.
-    pub interrupt: Option<Interrupt>,
-}
-
-/// What shows that something is never seen.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Proof {
-    /// It is FALSE whatever the state.
-    Nothing,
-    /// So many good cycles are followed by another one, where these pairs of them begin in different states.
-    Induction(usize, Vec<(usize, usize)>),
-    /// This invariant, checked.
-    Invariant(Invariant),
-    /// From every reachable state these ways lead to the goal.
-    Ways(Ways),
-    /// A measure of a response without a bound, and what shows that it is one.
-    Measured(Measured, Box<Proof>),
-    /// All states were enumerated: so many.
-    States(u64),
-    /// All reachable states of what it depends on are known as a set.
-    Reached {
-        /// How many; none if they are more than 2^128 - 1.
-        states: Option<u128>,
-        /// The number of cycles to the farthest.
-        cycles: usize,
-    },
-}
-
-/// What shows that a response without a bound comes.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Measured {
-    /// How often at most a round of the fairness conditions is idle, or a number moves back.
-    pub rounds: i64,
-    /// Numbers that move.
-    pub numbers: Vec<Rank>,
-}
-
-/// Who judged.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Engine {
-    /// The explorer.
-    Explorer,
-    /// Bounded model checking.
-    Bmc,
-    /// k-induction.
-    Induction,
-    /// Property-directed reachability.
-    Pdr,
-    /// Binary decision diagrams.
-    Bdd,
-}
-
-/// A property and what was found.
-#[derive(Debug, Clone)]
-pub struct Judged {
-    /// Its id with the number of its copy; `range` for the ranges of all assignments.
-    pub id: String,
-    /// In plain words.
-    pub text: String,
-    /// The verdict.
-    pub verdict: Verdict,
-    /// Cycles of the shortest counterexample or witness.
-    pub length: Option<u64>,
-    /// Who judged; none if nobody has.
-    pub engine: Option<Engine>,
-    /// Of what holds (or is vacuous or unreachable): the proof.
-    pub proof: Option<Proof>,
-    /// The same for a certificate.
-    pub shown: Option<Shown>,
-    /// The shortest counterexample or witness.
-    pub trace: Option<Trace>,
-    /// Why there is no verdict, or why what is recorded of the bound is refuted.
-    pub reason: Option<String>,
-    /// Wall time.
-    pub seconds: f64,
-}
 
 /// Judges the properties of a system, then its ranges.
 pub fn judge(bound: &Bound, settings: &Settings) -> Vec<Judged> {
@@ -253,6 +145,7 @@ impl<'a> Judge<'a> {
         // Of all configurations at once there are too many.
         let sets = bdd || self.leave_to_explorer;
         if bdd {
+            self.begin();
             self.begin_states(&asked);
         }
         let mut left = Vec::new();
@@ -292,14 +185,16 @@ impl<'a> Judge<'a> {
                     }
                 }
                 Question::Way { goal, using, end } => {
-                    let ways = !bdd && self.ways(&asked, &mut entry, (*goal, *using, *end));
-                    if !ways && !(sets && self.recovers(&asked, &mut entry, (*using, *end))) {
+                    let decided = (!bdd && self.ways(&asked, &mut entry, (*goal, *using, *end)))
+                        || (sets && self.recovers(&asked, &mut entry, (*using, *end)));
+                    if !decided {
                         left.push(k);
                     }
                 }
                 Question::Forever(response) => {
-                    let measured = !bdd && self.forever(&asked, &mut entry, response);
-                    if !measured && !(sets && self.comes(&asked, &mut entry, response)) {
+                    let decided = (!bdd && self.forever(&asked, &mut entry, response))
+                        || (sets && self.comes(&asked, &mut entry, response));
+                    if !decided {
                         left.push(k);
                     }
                 }
@@ -465,6 +360,7 @@ impl<'a> Judge<'a> {
             }
             Decision::Never(proof) => {
                 entry.verdict = Verdict::Vacuous;
+                entry.engine = Some(self.engine(&proof));
                 let netlist = &asked.translated.netlist;
                 entry.shown = Some(asked.shown(netlist, &proof, self.known.clone()));
                 entry.proof = Some(proof);

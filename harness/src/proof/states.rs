@@ -1,7 +1,7 @@
 //! Sets of states: reachable ones and their number, what can always be reached, runs without an end.
 
 use stillpoint_model::Verdict;
-use stillpoint_model::proof::{Condition, Lit, Netlist, Problem, Spent, States};
+use stillpoint_model::proof::{Condition, Lit, Netlist, Problem, Run, Spent, States, value};
 
 use super::decide::Decision;
 use super::monitor::Forever;
@@ -25,6 +25,34 @@ fn whole(asked: &Asked) -> Vec<Lit> {
     latches
         .chain(netlist.inputs.iter().map(|i| i.lit))
         .collect()
+}
+
+/// Whether a run has `begin` before the cycle that it comes back to, `stays` in each cycle behind that, each condition from there on,
+/// and these latches at its end as they were there.
+fn endless(
+    (netlist, latches): (&Netlist, usize),
+    run: &Run,
+    back_to: usize,
+    (begin, stays, fair): (Lit, Lit, &[Lit]),
+) -> bool {
+    let own = &netlist.latches[..latches];
+    let all: Vec<Lit> = own.iter().map(|latch| latch.lit).collect();
+    let mut cycles = Vec::new();
+    let mut states = Vec::new();
+    let made = Problem::with(netlist, Lit::TRUE, &all).play(run, |values| {
+        let met: Vec<bool> = fair.iter().map(|lit| value(values, *lit)).collect();
+        cycles.push((value(values, begin), value(values, stays), met));
+        let now: Vec<bool> = own.iter().map(|l| value(values, l.lit)).collect();
+        let then: Vec<bool> = own.iter().map(|l| value(values, l.next)).collect();
+        states.push((now, then));
+    });
+    let (Some(last), Some(first)) = (states.last(), states.get(back_to)) else {
+        return false;
+    };
+    let begun = cycles[..back_to].iter().rposition(|cycle| cycle.0);
+    made && last.1 == first.0
+        && begun.is_some_and(|k| cycles[k + 1..].iter().all(|cycle| cycle.1))
+        && (0..fair.len()).all(|k| cycles[back_to..].iter().any(|cycle| cycle.2[k]))
 }
 
 impl Judge<'_> {
@@ -62,10 +90,20 @@ impl Judge<'_> {
             let told: Result<Option<Vec<Condition>>, Spent> = told.collect();
             told?.map(|conditions| ask(states, &conditions)).transpose()
         };
-        if let Some(states) = &mut *self.states.borrow_mut() {
+        let mut whole = self.states.borrow_mut();
+        if let Some(states) = &mut *whole {
             states.limit(&self.budget);
-            if let Ok(Some(answer)) = asked(states) {
-                return Ok(answer);
+            match asked(states) {
+                Ok(Some(answer)) => return Ok(answer),
+                Ok(None) => {}
+                // It has no room for the next question either.
+                Err(Spent) => *whole = None,
+            }
+            if whole.is_none() && !also.is_empty() {
+                return Err(Spent);
+            }
+            if self.budget.spent() {
+                return Err(Spent);
             }
         }
         let cone = Problem::with(netlist, Lit::FALSE, &[conditions, also].concat());
@@ -74,13 +112,23 @@ impl Judge<'_> {
 
     /// Whether a cycle with `target` is reachable.
     pub(super) fn reached(&self, netlist: &Netlist, target: Lit) -> Decision {
+        if target == Lit::FALSE {
+            return Decision::Never(Proof::Nothing);
+        }
         let answer = self.ask_states(netlist, &[target], &[], |states, target| {
             Ok(match states.reach(Some(target[0]))? {
                 Some(run) => Decision::Seen(run),
                 None => Decision::Never(Proof::reached(states)),
             })
         });
-        answer.unwrap_or_else(|Spent| Decision::Open("the limit was reached first".to_owned()))
+        match answer {
+            // Whatever an engine says is checked by other code.
+            Ok(Decision::Seen(run)) if !Problem::new(netlist, target).shows(&run) => {
+                Decision::Open("the engine's run is none: please report this".to_owned())
+            }
+            Ok(decision) => decision,
+            Err(Spent) => Decision::Open("the limit was reached first".to_owned()),
+        }
     }
 
     /// Whether something can always be reached: whether there is an answer.
@@ -105,6 +153,10 @@ impl Judge<'_> {
         };
         entry.reason = None;
         if let Some(run) = lost {
+            let made = Problem::with(netlist, Lit::TRUE, &[using, end]);
+            if !run.cycles.is_empty() && !made.shows(&run) {
+                return self.wrong(entry);
+            }
             self.found(asked, entry, &run);
             entry.engine = Some(Engine::Bdd);
             entry.verdict = Verdict::Violated;
@@ -144,14 +196,30 @@ impl Judge<'_> {
             self.first(asked, entry, response.first);
             return true;
         };
+        let Some(cycle) = lasso.back_to else {
+            entry.reason = Some("a run without an end was not followed to where it was".to_owned());
+            return false;
+        };
+        if !endless(
+            (&netlist, asked.latches),
+            &lasso.run,
+            cycle,
+            (begin, stays, &response.fair),
+        ) {
+            return self.wrong(entry);
+        }
         self.found(asked, entry, &lasso.run);
         entry.engine = Some(Engine::Bdd);
         entry.verdict = Verdict::Violated;
-        match (&mut entry.trace, lasso.back_to) {
-            (Some(trace), Some(cycle)) => trace.loop_start = Some(cycle),
-            _ => entry.trace = None,
+        if let Some(trace) = &mut entry.trace {
+            trace.loop_start = Some(cycle);
         }
         true
+    }
+
+    fn wrong(&self, entry: &mut Judged) -> bool {
+        entry.reason = Some("the engine's run is none: please report this".to_owned());
+        false
     }
 
     fn spent(&self, entry: &mut Judged) -> bool {

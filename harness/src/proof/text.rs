@@ -60,7 +60,7 @@ impl Proof {
             }
             Proof::States(states) => format!("all {states} states"),
             Proof::Reached { states, cycles } => {
-                let states = states.map_or("more than 2^128".to_owned(), |n| n.to_string());
+                let states = states.map_or("at least 2^128".to_owned(), |n| n.to_string());
                 let cycles = counted(*cycles, "cycle");
                 format!("all {states} states, the farthest after {cycles}")
             }
@@ -147,7 +147,11 @@ fn violated(out: &mut String, task: &Task, judged: &Judged) {
         let _ = writeln!(out, "  {reason}");
     }
     if let Some(trace) = &judged.trace {
-        let _ = writeln!(out, "  a shortest run, {} cycles:", trace.steps.len());
+        let what = match trace.loop_start {
+            Some(_) => "a run without an end",
+            None => "a shortest run",
+        };
+        let _ = writeln!(out, "  {what}, {} cycles:", trace.steps.len());
         out.push_str(&diagram(&task.bound, trace, "violated here").text());
     }
     out.push('\n');

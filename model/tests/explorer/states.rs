@@ -12,7 +12,8 @@ fn states(netlist: &Netlist) -> States {
     let inputs = netlist.inputs.iter().map(|input| input.lit);
     let all: Vec<Lit> = latches.chain(inputs).collect();
     let whole = Problem::with(netlist, Lit::FALSE, &all);
-    States::new(&whole, &Budget::default()).expect("no budget")
+    // What is not needed is forgotten at every opportunity.
+    States::collecting(&whole, &Budget::default(), 0).expect("no budget")
 }
 
 fn condition(states: &mut States, netlist: &Netlist, lit: Lit) -> Condition {

@@ -29,14 +29,19 @@ pub fn family(folder: &str) {
     let number = names.len();
     writeln!(out, "pub static TABLES: [Table; {number}] = [{list}];").expect("a string");
     let family = folder.file_name().unwrap_or_default().to_string_lossy();
-    let carried = match folder.join("family.toml").is_file() {
-        true => &files[..],
-        false => &[],
-    };
+    let mut carried = Vec::new();
+    if folder.join("family.toml").is_file() {
+        carried.clone_from(&files);
+        // Products of whole machines are judged by the proof engines, which need no code.
+        let products = folder.join("products");
+        if products.is_dir() {
+            carried.extend(self::files(&products));
+        }
+    }
     let number = carried.len();
     writeln!(out, "pub static DATA: [Carried; {number}] = [").expect("a string");
     for path in carried {
-        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        let name = path.strip_prefix(&folder).unwrap_or(&path).display();
         let name = format!("{family}/{name}");
         writeln!(out, "    ({name:?}, include_bytes!({path:?})),").expect("a string");
     }

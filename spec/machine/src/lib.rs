@@ -34,6 +34,7 @@ pub mod own;
 mod pair;
 mod place;
 mod plausible;
+mod products;
 pub mod reaction;
 mod read;
 mod runs;

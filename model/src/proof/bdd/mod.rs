@@ -18,9 +18,9 @@ use super::sat::{Budget, Spent};
 use order::Levels;
 pub use path::Lasso;
 use relation::{Schedule, joined};
-use store::{Diagrams, Edge, Kept};
+use store::{Diagrams, Edge, FIRST, Kept};
 
-/// A condition on a cycle, over latches and inputs.
+/// A condition on a cycle, over latches and inputs, of the [`States`] that were asked for it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Condition(Kept);
 
@@ -53,7 +53,15 @@ impl States {
     /// # Errors
     /// The budget, or a gigabyte, was spent.
     pub fn new(problem: &Problem, budget: &Budget) -> Result<Self, Spent> {
-        let mut diagrams = Diagrams::new(budget);
+        States::collecting(problem, budget, FIRST)
+    }
+
+    /// The same; functions that are not needed are forgotten whenever there are so many nodes, which is for tests.
+    ///
+    /// # Errors
+    /// As [`States::new`].
+    pub fn collecting(problem: &Problem, budget: &Budget, first: usize) -> Result<Self, Spent> {
+        let mut diagrams = Diagrams::new(budget, first);
         let levels = Levels::new(problem);
         let variables = levels.variables(problem);
         let graph = problem.graph();
@@ -62,7 +70,9 @@ impl States {
         let next = cone.iter().map(|latch| latch.next);
         let asked: Vec<Lit> = conditions.concat().into_iter().chain(next).collect();
         let values = functions(graph, &variables, &asked, &mut diagrams)?;
-        let mut values = values.into_iter().flatten();
+        let values: Option<Vec<Edge>> = values.into_iter().collect();
+        // All of them are in the cone.
+        let mut values = values.ok_or(Spent)?.into_iter();
         let mut all = |diagrams: &mut Diagrams, count: usize| -> Result<Edge, Spent> {
             let mut values = values.by_ref().take(count);
             values.try_fold(Edge::TRUE, |all, one| diagrams.and(all, one))
@@ -111,7 +121,7 @@ impl States {
         })
     }
 
-    /// Another budget from now on.
+    /// Another budget from now on. What was found before stays known.
     pub fn limit(&mut self, budget: &Budget) {
         self.diagrams.limit(budget);
     }

@@ -1,12 +1,14 @@
 //! Runs out of the rings, from a state backwards; runs without an end.
 
+use std::collections::HashMap;
+
 use super::super::netlist::Run;
 use super::super::sat::Spent;
 use super::store::{Edge, Kept};
 use super::{Condition, Set, States};
 
 /// Rounds after which no state that was there before is waited for any longer.
-const ROUNDS: usize = 1000;
+const ROUNDS: usize = 100_000;
 
 /// A state: the values of the latches of the cone.
 pub(super) type State = Vec<bool>;
@@ -55,12 +57,13 @@ impl States {
         condition: Edge,
     ) -> Result<(State, Vec<Inputs>), Spent> {
         let (mut state, mut cycles) = (state, Vec::new());
-        let with = (self.diagrams).and(condition, self.diagrams.get(self.assumed))?;
+        let mut with = (self.diagrams).and(condition, self.diagrams.get(self.assumed))?;
         for ring in rings.iter().rev() {
             let from = self.diagrams.and(self.diagrams.get(*ring), with)?;
             let before = self.leading(from, &state)?;
             state = self.state(before);
             cycles.push(self.inputs(before));
+            self.diagrams.collect(&mut [&mut with]);
         }
         cycles.reverse();
         Ok((state, cycles))
@@ -84,13 +87,13 @@ impl States {
         let mut lasso = Lasso { run, back_to: None };
         let (cycle, mut state) = self.into(&state, begin, set)?;
         lasso.run.cycles.push(cycle);
-        let mut known: Vec<(State, usize)> = Vec::new();
+        let mut known: HashMap<State, usize> = HashMap::new();
         while known.len() < ROUNDS {
-            if let Some((_, cycle)) = known.iter().find(|(other, _)| *other == state) {
+            if let Some(cycle) = known.get(&state) {
                 lasso.back_to = Some(*cycle);
                 break;
             }
-            known.push((state.clone(), lasso.run.cycles.len()));
+            known.insert(state.clone(), lasso.run.cycles.len());
             for met in rounds {
                 let (cycles, next) = self.walk(&state, stays, *met, set)?;
                 lasso.run.cycles.extend(cycles);

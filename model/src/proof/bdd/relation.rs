@@ -14,9 +14,13 @@ pub(super) fn joined(diagrams: &mut Diagrams, parts: &[Kept]) -> Result<Vec<Kept
     let mut list: Vec<Kept> = Vec::new();
     for part in parts {
         let part = diagrams.get(*part);
-        if let Some(last) = list.last() {
+        let small = |diagrams: &Diagrams, edge| diagrams.size(edge, PART) <= PART;
+        let last = list
+            .last()
+            .filter(|last| small(diagrams, part) && small(diagrams, diagrams.get(**last)));
+        if let Some(last) = last {
             let both = diagrams.and(diagrams.get(*last), part)?;
-            if diagrams.size(both, PART) <= PART {
+            if small(diagrams, both) {
                 diagrams.set(*last, both);
                 continue;
             }

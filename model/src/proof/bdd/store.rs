@@ -72,10 +72,10 @@ const NOTHING: Known = Known {
 /// The level of the constants, below all variables.
 const BOTTOM: u32 = u32::MAX;
 
-/// Nodes that there may be at most: about a gigabyte.
+/// Nodes that there may be at most: with what is known of them about a gigabyte.
 const MOST: usize = 40_000_000;
-/// Nodes before the first collection.
-const FIRST: usize = 1 << 20;
+/// Nodes before the first collection, of questions that are no test of it.
+pub(super) const FIRST: usize = 1 << 20;
 /// Steps between two looks at the clock.
 const STEPS: u32 = 1 << 14;
 
@@ -86,7 +86,8 @@ pub(super) struct Diagrams {
     table: Vec<u32>,
     known: Vec<Known>,
     kept: Vec<Edge>,
-    /// The number of nodes at which to collect.
+    /// The number of nodes at which to collect: the least, and the next.
+    first: usize,
     collect_at: usize,
     budget: Budget,
     steps: u32,
@@ -103,7 +104,8 @@ fn hash(key: [u32; 3]) -> usize {
 }
 
 impl Diagrams {
-    pub(super) fn new(budget: &Budget) -> Self {
+    /// Collects from so many nodes on; with 0 whenever it can.
+    pub(super) fn new(budget: &Budget, first: usize) -> Self {
         let constant = Node {
             level: BOTTOM,
             low: Edge::FALSE,
@@ -114,7 +116,8 @@ impl Diagrams {
             table: vec![0; 1 << 12],
             known: vec![NOTHING; 1 << 16],
             kept: Vec::new(),
-            collect_at: FIRST,
+            first,
+            collect_at: first,
             budget: budget.clone(),
             steps: 0,
         }
@@ -141,9 +144,11 @@ impl Diagrams {
         self.kept.truncate(first.0);
     }
 
-    /// Another budget from now on.
+    /// Another budget from now on, for what is kept.
     pub(super) fn limit(&mut self, budget: &Budget) {
         self.budget = budget.clone();
+        self.steps = 0;
+        self.collect(&mut []);
     }
 
     /// A variable.
@@ -180,7 +185,7 @@ impl Diagrams {
                 let place = self.nodes.len() - 1;
                 self.table[slot] = place as u32;
                 if self.nodes.len() * 2 > self.table.len() {
-                    self.index(self.table.len() * 4);
+                    self.index(self.table.len() * 2);
                 }
                 place
             }
@@ -232,28 +237,31 @@ impl Diagrams {
                 used[self.nodes[place].high.node()] = true;
             }
         }
-        let mut moved = vec![0; self.nodes.len()];
+        let mut moved = vec![0u32; self.nodes.len()];
         let mut next = 1;
         for place in 1..self.nodes.len() {
             if used[place] {
-                let new = |edge: Edge| Edge::new(moved[edge.node()], edge.negated());
+                let new = |edge: Edge| Edge::new(moved[edge.node()] as usize, edge.negated());
                 let node = self.nodes[place];
                 self.nodes[next] = Node {
                     low: new(node.low),
                     high: new(node.high),
                     ..node
                 };
-                moved[place] = next;
+                moved[place] = next as u32;
                 next += 1;
             }
         }
         self.nodes.truncate(next);
         let also = also.iter_mut().map(|edge| &mut **edge);
         for edge in self.kept.iter_mut().chain(also) {
-            *edge = Edge::new(moved[edge.node()], edge.negated());
+            *edge = Edge::new(moved[edge.node()] as usize, edge.negated());
         }
-        self.collect_at = FIRST.max(next * 2);
-        self.index((next * 4).next_power_of_two().max(1 << 12));
+        self.collect_at = match self.first {
+            0 => 0,
+            first => first.max((next * 2).min(MOST / 8 * 7)),
+        };
+        self.index((next * 2).next_power_of_two().max(1 << 12));
     }
 
     fn level(&self, edge: Edge) -> u32 {
