@@ -249,6 +249,15 @@ pub(super) fn examples() -> Vec<(&'static str, String, String)> {
         promised("19.999 mm"),
         promised("20 mm"),
     ));
+    let relays = |after: &str| {
+        let relays = "pattern = \"contactor\", axes = [\"X\"], within = \"2 s\"";
+        machine("", "", &format!("guarantee.asked = {{ {relays}{after} }}"))
+    };
+    list.push((
+        "-STO.A.G is one signal of one channel",
+        relays(", after = \"any single fault of a channel or contact\""),
+        relays(""),
+    ));
     let device = "pattern = \"enabling\", door = \"a\", mode = \"SOM_2\", way = \"10 mm\", device_contacts = 2";
     list.push((
         "one of the two contacts of the device may be stuck",

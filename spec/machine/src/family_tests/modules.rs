@@ -100,7 +100,7 @@ const VALUES: [(&str, &str, &str, &str, &str); 6] = [
         "travel = \"44.333 mm\"",
     ),
     (
-        "the axis does not feed this signal with its standstill",
+        "the axis does not feed this signal with its \"n < n_x\"",
         "guard_lock",
         "door = \"front\", unlock = \"OUTSE[5]\"",
         "standstill = \"INSI[1]\"",
@@ -163,7 +163,7 @@ fn of_axes() -> [Example; 3] {
             lock.clone(),
         ),
         (
-            "the lock waits for \"n < n_x\", and n_x is above",
+            "the lock waits for \"n < n_x\", and n_x (",
             lock.replace("20 mm/min", "19 mm/min"),
             lock,
         ),

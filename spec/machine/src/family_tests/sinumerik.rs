@@ -187,7 +187,7 @@ fn alarms_exist() {
 }
 
 /// For each rule a machine that violates it and one beside it that does not: what stands in the file after the family.
-pub(super) const EXAMPLES: [(&str, &str, &str); 74] = [
+pub(super) const EXAMPLES: [(&str, &str, &str); 77] = [
     (
         "the monitoring cycle is longer than 25 ms",
         "control.SYSCLOCK_CYCLE_TIME = \"5 ms\"\ncontrol.SAFETY_SYSCLOCK_TIME_RATIO = 6\naxis.X = { kind = \"linear\" }",
@@ -221,7 +221,17 @@ pub(super) const EXAMPLES: [(&str, &str, &str); 74] = [
     (
         "the monitoring cycle is no multiple of the position-control cycle",
         "control.POSCTRL_SYSCLOCK_TIME_RATIO = 2\naxis.X = { kind = \"linear\" }",
-        "control.POSCTRL_SYSCLOCK_TIME_RATIO = 3\naxis.X = { kind = \"linear\" }",
+        "control.POSCTRL_SYSCLOCK_TIME_RATIO = 3\ncontrol.IPO_SYSCLOCK_CYCLE_TIME_RATIO = 3\naxis.X = { kind = \"linear\" }",
+    ),
+    (
+        "the interpolator cycle is no multiple of the position-control cycle",
+        "control.POSCTRL_SYSCLOCK_TIME_RATIO = 3\ncontrol.IPO_SYSCLOCK_CYCLE_TIME_RATIO = 4\naxis.X = { kind = \"linear\" }",
+        "control.POSCTRL_SYSCLOCK_TIME_RATIO = 3\ncontrol.IPO_SYSCLOCK_CYCLE_TIME_RATIO = 6\naxis.X = { kind = \"linear\" }",
+    ),
+    (
+        "the position-control cycle is longer than 16 ms",
+        "control.SYSCLOCK_CYCLE_TIME = \"16.125 ms\"\ncontrol.SAFETY_SYSCLOCK_TIME_RATIO = 1\naxis.X = { kind = \"linear\" }",
+        "control.SYSCLOCK_CYCLE_TIME = \"16 ms\"\ncontrol.SAFETY_SYSCLOCK_TIME_RATIO = 1\naxis.X = { kind = \"linear\" }",
     ),
     (
         "the drive cannot hold the monitoring cycle",
@@ -497,6 +507,11 @@ pub(super) const EXAMPLES: [(&str, &str, &str); 74] = [
         "a speed limit lies above what the limit frequency of the encoder permits",
         "axis.X = { kind = \"linear\", functions = [\"SBH/SG\"], VELO_LIMIT = [\"0 mm/min\", \"87890.626 mm/min\", \"0 mm/min\", \"0 mm/min\"] }",
         "axis.X = { kind = \"linear\", functions = [\"SBH/SG\"], VELO_LIMIT = [\"0 mm/min\", \"87890.625 mm/min\", \"0 mm/min\", \"0 mm/min\"] }",
+    ),
+    (
+        "a speed limit lies above what the limit frequency of the linear scale permits",
+        "axis.X = { kind = \"linear\", functions = [\"SBH/SG\"], ENC_IS_LINEAR = true, ENC_GRID_POINT_DIST = \"2 um\", VELO_LIMIT = [\"0 mm/min\", \"36001 mm/min\", \"0 mm/min\", \"0 mm/min\"] }",
+        "axis.X = { kind = \"linear\", functions = [\"SBH/SG\"], ENC_IS_LINEAR = true, ENC_GRID_POINT_DIST = \"2 um\", VELO_LIMIT = [\"0 mm/min\", \"36000 mm/min\", \"0 mm/min\", \"0 mm/min\"] }",
     ),
     (
         "the drive cannot convert between the encoder and the load",
