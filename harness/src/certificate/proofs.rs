@@ -164,17 +164,17 @@ impl<'a> Writer<'a> {
             run: judged.trace.as_ref().map(|trace| self.run(trace)),
             proof: None,
         };
-        if judged.engine == Some(Engine::Explorer) {
-            return Ok(Err(
-                "the explorer has judged it, which writes its own certificates: leave out --engine"
-                    .to_owned(),
-            ));
-        }
-        if judged.engine == Some(Engine::Bdd) {
-            return Ok(Err(
-                "a set of states has no certificate; the explorer writes one: leave out --engine"
-                    .to_owned(),
-            ));
+        let by_states = match judged.engine {
+            Some(Engine::Explorer) => Some(
+                "the explorer has judged it, which writes its own certificates: leave out --engine",
+            ),
+            Some(Engine::Bdd) => Some(
+                "a set of states has no certificate; the explorer writes one: leave out --engine",
+            ),
+            _ => None,
+        };
+        if let Some(why) = by_states {
+            return Ok(Err(why.to_owned()));
         }
         if matches!(verdict, Verdict::Violated | Verdict::Reached) {
             return Ok(match claim.run {

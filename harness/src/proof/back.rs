@@ -3,7 +3,7 @@
 use stillpoint_model::Verdict;
 use stillpoint_model::proof::{Lit, Recovery, Spent, Ways, Word, ways};
 
-use super::decide::Decision;
+use super::decide::{Decision, LIMITED};
 use super::question::Asked;
 use super::{Choice, Engine, Judge, Judged, Proof};
 
@@ -48,7 +48,7 @@ impl Judge<'_> {
             Ok(Some((true, ways))) => {
                 // The shortest way from the start shows what it is about.
                 let Decision::Seen(run) = self.decide(asked, end) else {
-                    entry.reason = Some("the limit was reached first".to_owned());
+                    entry.reason = Some(LIMITED.to_owned());
                     return false;
                 };
                 entry.length = Some(run.cycles.len() as u64);
@@ -64,7 +64,7 @@ impl Judge<'_> {
             Ok(None) => {
                 entry.reason = Some("no way to the goal was found from some states".to_owned())
             }
-            Err(Spent) => entry.reason = Some("the limit was reached first".to_owned()),
+            Err(Spent) => entry.reason = Some(LIMITED.to_owned()),
         }
         false
     }

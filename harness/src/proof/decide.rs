@@ -12,6 +12,9 @@ use super::{Choice, Proof};
 /// Cycles that are looked at before an engine for runs of any length begins: most witnesses are within.
 const SHORT: usize = 8;
 
+/// Why there is no answer, where a limit ended the search.
+pub(super) const LIMITED: &str = "the limit was reached first";
+
 /// The answer to a question.
 #[derive(Debug)]
 pub(super) enum Decision {
@@ -51,7 +54,7 @@ pub(super) fn decide(
             Decision::Open("the engine's run is none: please report this".to_owned())
         }
         Ok(decision) => decision,
-        Err(Spent) => Decision::Open("the limit was reached first".to_owned()),
+        Err(Spent) => Decision::Open(LIMITED.to_owned()),
     }
 }
 

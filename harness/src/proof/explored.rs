@@ -3,6 +3,7 @@
 use stillpoint_engine::{label, run as explore};
 use stillpoint_model::{Judgement, Limits, Options, Verdict};
 
+use super::decide::LIMITED;
 use super::{Engine, Judge, Judged, Proof};
 
 impl Judge<'_> {
@@ -64,7 +65,7 @@ impl Judge<'_> {
                     entry.verdict = Verdict::Holds;
                     entry.proof = Some(Proof::States(report.states));
                 }
-                None => entry.reason = Some("the limit was reached first".to_owned()),
+                None => entry.reason = Some(LIMITED.to_owned()),
             }
             self.out.push(entry);
         }
@@ -75,7 +76,7 @@ impl Judge<'_> {
         entry.length = judged.length;
         entry.trace = judged.trace.clone();
         match judged.verdict {
-            Verdict::Inconclusive => entry.reason = Some("the limit was reached first".to_owned()),
+            Verdict::Inconclusive => entry.reason = Some(LIMITED.to_owned()),
             Verdict::Holds | Verdict::Vacuous | Verdict::Unreachable => {
                 entry.engine = Some(Engine::Explorer);
                 entry.proof = Some(Proof::States(states));

@@ -29,7 +29,7 @@ use stillpoint_model::Verdict;
 use stillpoint_model::proof::{Budget, Lit, Netlist, Run, Spent, States};
 
 use crate::export::Unsupported;
-use decide::{Decision, Depth, decide, until};
+use decide::{Decision, Depth, LIMITED, decide, until};
 use help::helped;
 use monitor::Duty;
 use question::{Asked, Question, Stated};
@@ -304,10 +304,7 @@ impl<'a> Judge<'a> {
                 [known, help.sentences].concat(),
             ),
             Ok(None) => (self.decide(asked, target), known),
-            Err(Spent) => (
-                Decision::Open("the limit was reached first".to_owned()),
-                known,
-            ),
+            Err(Spent) => (Decision::Open(LIMITED.to_owned()), known),
         }
     }
 

@@ -3,7 +3,7 @@
 use stillpoint_model::Verdict;
 use stillpoint_model::proof::{Condition, Lit, Netlist, Problem, Run, Spent, States, value};
 
-use super::decide::Decision;
+use super::decide::{Decision, LIMITED};
 use super::monitor::Forever;
 use super::question::Asked;
 use super::{Engine, Judge, Judged, Proof};
@@ -73,7 +73,7 @@ impl Judge<'_> {
                 return;
             }
         }
-        entry.reason = Some("the limit was reached first".to_owned());
+        entry.reason = Some(LIMITED.to_owned());
     }
 
     /// An answer of the states of the whole system; where there is none, of those that the conditions and `also` depend on.
@@ -86,7 +86,7 @@ impl Judge<'_> {
     ) -> Result<T, Spent> {
         let asked = |states: &mut States| {
             let told = conditions.iter();
-            let told = told.map(|lit| states.condition(&netlist.graph, &[*lit]));
+            let told = told.map(|lit| states.condition(&netlist.graph, *lit));
             let told: Result<Option<Vec<Condition>>, Spent> = told.collect();
             told?.map(|conditions| ask(states, &conditions)).transpose()
         };
@@ -127,7 +127,7 @@ impl Judge<'_> {
                 Decision::Open("the engine's run is none: please report this".to_owned())
             }
             Ok(decision) => decision,
-            Err(Spent) => Decision::Open("the limit was reached first".to_owned()),
+            Err(Spent) => Decision::Open(LIMITED.to_owned()),
         }
     }
 
@@ -223,10 +223,7 @@ impl Judge<'_> {
     }
 
     fn spent(&self, entry: &mut Judged) -> bool {
-        entry.reason = entry
-            .reason
-            .take()
-            .or(Some("the limit was reached first".to_owned()));
+        entry.reason = entry.reason.take().or(Some(LIMITED.to_owned()));
         false
     }
 }

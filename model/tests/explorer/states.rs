@@ -12,12 +12,12 @@ fn states(netlist: &Netlist) -> States {
     let inputs = netlist.inputs.iter().map(|input| input.lit);
     let all: Vec<Lit> = latches.chain(inputs).collect();
     let whole = Problem::with(netlist, Lit::FALSE, &all);
-    // What is not needed is forgotten at every opportunity.
-    States::collecting(&whole, &Budget::default(), 0).expect("no budget")
+    // What is not needed is forgotten at every opportunity, and each latch is a part of the cycle.
+    States::sized(&whole, &Budget::default(), (0, 0)).expect("no budget")
 }
 
 fn condition(states: &mut States, netlist: &Netlist, lit: Lit) -> Condition {
-    let condition = states.condition(&netlist.graph, &[lit]);
+    let condition = states.condition(&netlist.graph, lit);
     condition.expect("no budget").expect("in the cone")
 }
 

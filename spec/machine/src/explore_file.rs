@@ -89,8 +89,14 @@ impl Check {
         }
     }
 
+    /// What the entries of a file say.
+    pub fn explores(&mut self, list: Vec<ExploreData>, known: &Known) -> Vec<Explore> {
+        let list = list.into_iter();
+        list.filter_map(|data| self.explore(data, known)).collect()
+    }
+
     /// What one entry of `[[explore]]` says.
-    pub fn explore(&mut self, data: ExploreData, known: &Known) -> Option<Explore> {
+    fn explore(&mut self, data: ExploreData, known: &Known) -> Option<Explore> {
         if data.each == Scope::Control {
             let help = "write each = \"axis\", \"group\", \"door\" or \"machine\"";
             let message = "no systems are explored for the control alone";

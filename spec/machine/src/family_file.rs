@@ -250,8 +250,7 @@ impl Check {
         }
         let rules = data.plausibility.into_iter();
         let rules = rules.filter_map(|r| self.rule(r, &known)).collect();
-        let explore = data.explore.into_iter();
-        let explore = explore.filter_map(|e| self.explore(e, &known)).collect();
+        let explore = self.explores(data.explore, &known);
         Some(Family {
             folder: folder.to_owned(),
             file: file.to_owned(),

@@ -252,7 +252,6 @@ impl Context<'_> {
         }
         let rules = data.plausibility.into_iter();
         let rules = rules.filter_map(|rule| check.rule(rule, &known)).collect();
-        let explore = data.explore.into_iter();
         Pattern {
             about: data.about,
             text: data.text.into_inner(),
@@ -261,7 +260,7 @@ impl Context<'_> {
             needs_program: data.needs_program,
             of_faults: self.of_faults.to_vec(),
             rules,
-            explore: explore.filter_map(|e| check.explore(e, &known)).collect(),
+            explore: check.explores(data.explore, &known),
             arguments,
         }
     }

@@ -3,7 +3,6 @@
 use serde::Deserialize;
 
 use super::explore_file::ExploreData;
-use super::family::Explore;
 use super::ground::DataFile;
 use super::{Machine, Run, runs};
 use stillpoint_lang::diag::Result;
@@ -32,10 +31,7 @@ impl Machine {
         let file = DataFile::read(&family.folder, FILE, "products")?;
         let data: FileData = file.parse()?;
         let mut check = file.check();
-        let explore = data.explore.into_iter();
-        let explore: Vec<Explore> = explore
-            .filter_map(|e| check.explore(e, &family.known))
-            .collect();
+        let explore = check.explores(data.explore, &family.known);
         check.findings.finish(())?;
         let (judged, logic) = (&self.basis.judged, &self.basis.logic);
         Ok(runs::plan(family, &explore, self.parts(), judged, logic)?.runs)

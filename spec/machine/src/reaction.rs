@@ -11,7 +11,7 @@ use toml::Spanned;
 
 use super::entry::{Premise, Reader};
 use super::explore_file::ExploreData;
-use super::family::{Explore, Family, Formula};
+use super::family::{Family, Formula};
 use super::family_file::Check;
 use super::ground::{About, DataFile, Ground, Subjects, read_names};
 use super::runs;
@@ -215,10 +215,7 @@ impl Machine {
         let file = DataFile::read(&family.folder, "reaction-chain.toml", "reaction chains")?;
         let data: FileData = file.parse()?;
         let mut check = file.check();
-        let explore = data.explore.into_iter();
-        let explore: Vec<Explore> = explore
-            .filter_map(|e| check.explore(e, &family.known))
-            .collect();
+        let explore = check.explores(data.explore, &family.known);
         let words: Vec<_> = data.words.into_iter().collect();
         let mut plans = Vec::new();
         for chain in data.chain {

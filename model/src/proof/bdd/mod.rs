@@ -17,7 +17,7 @@ use super::netlist::{Problem, Run};
 use super::sat::{Budget, Spent};
 use order::Levels;
 pub use path::Lasso;
-use relation::{Schedule, joined};
+use relation::{PART, Schedule, joined};
 use store::{Diagrams, Edge, FIRST, Kept};
 
 /// A condition on a cycle, over latches and inputs, of the [`States`] that were asked for it.
@@ -53,14 +53,19 @@ impl States {
     /// # Errors
     /// The budget, or a gigabyte, was spent.
     pub fn new(problem: &Problem, budget: &Budget) -> Result<Self, Spent> {
-        States::collecting(problem, budget, FIRST)
+        States::sized(problem, budget, (FIRST, PART))
     }
 
-    /// The same; functions that are not needed are forgotten whenever there are so many nodes, which is for tests.
+    /// The same; functions that are not needed are forgotten whenever there are so many nodes, and parts of the cycle are joined up to so many,
+    /// which is for tests.
     ///
     /// # Errors
     /// As [`States::new`].
-    pub fn collecting(problem: &Problem, budget: &Budget, first: usize) -> Result<Self, Spent> {
+    pub fn sized(
+        problem: &Problem,
+        budget: &Budget,
+        (first, part): (usize, usize),
+    ) -> Result<Self, Spent> {
         let mut diagrams = Diagrams::new(budget, first);
         let levels = Levels::new(problem);
         let variables = levels.variables(problem);
@@ -101,7 +106,7 @@ impl States {
             parts.push(diagrams.keep(same));
             diagrams.collect(&mut []);
         }
-        let parts = joined(&mut diagrams, &parts)?;
+        let parts = joined(&mut diagrams, &parts, part)?;
         let now = [&levels.latches[..], &levels.inputs].concat();
         let forward = Schedule::new(&mut diagrams, &parts, &now)?;
         let then = levels.latches.iter().map(|level| level + 1);
@@ -126,20 +131,13 @@ impl States {
         self.diagrams.limit(budget);
     }
 
-    /// That all of these hold in a cycle; none if one of them depends on what is not in the cone.
+    /// That this holds in a cycle; none if it depends on what is not in the cone.
     ///
     /// # Errors
     /// The budget was spent.
-    pub fn condition(&mut self, graph: &Graph, all: &[Lit]) -> Result<Option<Condition>, Spent> {
-        let functions = functions(graph, &self.variables, all, &mut self.diagrams)?;
-        let mut both = Edge::TRUE;
-        for function in functions {
-            let Some(function) = function else {
-                return Ok(None);
-            };
-            both = self.diagrams.and(both, function)?;
-        }
-        Ok(Some(Condition(self.diagrams.keep(both))))
+    pub fn condition(&mut self, graph: &Graph, lit: Lit) -> Result<Option<Condition>, Spent> {
+        let found = functions(graph, &self.variables, &[lit], &mut self.diagrams)?;
+        Ok(found[0].map(|function| Condition(self.diagrams.keep(function))))
     }
 
     /// A shortest run to a cycle with a condition. Without one, or if there is none, all reachable states are known then.

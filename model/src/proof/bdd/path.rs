@@ -119,7 +119,11 @@ impl States {
         loop {
             let ring = self.diagrams.get(rings[rings.len() - 1]);
             let seen = (self.diagrams).and(ring, self.diagrams.get(goal))?;
-            if seen != Edge::FALSE || ring == Edge::FALSE {
+            // A set that is no fixed point: nothing is said, and nothing waited for.
+            if ring == Edge::FALSE {
+                return Err(Spent);
+            }
+            if seen != Edge::FALSE {
                 let end = self.state(seen);
                 let stays = self.diagrams.get(stays.0);
                 let (_, mut cycles) = self.back(&rings[..rings.len() - 1], end.clone(), stays)?;

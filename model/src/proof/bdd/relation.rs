@@ -4,17 +4,21 @@ use super::super::sat::Spent;
 use super::store::{Diagrams, Edge, Kept};
 
 /// Nodes of a part, beyond which nothing more is joined to it.
-const PART: usize = 1500;
+pub(super) const PART: usize = 1500;
 
 /// Parts in the order in which they are joined, each with the variables that are left then.
 pub(super) struct Schedule(Vec<(Kept, Kept)>);
 
-/// Joins small parts, in their order.
-pub(super) fn joined(diagrams: &mut Diagrams, parts: &[Kept]) -> Result<Vec<Kept>, Spent> {
+/// Joins parts of at most so many nodes, in their order.
+pub(super) fn joined(
+    diagrams: &mut Diagrams,
+    parts: &[Kept],
+    most: usize,
+) -> Result<Vec<Kept>, Spent> {
     let mut list: Vec<Kept> = Vec::new();
     for part in parts {
         let part = diagrams.get(*part);
-        let small = |diagrams: &Diagrams, edge| diagrams.size(edge, PART) <= PART;
+        let small = |diagrams: &Diagrams, edge| diagrams.is_within(edge, most);
         let last = list
             .last()
             .filter(|last| small(diagrams, part) && small(diagrams, diagrams.get(**last)));

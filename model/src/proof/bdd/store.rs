@@ -1,7 +1,7 @@
 //! Binary decision diagrams: a function of truth values asks its variables one after the other, in the order of their levels; each
 //! function stands once, and its negation is the same node.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use super::super::sat::{Budget, Spent};
 
@@ -400,39 +400,35 @@ impl Diagrams {
 
     /// The variables that a function depends on.
     pub(super) fn support(&self, edge: Edge) -> Vec<u32> {
-        let mut seen = HashMap::new();
-        let mut open = vec![edge.node()];
-        while let Some(node) = open.pop() {
-            if node != 0 && seen.insert(node, self.nodes[node].level).is_none() {
-                open.extend([self.nodes[node].low.node(), self.nodes[node].high.node()]);
-            }
-        }
-        let mut levels: Vec<u32> = seen.into_values().collect();
+        let nodes = self.below(edge, usize::MAX).into_iter();
+        let mut levels: Vec<u32> = nodes.map(|node| self.nodes[node].level).collect();
         levels.sort_unstable();
         levels.dedup();
         levels
     }
 
-    /// The number of nodes of a function, as far as so many.
-    pub(super) fn size(&self, edge: Edge, most: usize) -> usize {
-        let mut seen = std::collections::HashSet::new();
+    /// Whether a function has no more nodes than so many.
+    pub(super) fn is_within(&self, edge: Edge, most: usize) -> bool {
+        self.below(edge, most).len() <= most
+    }
+
+    /// The nodes of a function, or one more than so many of them.
+    fn below(&self, edge: Edge, most: usize) -> HashSet<usize> {
+        let mut seen = HashSet::new();
         let mut open = vec![edge.node()];
         while let Some(node) = open.pop() {
-            if node != 0 && seen.insert(node) {
-                if seen.len() > most {
-                    break;
-                }
+            if node != 0 && seen.len() <= most && seen.insert(node) {
                 open.extend([self.nodes[node].low.node(), self.nodes[node].high.node()]);
             }
         }
-        seen.len()
+        seen
     }
 
-    /// Values with which a function holds, of the variables that it asks for them; it is not FALSE.
+    /// Values with which a function holds, of the variables that it asks for them; none of FALSE.
     pub(super) fn example(&self, edge: Edge) -> HashMap<u32, bool> {
         let mut values = HashMap::new();
         let mut edge = edge;
-        while edge != Edge::TRUE {
+        while edge != Edge::TRUE && edge != Edge::FALSE {
             let level = self.level(edge);
             let (low, high) = self.parts(edge, level);
             values.insert(level, low == Edge::FALSE);

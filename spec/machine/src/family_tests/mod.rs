@@ -1,5 +1,6 @@
 //! The data of the shipped families against the tables of the manuals, and every plausibility rule against examples.
 
+mod examples;
 mod heidenhain;
 mod modules;
 mod sinumerik;
@@ -16,7 +17,7 @@ type Example = (&'static str, String, String);
 /// The families with examples for each of their rules.
 fn examples() -> [(&'static str, Vec<Example>); 2] {
     let sinumerik =
-        sinumerik::EXAMPLES.map(|(rule, bad, good)| (rule, bad.to_owned(), good.to_owned()));
+        examples::EXAMPLES.map(|(rule, bad, good)| (rule, bad.to_owned(), good.to_owned()));
     [
         (
             "sinumerik-840d",
