@@ -120,7 +120,6 @@ fn engines(bound: &Bound) -> String {
 fn sets(bound: &Bound) -> String {
     let settings = Settings {
         choice: Choice::Bdd,
-        each: Some(LIMIT / 3),
         ..settings()
     };
     let begin = Instant::now();

@@ -23,7 +23,7 @@ mod trace;
 mod validate;
 mod values;
 
-use std::io::Write as _;
+use std::io::{IsTerminal as _, Write as _};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -147,9 +147,12 @@ fn main() -> ExitCode {
     let data = stillpoint_tables::FAMILIES.iter().map(|family| family.data);
     stillpoint_lang::files::provide(data.collect());
     let painted = colour::on_stderr();
+    // What another program reads keeps its lines: a text that breaks where the path was long is found by no search.
+    let wrapped = std::io::stderr().is_terminal();
     // Only the first hook counts, and there is no other.
     let _ = miette::set_hook(Box::new(move |_| {
-        Box::new(MietteHandlerOpts::new().color(painted).build())
+        let options = MietteHandlerOpts::new().color(painted);
+        Box::new(options.wrap_lines(wrapped).build())
     }));
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,

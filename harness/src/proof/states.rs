@@ -96,14 +96,15 @@ impl Judge<'_> {
             match asked(states) {
                 Ok(Some(answer)) => return Ok(answer),
                 Ok(None) => {}
-                // It has no room for the next question either.
-                Err(Spent) => *whole = None,
-            }
-            if whole.is_none() && !also.is_empty() {
-                return Err(Spent);
-            }
-            if self.budget.spent() {
-                return Err(Spent);
+                // The next question goes on from what was reached.
+                Err(Spent) if self.budget.spent() => return Err(Spent),
+                // It has no room for the next question either, nor has the same again.
+                Err(Spent) => {
+                    *whole = None;
+                    if !also.is_empty() {
+                        return Err(Spent);
+                    }
+                }
             }
         }
         let cone = Problem::with(netlist, Lit::FALSE, &[conditions, also].concat());
