@@ -2,18 +2,48 @@
 
 use crate::report::Error;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// Searches that go on side by side and share the processors: each has its part of the threads, and more when others have ended.
+#[derive(Clone, Debug)]
+pub struct Beside(Arc<AtomicUsize>);
+
+impl PartialEq for Beside {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
+}
+
+impl Eq for Beside {}
+
+impl Beside {
+    /// So many searches.
+    pub fn new(searches: usize) -> Self {
+        Beside(Arc::new(AtomicUsize::new(searches)))
+    }
+
+    /// One of them has ended.
+    pub fn leave(&self) {
+        self.0.fetch_sub(1, Ordering::Relaxed);
+    }
+
+    fn number(&self) -> usize {
+        self.0.load(Ordering::Relaxed).max(1)
+    }
+}
 
 /// A fixed number of threads.
 pub(crate) struct Crew {
     pool: rayon::ThreadPool,
+    beside: Option<Beside>,
 }
 
 impl Crew {
-    pub(crate) fn new(threads: usize) -> Result<Self, Error> {
+    pub(crate) fn new(threads: usize, beside: Option<Beside>) -> Result<Self, Error> {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
         Ok(Crew {
             pool: pool.map_err(|e| Error::Threads(e.to_string()))?,
+            beside,
         })
     }
 
@@ -29,13 +59,14 @@ impl Crew {
         pieces: usize,
         work: impl Fn(&mut W, usize) + Sync,
     ) {
-        if pieces <= 1 || workers.len() <= 1 {
+        let searches = self.beside.as_ref().map_or(1, Beside::number);
+        let number = (workers.len() / searches).max(1);
+        if pieces <= 1 || number == 1 {
             if let Some(worker) = workers.first_mut() {
                 (0..pieces).for_each(|piece| work(worker, piece));
             }
             return;
         }
-        let number = workers.len();
         let shares: Vec<Share> = (0..number)
             .map(|n| Share {
                 next: AtomicUsize::new(pieces * n / number),
@@ -45,7 +76,7 @@ impl Crew {
         let workers: Vec<Mutex<&mut W>> = workers.iter_mut().map(Mutex::new).collect();
         self.pool.broadcast(|context| {
             let first = context.index();
-            let Some(worker) = workers.get(first) else {
+            let Some(worker) = workers.get(first).filter(|_| first < number) else {
                 return;
             };
             let mut worker = worker.lock().unwrap_or_else(PoisonError::into_inner);

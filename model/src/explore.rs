@@ -89,7 +89,7 @@ pub(crate) fn crew(options: &Options) -> Result<Crew, Error> {
         0 => std::thread::available_parallelism().map_or(1, usize::from),
         given => given,
     };
-    Crew::new(threads)
+    Crew::new(threads, options.beside.clone())
 }
 
 /// Explores every reachable state of a system and judges the properties.

@@ -69,6 +69,7 @@ mod twin;
 mod watch;
 
 pub use choices::Replay;
+pub use crew::Beside;
 pub use cycles::{Cycle, Held, cycles, initials};
 #[cfg(feature = "distributed")]
 pub use distributed::{Cluster, ClusterError, digest, explore_together};

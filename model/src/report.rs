@@ -1,5 +1,6 @@
 //! What an exploration is asked and what it answers.
 
+use crate::crew::Beside;
 use crate::property::Property;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -67,6 +68,8 @@ pub struct Options {
     pub limits: Limits,
     /// What ends the exploration from outside; none for nothing.
     pub interrupt: Option<Interrupt>,
+    /// The searches with which it shares the processors.
+    pub beside: Option<Beside>,
     /// Whether properties that hold get a witness trace; without it they get its length alone.
     pub witnesses: bool,
     /// When the search ends (`complete` is then false if states were left).
@@ -130,6 +133,7 @@ impl Default for Options {
         Options {
             limits: Limits::default(),
             interrupt: None,
+            beside: None,
             witnesses: true,
             until: Until::default(),
             examples: 8,

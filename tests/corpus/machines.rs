@@ -158,6 +158,37 @@ fn equal_explorations_are_made_once() {
     assert!(spared >= 2, "{spared}");
 }
 
+/// Two at a time or one after the other: the same outcomes, and the same of them are those of a run before.
+#[test]
+fn explorations_side_by_side_tell_the_same() {
+    let told = |threads| {
+        let mut subject = load("stacker-s120.toml");
+        let settings = Settings {
+            threads,
+            ..Settings::default()
+        };
+        let checked = check(&mut subject, &settings, &mut |_| Box::new(()))
+            .unwrap_or_else(|(title, e)| panic!("{title}: {e}"));
+        let one = |done: &Checked| {
+            assert_eq!(done.again, done.outcome.report.seconds == 0.0);
+            let mut report = done.outcome.report.clone();
+            (report.seconds, report.memory, report.stored) = (0.0, 0, 0);
+            (done.again, format!("{report:?}"))
+        };
+        let all: Vec<_> = checked.iter().map(one).collect();
+        (format!("{:?}", subject.tasks), all)
+    };
+    let (tasks, all) = told(1);
+    assert!(all.iter().any(|(again, _)| *again));
+    for _ in 0..2 {
+        let (these, side_by_side) = told(2);
+        assert_eq!(tasks, these);
+        for (one, other) in all.iter().zip(&side_by_side) {
+            assert_eq!(one, other);
+        }
+    }
+}
+
 #[test]
 #[ignore = "deep: minutes"]
 fn the_logic_and_the_kernel_of_the_machining_centre_keep_every_property() {

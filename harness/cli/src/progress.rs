@@ -2,10 +2,10 @@
 
 use std::fmt::Write;
 use std::io::IsTerminal;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-use indicatif::{ProgressBar, ProgressState, ProgressStyle};
+use indicatif::{MultiProgress, ProgressBar, ProgressState, ProgressStyle};
 use stillpoint_harness::report::grouped;
 use stillpoint_model::{Error, Progress};
 
@@ -14,6 +14,9 @@ const PATIENCE: Duration = Duration::from_secs(2);
 
 /// Time between two drawings: a long level is seen to go on.
 const TICK: Duration = Duration::from_millis(200);
+
+/// All lines, one below the other.
+static LINES: LazyLock<MultiProgress> = LazyLock::new(MultiProgress::new);
 
 /// A line that tells what is being done and how far it is.
 pub struct Line {
@@ -69,7 +72,7 @@ impl Line {
                     shown.lock().unwrap_or_else(PoisonError::into_inner).text()
                 );
             };
-            let bar = ProgressBar::new_spinner();
+            let bar = LINES.add(ProgressBar::new_spinner());
             if let Ok(style) = ProgressStyle::with_template("{line}") {
                 bar.set_style(style.with_key("line", line));
             }

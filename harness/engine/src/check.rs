@@ -12,13 +12,12 @@ use stillpoint_model::{
 };
 
 use crate::excluded::{Decisive, Exclusion, Judge, decisive};
-use crate::explore;
 use crate::keep::Keep;
-use crate::known::{Known, identity};
+use crate::known::Known;
 use crate::outcome::{Outcome, Reductions, label};
-use crate::reduce;
 use crate::subject::{Subject, Task};
-use crate::theorems::{Cited, Theorems};
+use crate::tasks;
+use crate::theorems::Theorems;
 
 /// How to check.
 #[derive(Debug, Clone, Default)]
@@ -85,6 +84,8 @@ pub struct Checked {
     pub outcome: Outcome,
     /// The same was explored before, in this check or another one, and the outcome is that one's.
     pub again: bool,
+    /// Seconds from the begin of the check until its exploration had ended; 0 where nothing was explored.
+    pub ended: f64,
     /// Whether anything was explored: else all is known from theorems.
     pub explored: bool,
     /// Properties that are theorems of the family, by number: their verdict is no exploration's.
@@ -135,51 +136,28 @@ impl Summary {
     }
 }
 
-/// Checks all tasks, one after the other. Where one holds loosely its system is the loose one afterwards.
+/// Checks all tasks. Where one holds loosely its system is the loose one afterwards.
 ///
 /// # Errors
 /// A system that cannot be explored at all, with the task's title.
 pub fn check(
     subject: &mut Subject,
     settings: &Settings,
-    progress: &mut dyn FnMut(&Task) -> Box<dyn Progress>,
+    progress: &mut (dyn FnMut(&Task) -> Box<dyn Progress> + Send),
 ) -> Result<Vec<Checked>, (String, Error)> {
     let start = Instant::now();
-    let mut out = Vec::new();
     let mut judge = Judge::default();
-    let known = settings.known.clone().unwrap_or_default();
-    // What the processes of a cluster share, and what is kept for later, belongs to the system itself.
-    let loosely = !settings.exact && settings.cluster.is_none() && settings.keep.is_none();
-    for number in 0..subject.tasks.len() {
-        let task = &mut subject.tasks[number];
-        let mut options = Options {
-            limits: settings.limits(start),
-            interrupt: settings.interrupt.clone(),
-            // Most reports tell the length of a witness only; rebuilding their runs takes as long as the search.
-            witnesses: settings.witnesses,
-            until: settings.until,
-            checkpoint: settings.keep.as_ref().map(|k| k.of(number, &task.bound)),
-            ..Options::default()
-        };
-        let mut cited = Cited::take(settings.theorems.as_deref(), task);
-        let found = match loosely {
-            true => explored_loosely(task, &options, settings, &known, progress)?,
-            false => None,
-        };
-        options.limits = settings.limits(start);
-        let (mut outcome, again) = match found {
-            Some(found) => found,
-            None if cited.all => (Cited::outcome(task), false),
-            None => explored(task, &options, settings, &known, progress)?,
-        };
-        cited.put_back(task, &mut outcome);
-        let task = &subject.tasks[number];
-        let machine = subject.machine.is_some();
-        let unfired = match cited.all {
+    let machine = subject.machine.is_some();
+    let alone = settings.cluster.as_ref().is_none_or(|c| c.process() == 0);
+    let explored = tasks::explore(&mut subject.tasks, settings, start, progress)?;
+    let mut out = Vec::new();
+    for (task, explored) in subject.tasks.iter().zip(explored) {
+        let options = options(settings, start);
+        let outcome = explored.outcome;
+        let unfired = match explored.cited.all {
             true => Vec::new(),
             false => unfired(task, &outcome),
         };
-        let alone = settings.cluster.as_ref().is_none_or(|c| c.process() == 0);
         let excluded = match machine && alone {
             true => judge
                 .of(task, &outcome, &options, settings.interpret)
@@ -194,97 +172,30 @@ pub fn check(
             let by = decisive(task, k, &options, settings.interpret);
             decided.insert(k, by.map_err(|e| (task.title.clone(), e))?);
         }
-        let mut judged = outcome.report.properties.iter();
-        let violated = judged.any(|j| j.verdict == Verdict::Violated);
         out.push(Checked {
             outcome,
-            again,
+            again: explored.again,
+            ended: explored.ended,
             unfired,
             excluded,
             decisive: decided,
-            explored: !cited.all,
-            cited: cited.properties,
+            explored: !explored.cited.all,
+            cited: explored.cited.properties,
         });
-        if settings.until == Until::Violated && violated {
-            break;
-        }
     }
     Ok(out)
 }
 
-/// Explores the system of a task, unless what comes out is known.
-fn explored(
-    task: &Task,
-    options: &Options,
-    settings: &Settings,
-    known: &Known,
-    progress: &mut dyn FnMut(&Task) -> Box<dyn Progress>,
-) -> Result<(Outcome, bool), (String, Error)> {
-    let how = (
-        settings.interpret,
-        settings.reductions,
-        settings.witnesses,
-        options.until,
-    );
-    // The other processes of a cluster know nothing of what this one has found.
-    let alone = settings.cluster.is_none();
-    let identity = alone.then(|| identity(&task.bound, &how));
-    let found = identity.as_ref().and_then(|identity| known.find(identity));
-    let again = found.is_some();
-    let outcome = match (found, &settings.cluster) {
-        (Some(found), _) => Ok(found),
-        (None, Some(cluster)) => explore::run_together(
-            &task.bound,
-            options,
-            settings.interpret,
-            progress(task).as_mut(),
-            Some(cluster),
-        ),
-        (None, None) => reduce::run(
-            &task.bound,
-            options,
-            settings.interpret,
-            settings.reductions,
-            progress(task).as_mut(),
-        ),
+/// How what begins now is explored, where `start` began the time.
+pub(crate) fn options(settings: &Settings, start: Instant) -> Options {
+    Options {
+        limits: settings.limits(start),
+        interrupt: settings.interrupt.clone(),
+        // Most reports tell the length of a witness only; rebuilding their runs takes as long as the search.
+        witnesses: settings.witnesses,
+        until: settings.until,
+        ..Options::default()
     }
-    .map_err(|e| (task.title.clone(), e))?;
-    if let Some(identity) = identity.filter(|_| !again) {
-        known.keep(identity, &outcome);
-    }
-    Ok((outcome, again))
-}
-
-/// Explores the loose system of a task, if it has one. None: it does not show that what is asked holds, and the task is as it was.
-fn explored_loosely(
-    task: &mut Task,
-    options: &Options,
-    settings: &Settings,
-    known: &Known,
-    progress: &mut dyn FnMut(&Task) -> Box<dyn Progress>,
-) -> Result<Option<(Outcome, bool)>, (String, Error)> {
-    let Some(text) = task.loose.as_ref().map(|loose| loose.text.clone()) else {
-        return Ok(None);
-    };
-    let options = Options {
-        until: Until::Violated,
-        ..options.clone()
-    };
-    task.change();
-    let found = explored(task, &options, settings, known, progress)?;
-    if !holds(&found.0) {
-        task.change();
-        return Ok(None);
-    }
-    task.abstractions.push(text);
-    Ok(Some(found))
-}
-
-/// Whether all that is asked holds, and is put to the test.
-fn holds(outcome: &Outcome) -> bool {
-    let report = &outcome.report;
-    let mut judged = report.properties.iter();
-    report.complete && report.faults.is_empty() && judged.all(|j| j.verdict == Verdict::Holds)
 }
 
 fn unfired(task: &Task, outcome: &Outcome) -> Vec<(String, Unfired)> {

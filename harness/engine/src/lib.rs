@@ -19,6 +19,7 @@ mod staged;
 mod stated;
 pub mod subject;
 pub mod table;
+mod tasks;
 pub mod theorems;
 
 pub use cycles::{Cycle, lazy, replay};

@@ -96,7 +96,7 @@ pub fn to_json(subject: &Subject, checked: &[Checked], summaries: &[Summary]) ->
         "states": reports().map(|r| r.states).sum::<u64>(),
         "transitions": number(reports().map(|r| r.transitions).sum()),
         "depth": reports().map(|r| r.depth).max().unwrap_or(0),
-        "seconds": reports().map(|r| r.seconds).sum::<f64>(),
+        "seconds": super::seconds(checked),
         "complete": reports().all(|r| r.complete),
         "properties": summaries.iter().map(|s| json!({
             "id": s.id, "verdict": verdict_name(s.verdict), "length": s.length, "excluded": s.excluded,

@@ -39,6 +39,11 @@ fn word(verdict: Verdict, excluded: bool) -> &'static str {
     }
 }
 
+/// Wall time of the explorations, some of which go on side by side.
+fn seconds(checked: &[Checked]) -> f64 {
+    checked.iter().map(|c| c.ended).fold(0.0, f64::max)
+}
+
 /// How many properties have which verdict, the ones to be looked at first: `1 violated, 3 holds`.
 fn counts(summaries: &[Summary]) -> String {
     let order = [

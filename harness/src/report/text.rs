@@ -196,7 +196,7 @@ fn headline(out: &mut String, subject: &Subject, checked: &[Checked], summaries:
         .map(|c| u128::from(c.outcome.report.states))
         .sum();
     let transitions: u128 = checked.iter().map(|c| c.outcome.report.transitions).sum();
-    let seconds: f64 = checked.iter().map(|c| c.outcome.report.seconds).sum();
+    let seconds = super::seconds(checked);
     let _ = writeln!(out, "{}: {verdict}", subject.name);
     if !subject.title.is_empty() {
         let _ = writeln!(out, "{}", subject.title);

@@ -59,6 +59,73 @@ impl Index {
     }
 }
 
+/// Numbers for pairs of numbers, given once. The pairs of a first number stand in a row, unless rows would have many gaps.
+#[derive(Default)]
+pub(super) struct Places {
+    /// By the first number the begin of its row, and how many it has room for.
+    rows: Vec<(u32, u32)>,
+    /// Numbers plus one; 0 for nothing.
+    slots: Vec<u32>,
+    used: usize,
+    /// What has no room in a row.
+    others: Index,
+}
+
+impl Places {
+    /// Rows have at least so much room, and this many slots for each pair are too many.
+    const LEAST: usize = 16;
+    const GAPS: usize = 16;
+
+    /// The number of a pair: `fresh` if it is new.
+    #[inline]
+    pub(super) fn number(&mut self, first: u32, second: u32, fresh: u32) -> u32 {
+        if let Some((from, room)) = self.rows.get(first as usize) {
+            if second < *room {
+                let slot = &mut self.slots[(from + second) as usize];
+                if *slot > 0 {
+                    return *slot - 1;
+                }
+            }
+        }
+        self.other(first, second, fresh)
+    }
+
+    /// The number of a pair that stands in no row yet.
+    #[cold]
+    fn other(&mut self, first: u32, second: u32, fresh: u32) -> u32 {
+        let number = self
+            .others
+            .number(u64::from(first) << 32 | u64::from(second), fresh);
+        if number == fresh {
+            self.used += 1;
+        }
+        if self.rows.len() <= first as usize {
+            self.rows.resize(first as usize + 1, (0, 0));
+        }
+        let (from, room) = self.rows[first as usize];
+        if second >= room {
+            let wider = (second as usize + 1).next_power_of_two().max(Self::LEAST);
+            if self.slots.len() + wider > (self.used * Self::GAPS).max(1 << 16) {
+                return number;
+            }
+            let begin = self.slots.len();
+            self.slots
+                .extend_from_within(from as usize..(from + room) as usize);
+            self.slots.resize(begin + wider, 0);
+            self.rows[first as usize] = (begin as u32, wider as u32);
+        }
+        let (from, _) = self.rows[first as usize];
+        self.slots[(from + second) as usize] = number + 1;
+        number
+    }
+
+    pub(super) fn bytes(&self) -> u64 {
+        let lists = self.rows.capacity() * size_of::<(u32, u32)>()
+            + self.slots.capacity() * size_of::<u32>();
+        lists as u64 + self.others.bytes()
+    }
+}
+
 /// The places of a list by hash, for a short time: each start forgets them.
 #[derive(Default)]
 pub(super) struct Merge {
@@ -133,6 +200,21 @@ mod tests {
             }
         }
         assert_eq!(index.len(), 5000);
+    }
+
+    #[test]
+    fn pairs_keep_their_numbers() {
+        let mut places = Places::default();
+        let pairs: Vec<(u32, u32)> = (0..40_000u32)
+            .map(|n| (n % 300, if n % 7 == 0 { n } else { n / 300 }))
+            .collect();
+        let mut known = std::collections::HashMap::new();
+        for (first, second) in pairs.iter().chain(&pairs) {
+            let fresh = known.len() as u32;
+            let number = places.number(*first, *second, fresh);
+            assert_eq!(number, *known.entry((*first, *second)).or_insert(fresh));
+        }
+        assert!(places.slots.len() <= (1 << 16).max(places.used * Places::GAPS));
     }
 
     #[test]

@@ -6,6 +6,7 @@
 
 mod index;
 mod pace;
+mod prefix;
 mod watched;
 
 pub(crate) use pace::Pace;
@@ -14,7 +15,8 @@ pub(crate) use watched::{Event, Watched};
 use crate::pack::{Key, Packer};
 use crate::process::Origin;
 use crate::system::{Domain, Fault};
-use index::{Index, Merge};
+use index::{Index, Merge, Places};
+use prefix::{Looked, Prefixes};
 use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -23,6 +25,9 @@ pub type Condition = Vec<(usize, bool)>;
 
 /// The most conditions that are told apart.
 pub(crate) const MOST_CONDITIONS: usize = 128;
+
+/// Of what may be held, the part that prefixes may.
+const SHARE_OF_PREFIXES: u64 = 4;
 
 /// One of the outcomes of a stage.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -82,20 +87,65 @@ struct Part<K> {
     /// The values of the variables it reads, numbered.
     projections: Index,
     /// By such a number and a class the place of what follows.
-    places: Index,
+    places: Places,
     known: Vec<Known>,
+    /// The input combinations that have come to each place and are not counted yet.
+    visits: Vec<u128>,
     /// What each outcome adds to the index of the state after, its class, and in how many of the combinations.
     outcomes: Vec<(K, u32, u64)>,
     fired: Vec<(usize, u64)>,
+    merges: Merges,
 }
 
-/// What follows from a class and the values of the variables read.
+/// Whether ways that have become one behind a stage are looked for: where hardly any do, it costs more than it saves. The last stage
+/// always does.
+#[derive(Clone, Copy, Default)]
+struct Merges {
+    rare: bool,
+    states: u32,
+    made: usize,
+    left: usize,
+}
+
+impl Merges {
+    /// The ways made until it is judged anew, the share of them that is worth it, and the states of which one is looked at all the same.
+    const JUDGED: usize = 4096;
+    const WORTH: usize = 16;
+    const SAMPLE: u32 = 64;
+
+    /// Whether this state is looked at.
+    #[inline]
+    fn begin(&mut self) -> bool {
+        self.states = self.states.wrapping_add(1);
+        !self.rare || self.states % Self::SAMPLE == 0
+    }
+
+    /// What became of the ways.
+    fn end(&mut self, made: usize, left: usize) {
+        self.made += made;
+        self.left += left;
+        if self.made >= Self::JUDGED {
+            self.rare = (self.made - self.left) * Self::WORTH < self.made;
+            (self.made, self.left) = (0, 0);
+        }
+    }
+}
+
+/// What follows from a class and the values of the variables read: ranges of outcomes and of rules. Where there is a fault, no outcome.
+#[derive(Clone, Copy)]
 struct Known {
-    outcomes: Range<usize>,
-    fired: Range<usize>,
-    /// The input combinations that have come here and are not counted yet.
-    visits: u128,
-    fault: bool,
+    outcomes: (u32, u32),
+    fired: (u32, u32),
+}
+
+impl Known {
+    fn outcomes(self) -> Range<usize> {
+        self.outcomes.0 as usize..self.outcomes.1 as usize
+    }
+
+    fn fired(self) -> Range<usize> {
+        self.fired.0 as usize..self.fired.1 as usize
+    }
 }
 
 /// A way through some stages: the index of the state so far, the class, the input combinations.
@@ -110,6 +160,7 @@ struct Way<K> {
 pub(crate) struct Staged<'a, K> {
     stages: Box<dyn Stages + 'a>,
     parts: Vec<Part<K>>,
+    prefixes: Prefixes<K>,
     packer: &'a Packer<K>,
     combinations: u128,
     before: Vec<i32>,
@@ -119,7 +170,9 @@ pub(crate) struct Staged<'a, K> {
     next: Vec<Way<K>>,
     merge: Merge,
     /// The places looked up for this state, with the combinations that came there.
-    looked: Vec<(u32, u32, u128)>,
+    looked: Vec<Looked>,
+    /// The number of what each of the first stages reads.
+    numbers: Vec<u32>,
     marks: Vec<u128>,
     /// Of rules, from what was forgotten since.
     fired: Vec<(usize, u64)>,
@@ -159,6 +212,8 @@ impl<'a, K: Key> Staged<'a, K> {
         }
         let whole = owned.iter().all(|owned| *owned);
         whole.then(|| Staged {
+            prefixes: Prefixes::new(parts.len(), most / SHARE_OF_PREFIXES),
+            numbers: Vec::new(),
             stages,
             parts,
             packer,
@@ -183,60 +238,97 @@ impl<'a, K: Key> Staged<'a, K> {
     #[inline]
     pub(crate) fn cycles(&mut self, key: K) -> bool {
         self.packer.unpack(key, &mut self.before);
-        self.looked.clear();
-        self.ways.clear();
-        self.ways.push(Way {
-            key: K::of([0, 0]),
-            class: 0,
-            weight: self.combinations,
-        });
-        for stage in 0..self.parts.len() {
-            let projection = self.parts[stage].projection(&self.before);
+        let begun = self.begin();
+        let from = begun.map_or(0, |(stages, _)| stages);
+        let counted = self.looked.len();
+        for stage in from..self.parts.len() {
+            let projection = match self.numbers.get(stage) {
+                Some(number) => *number,
+                None => self.parts[stage].projection(&self.before),
+            };
             self.next.clear();
-            self.merge.start();
+            let last = stage + 1 == self.parts.len();
+            let merges = self.parts[stage].merges.begin() || last;
+            if merges {
+                self.merge.start();
+            }
+            let mut made = 0;
             for at in 0..self.ways.len() {
                 let way = self.ways[at];
                 let Some(place) = self.place(stage, projection, way.class) else {
                     return false;
                 };
                 let part = &self.parts[stage];
-                let known = &part.known[place as usize];
+                let outcomes = &part.outcomes[part.known[place as usize].outcomes()];
                 self.looked.push((stage as u32, place, way.weight));
-                for (own, class, share) in &part.outcomes[known.outcomes.clone()] {
+                made += outcomes.len();
+                for (own, class, share) in outcomes {
                     let key = way.key.plus(*own);
                     let weight = match *share as u128 == part.combinations {
                         true => way.weight,
                         false => part_of(way.weight, *share, part.combinations),
                     };
-                    let hash = key.hash() ^ u64::from(*class).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-                    let next = &mut self.next;
-                    let same = |at: usize| next[at].key == key && next[at].class == *class;
-                    match self.merge.find(hash, next.len(), same) {
-                        Some(at) => self.next[at].weight += weight,
-                        None => self.next.push(Way {
-                            key,
-                            class: *class,
-                            weight,
-                        }),
+                    let class = *class;
+                    if merges {
+                        let hash =
+                            key.hash() ^ u64::from(class).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+                        let next = &self.next;
+                        let same = |at: usize| next[at].key == key && next[at].class == class;
+                        if let Some(at) = self.merge.find(hash, next.len(), same) {
+                            self.next[at].weight += weight;
+                            continue;
+                        }
                     }
+                    self.next.push(Way { key, class, weight });
                 }
+            }
+            if merges {
+                self.parts[stage].merges.end(made, self.next.len());
             }
             std::mem::swap(&mut self.ways, &mut self.next);
-        }
-        for (stage, place, weight) in &self.looked {
-            let known = &mut self.parts[*stage as usize].known[*place as usize];
-            match known.visits.checked_add(*weight) {
-                Some(visits) => known.visits = visits,
-                None => {
-                    // So many do not fit the counts of rules either.
-                    known.visits = u128::MAX / self.combinations * self.combinations;
-                }
+            if self.prefixes.wants(stage + 1) {
+                self.grown |= self.prefixes.keep(stage + 1, &self.ways, &self.looked);
             }
+        }
+        if let Some((_, node)) = begun {
+            self.prefixes.visit(node);
+        }
+        for looked in &self.looked[counted..] {
+            visit(&mut self.parts, self.combinations, looked, 1);
         }
         if std::mem::take(&mut self.grown) {
             self.weigh();
         }
         true
+    }
+
+    /// Begins behind the longest prefix of this state that is kept, if there is one: its stages and its node, which counts what has been
+    /// looked up in it.
+    #[inline]
+    fn begin(&mut self) -> Option<(usize, u32)> {
+        let (parts, before, numbers) = (&mut self.parts, &self.before, &mut self.numbers);
+        numbers.clear();
+        let kept = self.prefixes.walk(|stage| {
+            let number = parts[stage].projection(before);
+            numbers.push(number);
+            number
+        });
+        self.looked.clear();
+        self.ways.clear();
+        let Some((from, node)) = kept else {
+            self.ways.push(Way {
+                key: K::of([0, 0]),
+                class: 0,
+                weight: self.combinations,
+            });
+            return None;
+        };
+        self.ways.extend_from_slice(self.prefixes.ways(node));
+        // A longer one has them too.
+        if self.prefixes.wants_more(from) {
+            self.looked.extend_from_slice(self.prefixes.looked(node));
+        }
+        kept
     }
 
     /// Makes all cycles from a state; none if one of them meets a fault.
@@ -266,13 +358,13 @@ impl<'a, K: Key> Staged<'a, K> {
     #[inline]
     fn place(&mut self, stage: usize, projection: u32, class: u32) -> Option<u32> {
         let part = &mut self.parts[stage];
-        let at = u64::from(projection) << 32 | u64::from(class);
         let fresh = part.known.len() as u32;
-        let place = part.places.number(at, fresh);
+        let place = part.places.number(projection, class, fresh);
         if place == fresh {
             self.learn(stage, class);
         }
-        (!self.parts[stage].known[place as usize].fault).then_some(place)
+        let (from, to) = self.parts[stage].known[place as usize].outcomes;
+        (from < to).then_some(place)
     }
 
     /// Has a stage make its outcomes, for the next place.
@@ -316,38 +408,48 @@ impl<'a, K: Key> Staged<'a, K> {
                 self.marks[class] = self.stages.conditions(outcome.class);
             }
         }
+        if fault {
+            part.outcomes.truncate(from);
+        }
         part.known.push(Known {
-            outcomes: from..part.outcomes.len(),
-            fired: fired..part.fired.len(),
-            visits: 0,
-            fault,
+            outcomes: (from as u32, part.outcomes.len() as u32),
+            fired: (fired as u32, part.fired.len() as u32),
         });
+        part.visits.push(0);
         self.grown = true;
     }
 
     /// Tells what is held, and forgets all if it is too much.
     fn weigh(&mut self) {
-        let bytes = self.stages.bytes() + self.parts.iter().map(Part::bytes).sum::<u64>();
-        if bytes > self.most {
+        if self.bytes() > self.most {
             let mut kept = std::mem::take(&mut self.fired);
             self.drain(&mut |rule, count| kept.push((rule, count)));
             self.fired = kept;
             self.parts.iter_mut().for_each(Part::forget);
+            self.prefixes.forget();
         }
-        let bytes = self.stages.bytes() + self.parts.iter().map(Part::bytes).sum::<u64>();
+        let bytes = self.bytes();
         self.held
             .fetch_add(bytes.wrapping_sub(self.told), Ordering::Relaxed);
         self.told = bytes;
     }
 
+    fn bytes(&self) -> u64 {
+        let parts = self.parts.iter().map(Part::bytes);
+        self.stages.bytes() + self.prefixes.bytes() + parts.sum::<u64>()
+    }
+
     fn drain(&mut self, each: &mut dyn FnMut(usize, u64)) {
+        let (parts, combinations) = (&mut self.parts, self.combinations);
+        self.prefixes
+            .settle(|looked, states| visit(parts, combinations, looked, states));
         for part in &mut self.parts {
-            for known in &mut part.known {
-                let visits = std::mem::take(&mut known.visits);
+            for (known, visits) in part.known.iter().zip(&mut part.visits) {
+                let visits = std::mem::take(visits);
                 if visits == 0 {
                     continue;
                 }
-                for (rule, share) in &part.fired[known.fired.clone()] {
+                for (rule, share) in &part.fired[known.fired()] {
                     let count = rational(visits, *share, part.combinations);
                     each(*rule, u64::try_from(count).unwrap_or(u64::MAX));
                 }
@@ -373,6 +475,17 @@ impl<K> Drop for Staged<'_, K> {
     fn drop(&mut self) {
         self.held.fetch_sub(self.told, Ordering::Relaxed);
     }
+}
+
+/// Counts the input combinations that have come to a place, from so many states.
+#[inline]
+fn visit<K>(parts: &mut [Part<K>], combinations: u128, looked: &Looked, states: u64) {
+    let (stage, place, weight) = *looked;
+    let visits = &mut parts[stage as usize].visits[place as usize];
+    let more = weight.checked_mul(u128::from(states));
+    let sum = more.and_then(|more| visits.checked_add(more));
+    // So many do not fit the counts of rules either.
+    *visits = sum.unwrap_or(u128::MAX / combinations * combinations);
 }
 
 /// `share` of `whole` parts of a weight, which is a whole number.
@@ -411,10 +524,12 @@ impl<K: Key> Part<K> {
             writes,
             combinations: u128::from(stages.combinations(stage)),
             projections: Index::default(),
-            places: Index::default(),
+            places: Places::default(),
             known: Vec::new(),
+            visits: Vec::new(),
             outcomes: Vec::new(),
             fired: Vec::new(),
+            merges: Merges::default(),
         })
     }
 
@@ -431,6 +546,7 @@ impl<K: Key> Part<K> {
 
     fn bytes(&self) -> u64 {
         let lists = self.known.capacity() * size_of::<Known>()
+            + self.visits.capacity() * size_of::<u128>()
             + self.outcomes.capacity() * size_of::<(K, u32, u64)>()
             + self.fired.capacity() * size_of::<(usize, u64)>();
         lists as u64 + self.projections.bytes() + self.places.bytes()
@@ -438,8 +554,9 @@ impl<K: Key> Part<K> {
 
     fn forget(&mut self) {
         self.projections = Index::default();
-        self.places = Index::default();
+        self.places = Places::default();
         self.known = Vec::new();
+        self.visits = Vec::new();
         self.outcomes = Vec::new();
         self.fired = Vec::new();
     }
