@@ -21,6 +21,8 @@ pub(super) struct Prefixes<K> {
     looked: Vec<Looked>,
     /// The nodes of the prefixes of this state that have been seen before, the shortest first.
     path: Vec<u32>,
+    /// The nodes behind which states have begun that are not counted yet.
+    visited: Vec<u32>,
     /// What may be held.
     most: u64,
 }
@@ -62,6 +64,7 @@ impl<K: Copy> Prefixes<K> {
             ways: Vec::new(),
             looked: Vec::new(),
             path: Vec::new(),
+            visited: Vec::new(),
             most,
         }
     }
@@ -146,24 +149,28 @@ impl<K: Copy> Prefixes<K> {
     /// Counts a state that has begun behind it.
     #[inline]
     pub(super) fn visit(&mut self, node: u32) {
-        self.nodes[node as usize].visits += 1;
+        let visits = &mut self.nodes[node as usize].visits;
+        if *visits == 0 {
+            self.visited.push(node);
+        }
+        *visits += 1;
     }
 
     /// Hands over the places looked up by the states that have begun behind a prefix, each with the number of these states.
     pub(super) fn settle(&mut self, mut each: impl FnMut(&Looked, u64)) {
-        for node in &mut self.nodes {
+        for node in self.visited.drain(..) {
+            let node = &mut self.nodes[node as usize];
             let visits = std::mem::take(&mut node.visits);
-            if visits > 0 {
-                let looked = &self.looked[node.looked.0 as usize..node.looked.1 as usize];
-                looked.iter().for_each(|looked| each(looked, visits));
-            }
+            let looked = &self.looked[node.looked.0 as usize..node.looked.1 as usize];
+            looked.iter().for_each(|looked| each(looked, visits));
         }
     }
 
     pub(super) fn bytes(&self) -> u64 {
         let lists = self.nodes.capacity() * size_of::<Node>()
             + self.ways.capacity() * size_of::<Way<K>>()
-            + self.looked.capacity() * size_of::<Looked>();
+            + self.looked.capacity() * size_of::<Looked>()
+            + self.visited.capacity() * size_of::<u32>();
         let depths = self.depths.iter().map(|depth| depth.nodes.bytes());
         lists as u64 + depths.sum::<u64>()
     }
