@@ -22,9 +22,14 @@ impl Beside {
         Beside(Arc::new(AtomicUsize::new(searches)))
     }
 
-    /// One of them has ended.
+    /// One of them has ended, or waits.
     pub fn leave(&self) {
         self.0.fetch_sub(1, Ordering::Relaxed);
+    }
+
+    /// One of them goes on.
+    pub fn join(&self) {
+        self.0.fetch_add(1, Ordering::Relaxed);
     }
 
     fn number(&self) -> usize {
@@ -60,7 +65,7 @@ impl Crew {
         work: impl Fn(&mut W, usize) + Sync,
     ) {
         let searches = self.beside.as_ref().map_or(1, Beside::number);
-        let number = (workers.len() / searches).max(1);
+        let number = workers.len().div_ceil(searches);
         if pieces <= 1 || number == 1 {
             if let Some(worker) = workers.first_mut() {
                 (0..pieces).for_each(|piece| work(worker, piece));

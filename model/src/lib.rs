@@ -12,7 +12,7 @@
 //! * `pack`, `bitmap`, `store`, `set`, `hashed`: a state is a number in mixed radix. The states found are a bitmap over all
 //!   numbers where that fits the memory (at most two bits an index), else an exact hash set.
 //! * `parts`: systems that fall into parts with nothing in common but inputs; their cycles are put together from tables.
-//! * `stages`: cycles that come about in stages; what a stage makes of what it looks at is found once.
+//! * `stages`: cycles that come about in stages; what a stage, or several as one, makes of what it looks at is found once.
 //! * `ticks`: the values of a timer as intervals. `checkpoint`: an exploration between two levels, in a file.
 //! * `crew`, `search`: one breadth-first search, level by level, on some threads. It tells for each property the first
 //!   place, in the order (depth, state), where something showed: so the report does not depend on the threads.

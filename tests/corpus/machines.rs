@@ -183,6 +183,7 @@ fn explorations_side_by_side_tell_the_same() {
     for _ in 0..2 {
         let (these, side_by_side) = told(2);
         assert_eq!(tasks, these);
+        assert_eq!(all.len(), side_by_side.len());
         for (one, other) in all.iter().zip(&side_by_side) {
             assert_eq!(one, other);
         }

@@ -1,5 +1,7 @@
 //! The cycles of a state one by one and in stages: the same report, to the last count and run.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use stillpoint_engine::table::Interpreted;
 use stillpoint_engine::{Outcome, run};
 use stillpoint_lang::bind::Bound;
@@ -10,12 +12,18 @@ use crate::reductions::shipped::{must_fail, shipped};
 
 /// The exploration of a system in stages.
 pub(crate) fn staged(bound: &Bound, witnesses: bool) -> Outcome {
+    staged_within(bound, witnesses, None)
+}
+
+/// The same within so many bytes, an eighth of which is for what is known of stages.
+fn staged_within(bound: &Bound, witnesses: bool, memory: Option<u64>) -> Outcome {
     let mut options = Options {
         way: Way::Staged,
         witnesses,
         ..Options::default()
     };
     options.limits.threads = 2;
+    options.limits.memory = memory;
     run(bound, &options, true, &mut ()).unwrap_or_else(|e| panic!("{e}"))
 }
 
@@ -56,6 +64,25 @@ fn compare(systems: &[(Bound, Outcome)]) -> usize {
 fn shipped_systems_have_the_same_reports() {
     let compared = compare(shipped());
     println!("{compared} of {} systems have stages", shipped().len());
+    assert!(compared >= 20, "{compared}");
+}
+
+/// Bytes for an exploration.
+const FORGETFUL: u64 = 4 << 20;
+
+/// What is known of stages has so little room that it is forgotten again and again.
+#[test]
+fn what_is_forgotten_is_counted() {
+    let compared = AtomicUsize::new(0);
+    let with: Vec<&(Bound, Outcome)> = shipped().iter().filter(|(b, _)| has_stages(b)).collect();
+    each(&with, |(bound, single)| {
+        let staged = staged_within(bound, false, Some(FORGETFUL));
+        if staged.report.complete {
+            same(single, &staged, &bound.system.name);
+            compared.fetch_add(1, Ordering::Relaxed);
+        }
+    });
+    let compared = compared.into_inner();
     assert!(compared >= 20, "{compared}");
 }
 

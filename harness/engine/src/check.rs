@@ -1,7 +1,7 @@
 //! `check`: explores every task of a subject and judges its properties.
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use indexmap::IndexMap;
@@ -16,7 +16,7 @@ use crate::keep::Keep;
 use crate::known::Known;
 use crate::outcome::{Outcome, Reductions, label};
 use crate::subject::{Subject, Task};
-use crate::tasks;
+use crate::tasks::{self, Explored};
 use crate::theorems::Theorems;
 
 /// How to check.
@@ -145,45 +145,48 @@ pub fn check(
     settings: &Settings,
     progress: &mut (dyn FnMut(&Task) -> Box<dyn Progress> + Send),
 ) -> Result<Vec<Checked>, (String, Error)> {
-    let start = Instant::now();
-    let mut judge = Judge::default();
     let machine = subject.machine.is_some();
-    let alone = settings.cluster.as_ref().is_none_or(|c| c.process() == 0);
-    let explored = tasks::explore(&mut subject.tasks, settings, start, progress)?;
-    let mut out = Vec::new();
-    for (task, explored) in subject.tasks.iter().zip(explored) {
-        let options = options(settings, start);
-        let outcome = explored.outcome;
-        let unfired = match explored.cited.all {
-            true => Vec::new(),
-            false => unfired(task, &outcome),
-        };
-        let excluded = match machine && alone {
-            true => judge
-                .of(task, &outcome, &options, settings.interpret)
-                .map_err(|e| (task.title.clone(), e))?,
-            false => BTreeMap::new(),
-        };
-        let mut decided = BTreeMap::new();
-        let asked = settings.decisive && task.guarantee.is_some() && alone;
-        let judged = outcome.report.properties.iter().enumerate();
-        let broken = judged.filter(|(_, j)| j.verdict == Verdict::Violated);
-        for (k, _) in broken.filter(|_| asked && outcome.report.states <= ASKED) {
-            let by = decisive(task, k, &options, settings.interpret);
-            decided.insert(k, by.map_err(|e| (task.title.clone(), e))?);
+    tasks::explore(&mut subject.tasks, machine, settings, progress)
+}
+
+/// What is told of an explored task: where `options` are those with which it was explored.
+pub(crate) fn told(
+    task: &Task,
+    mut explored: Explored,
+    judge: Option<&Mutex<Judge>>,
+    settings: &Settings,
+    options: &Options,
+) -> Result<Checked, Error> {
+    let outcome = &mut explored.outcome;
+    let unfired = match explored.cited.all {
+        true => Vec::new(),
+        false => unfired(task, outcome),
+    };
+    let excluded = match judge {
+        Some(judge) => {
+            let mut judge = judge.lock().unwrap_or_else(PoisonError::into_inner);
+            judge.of(task, outcome, options, settings.interpret)?
         }
-        out.push(Checked {
-            outcome,
-            again: explored.again,
-            ended: explored.ended,
-            unfired,
-            excluded,
-            decisive: decided,
-            explored: !explored.cited.all,
-            cited: explored.cited.properties,
-        });
+        None => BTreeMap::new(),
+    };
+    let mut decided = BTreeMap::new();
+    let alone = settings.cluster.as_ref().is_none_or(|c| c.process() == 0);
+    let asked = settings.decisive && task.guarantee.is_some() && alone;
+    let judged = outcome.report.properties.iter().enumerate();
+    let broken = judged.filter(|(_, j)| j.verdict == Verdict::Violated);
+    for (k, _) in broken.filter(|_| asked && outcome.report.states <= ASKED) {
+        decided.insert(k, decisive(task, k, options, settings.interpret)?);
     }
-    Ok(out)
+    Ok(Checked {
+        outcome: explored.outcome,
+        again: explored.again,
+        ended: explored.ended,
+        unfired,
+        excluded,
+        decisive: decided,
+        explored: !explored.cited.all,
+        cited: explored.cited.properties,
+    })
 }
 
 /// How what begins now is explored, where `start` began the time.

@@ -119,15 +119,25 @@ pub struct Judge {
     own: BTreeMap<(PathBuf, String, usize), Option<u64>>,
 }
 
+/// Whether a witness is reached.
+enum Reach {
+    /// Among so many states.
+    In(u64),
+    Never,
+    /// A limit was reached first.
+    Unknown,
+}
+
 impl Judge {
-    /// The exclusions among the unreachable witnesses of a task of a machine, by property number.
+    /// The exclusions among the unreachable witnesses of a task of a machine, by property number. A witness of which a limit leaves
+    /// open whether it is excluded is inconclusive.
     ///
     /// # Errors
     /// A system that cannot be explored under its defaults.
     pub fn of(
         &mut self,
         task: &Task,
-        outcome: &Outcome,
+        outcome: &mut Outcome,
         options: &Options,
         interpret: bool,
     ) -> Result<BTreeMap<usize, Exclusion>, Error> {
@@ -141,8 +151,8 @@ impl Judge {
             checkpoint: None,
             ..options.clone()
         };
-        let judged = outcome.report.properties.iter().enumerate();
-        for (k, _) in judged.filter(|(_, j)| j.verdict == Verdict::Unreachable) {
+        let judged = outcome.report.properties.iter_mut().enumerate();
+        for (k, judged) in judged.filter(|(_, j)| j.verdict == Verdict::Unreachable) {
             let candidates = differing(&task.bound);
             let Some(own) = with(
                 &task.bound,
@@ -158,7 +168,14 @@ impl Judge {
             let states = match self.own.get(&key) {
                 Some(known) => *known,
                 None => {
-                    let found = reached(&own, k, &options, interpret)?;
+                    let found = match reached(&own, k, &options, interpret)? {
+                        Reach::In(states) => Some(states),
+                        Reach::Never => None,
+                        Reach::Unknown => {
+                            judged.verdict = Verdict::Inconclusive;
+                            continue;
+                        }
+                    };
                     self.own.insert(key, found);
                     found
                 }
@@ -269,7 +286,8 @@ fn least(
         let Some(other) = with(bound, candidates, &fewer) else {
             continue;
         };
-        if reached(&other, property, options, interpret)?.is_some() {
+        let found = reached(&other, property, options, interpret)?;
+        if matches!(found, Reach::In(_)) {
             kept = fewer;
         }
     }
@@ -282,7 +300,7 @@ fn reached(
     property: usize,
     options: &Options,
     interpret: bool,
-) -> Result<Option<u64>, Error> {
+) -> Result<Reach, Error> {
     let witness = properties(bound)
         .into_iter()
         .any(|(k, p)| k == property && matches!(p.form, Form::Reachable { .. }));
@@ -290,7 +308,11 @@ fn reached(
         true => judged(bound, property, options, interpret)?,
         false => None,
     };
-    Ok(found.and_then(|(verdict, states)| (verdict == Verdict::Reached).then_some(states)))
+    Ok(match found {
+        Some((Verdict::Reached, states)) => Reach::In(states),
+        Some((Verdict::Inconclusive, _)) => Reach::Unknown,
+        _ => Reach::Never,
+    })
 }
 
 /// The verdict on one property, and the states explored for it; none for a property that the explorer does not judge by itself.

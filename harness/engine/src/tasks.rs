@@ -1,12 +1,13 @@
 //! The explorations of a check: two at a time, so that one goes on where the other waits for its slowest thread.
 
 use std::collections::HashMap;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
 use stillpoint_model::{Beside, Error, Options, Progress, Until, Verdict};
 
-use crate::check::{Settings, options};
+use crate::check::{Checked, Settings, options, told};
+use crate::excluded::Judge;
 use crate::explore;
 use crate::known::{Claim, Identity, Known, identity};
 use crate::outcome::Outcome;
@@ -15,38 +16,45 @@ use crate::subject::Task;
 use crate::theorems::Cited;
 
 /// What exploring a task gave.
-pub(crate) struct Done {
+pub(crate) struct Explored {
     pub(crate) outcome: Outcome,
     /// It is the outcome of a task before it, or of another check.
     pub(crate) again: bool,
     /// Seconds from the begin of the check; 0 where nothing was explored.
     pub(crate) ended: f64,
     pub(crate) cited: Cited,
-    /// What decides the outcome, if others may have the same.
-    identity: Option<Identity>,
 }
+
+/// A task that is done, and what decides its outcome, if others may have the same.
+type Done = (Checked, Option<Identity>);
 
 /// Makes the progress of a task.
 type Follow<'a> = dyn FnMut(&Task) -> Box<dyn Progress> + Send + 'a;
 
-/// Explores the tasks. With [`Until::Violated`] what comes after the one that has found a violation is not there.
+/// Explores the tasks, those of a machine or not. With [`Until::Violated`] what comes after the one that has found a violation is not
+/// there.
 ///
 /// # Errors
 /// A system that cannot be explored at all, with the task's title: the first one.
+///
+/// # Panics
+/// If an exploration does.
 pub(crate) fn explore(
     tasks: &mut [Task],
+    machine: bool,
     settings: &Settings,
-    start: Instant,
     progress: &mut Follow<'_>,
-) -> Result<Vec<Done>, (String, Error)> {
+) -> Result<Vec<Checked>, (String, Error)> {
     let known = settings.known.clone().unwrap_or_default();
     let number = tasks.len();
     let workers = side_by_side(settings).min(number);
+    let alone = settings.cluster.as_ref().is_none_or(|c| c.process() == 0);
     let ways = Ways {
         settings,
         known: &known,
-        start,
-        beside: Beside::new(workers),
+        start: Instant::now(),
+        judge: (machine && alone).then(Mutex::default),
+        beside: Beside::new(workers.max(1)),
         progress: Mutex::new(progress),
         queue: Mutex::new(tasks.iter_mut().enumerate()),
         done: Mutex::new((0..number).map(|_| None).collect()),
@@ -65,18 +73,21 @@ pub(crate) fn explore(
         .into_iter()
         .map_while(|one| one)
         .collect::<Result<Vec<_>, _>>()?;
+    let whole = out.len() == number || settings.until == Until::Violated;
+    assert!(whole, "a task was left out");
     in_order(&mut out);
-    Ok(out)
+    Ok(out.into_iter().map(|(checked, _)| checked).collect())
 }
 
-/// How many explorations go on at a time. What has a limit on memory, is kept, or ends with the first violation is one after the
-/// other; so are processes that explore together.
+/// How many explorations go on at a time. What has a limit, is kept, or ends with the first violation is one after the other; so are
+/// processes that explore together.
 fn side_by_side(settings: &Settings) -> usize {
     let processors = match settings.threads {
         0 => std::thread::available_parallelism().map_or(1, usize::from),
         threads => threads,
     };
     let apart = settings.memory.is_some()
+        || settings.time.is_some()
         || settings.keep.is_some()
         || settings.cluster.is_some()
         || settings.until == Until::Violated;
@@ -90,15 +101,15 @@ fn side_by_side(settings: &Settings) -> usize {
 fn in_order(all: &mut [Done]) {
     let mut first: HashMap<Identity, usize> = HashMap::new();
     for at in 0..all.len() {
-        let Some(identity) = all[at].identity else {
+        let Some(identity) = all[at].1 else {
             continue;
         };
         let before = *first.entry(identity).or_insert(at);
-        if all[before].again && !all[at].again {
-            let seconds = std::mem::take(&mut all[at].outcome.report.seconds);
-            all[before].outcome.report.seconds = seconds;
-            all[before].again = false;
-            all[at].again = true;
+        if all[before].0.again && !all[at].0.again {
+            let seconds = std::mem::take(&mut all[at].0.outcome.report.seconds);
+            all[before].0.outcome.report.seconds = seconds;
+            all[before].0.again = false;
+            all[at].0.again = true;
         }
     }
 }
@@ -108,6 +119,8 @@ struct Ways<'a, 'f, Q> {
     settings: &'a Settings,
     known: &'a Known,
     start: Instant,
+    /// Of a machine: which witnesses its values exclude.
+    judge: Option<Mutex<Judge>>,
     beside: Beside,
     progress: Mutex<&'a mut Follow<'f>>,
     /// The tasks that nobody has begun.
@@ -117,33 +130,37 @@ struct Ways<'a, 'f, Q> {
 
 impl<'t, Q: Iterator<Item = (usize, &'t mut Task)>> Ways<'_, '_, Q> {
     fn work(&self) {
+        // Also where an exploration panics the others have all threads, and end soon.
+        let _end = End(self);
         loop {
-            let next = self
-                .queue
-                .lock()
-                .unwrap_or_else(PoisonError::into_inner)
-                .next();
-            let Some((number, task)) = next else {
-                return self.beside.leave();
+            let Some((number, task)) = self.queue().next() else {
+                return;
             };
-            let explored = self.task(number, task);
-            let last = match &explored {
-                Ok(explored) => {
-                    let mut judged = explored.outcome.report.properties.iter();
+            let done = self.task(number, task);
+            let last = match &done {
+                Ok((checked, _)) => {
+                    let mut judged = checked.outcome.report.properties.iter();
                     self.settings.until == Until::Violated
                         && judged.any(|j| j.verdict == Verdict::Violated)
                 }
                 Err(_) => true,
             };
-            let mut done = self.done.lock().unwrap_or_else(PoisonError::into_inner);
-            done[number] = Some(explored);
-            drop(done);
+            let mut all = self.done.lock().unwrap_or_else(PoisonError::into_inner);
+            all[number] = Some(done);
+            drop(all);
             if last {
-                // What nobody has begun is not explored.
-                let mut queue = self.queue.lock().unwrap_or_else(PoisonError::into_inner);
-                queue.by_ref().for_each(drop);
+                self.leave_the_rest();
             }
         }
+    }
+
+    fn queue(&self) -> MutexGuard<'_, Q> {
+        self.queue.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// What nobody has begun is not explored.
+    fn leave_the_rest(&self) {
+        self.queue().by_ref().for_each(drop);
     }
 
     fn task(&self, number: usize, task: &mut Task) -> Result<Done, (String, Error)> {
@@ -161,10 +178,6 @@ impl<'t, Q: Iterator<Item = (usize, &'t mut Task)>> Ways<'_, '_, Q> {
             true => self.loosely(task, &options)?,
             false => None,
         };
-        let options = Options {
-            limits: settings.limits(self.start),
-            ..options
-        };
         let nothing = cited.all && found.is_none();
         let (mut outcome, again, identity) = match found {
             Some(found) => found,
@@ -172,7 +185,7 @@ impl<'t, Q: Iterator<Item = (usize, &'t mut Task)>> Ways<'_, '_, Q> {
             None => self.own(task, &options)?,
         };
         cited.put_back(task, &mut outcome);
-        Ok(Done {
+        let explored = Explored {
             outcome,
             again,
             ended: match nothing {
@@ -180,8 +193,10 @@ impl<'t, Q: Iterator<Item = (usize, &'t mut Task)>> Ways<'_, '_, Q> {
                 false => self.start.elapsed().as_secs_f64(),
             },
             cited,
-            identity,
-        })
+        };
+        let checked = told(task, explored, self.judge.as_ref(), settings, &options);
+        let checked = checked.map_err(|e| (task.title.clone(), e))?;
+        Ok((checked, identity))
     }
 
     /// Explores the system of a task, unless what comes out is known.
@@ -198,12 +213,18 @@ impl<'t, Q: Iterator<Item = (usize, &'t mut Task)>> Ways<'_, '_, Q> {
             .cluster
             .is_none()
             .then(|| identity(&task.bound, &how));
-        let claim = match identity {
-            Some(identity) => match self.known.claim(identity) {
-                Claim::Known(outcome) => return Ok((*outcome, true, Some(identity))),
-                Claim::Free(claim) => Some(claim),
-            },
+        // Who waits for another exploration needs no thread.
+        self.beside.leave();
+        let claim = identity.map(|identity| self.known.claim(identity));
+        self.beside.join();
+        let claim = match claim {
+            Some(Claim::Known(outcome)) => return Ok((*outcome, true, identity)),
+            Some(Claim::Free(claim)) => Some(claim),
             None => None,
+        };
+        let options = &Options {
+            limits: settings.limits(self.start),
+            ..options.clone()
         };
         let mut follow = {
             let mut progress = self.progress.lock().unwrap_or_else(PoisonError::into_inner);
@@ -253,6 +274,18 @@ impl<'t, Q: Iterator<Item = (usize, &'t mut Task)>> Ways<'_, '_, Q> {
         }
         task.abstractions.push(text);
         Ok(Some(found))
+    }
+}
+
+/// The end of a thread that explores.
+struct End<'a, 't, 'b, 'f, Q: Iterator<Item = (usize, &'t mut Task)>>(&'a Ways<'b, 'f, Q>);
+
+impl<'t, Q: Iterator<Item = (usize, &'t mut Task)>> Drop for End<'_, 't, '_, '_, Q> {
+    fn drop(&mut self) {
+        self.0.beside.leave();
+        if std::thread::panicking() {
+            self.0.leave_the_rest();
+        }
     }
 }
 

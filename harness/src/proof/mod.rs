@@ -78,8 +78,8 @@ struct Judge<'a> {
     ranges: bool,
     /// Of the conditions that the netlist calls invariants those that a certificate does not know by itself.
     known: Vec<Clause>,
-    /// Those of the whole system, where all properties are asked of them.
-    states: RefCell<Option<States>>,
+    /// Those of the whole system, where all properties are asked of them, with the number of questions that have used up their time.
+    states: RefCell<Option<(States, u32)>>,
     out: Vec<Judged>,
 }
 

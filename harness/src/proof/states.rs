@@ -18,6 +18,9 @@ impl Proof {
     }
 }
 
+/// So many questions may use up their time with the states of the whole system.
+const PATIENCE: u32 = 3;
+
 /// All variables of a system.
 fn whole(asked: &Asked) -> Vec<Lit> {
     let netlist = &asked.translated.netlist;
@@ -59,12 +62,13 @@ impl Judge<'_> {
     /// Begins with the states of the whole system, which most properties are asked of.
     pub(super) fn begin_states(&self, asked: &Asked) {
         let whole = Problem::with(&asked.translated.netlist, Lit::FALSE, &whole(asked));
-        *self.states.borrow_mut() = States::new(&whole, &self.budget).ok();
+        let states = States::new(&whole, &self.budget).ok();
+        *self.states.borrow_mut() = states.map(|states| (states, 0));
     }
 
     /// How many states are reachable.
     pub(super) fn count_states(&self, entry: &mut Judged) {
-        if let Some(states) = &mut *self.states.borrow_mut() {
+        if let Some((states, _)) = &mut *self.states.borrow_mut() {
             states.limit(&self.budget);
             if states.reach(None).is_ok() {
                 entry.verdict = Verdict::Holds;
@@ -91,13 +95,19 @@ impl Judge<'_> {
             told?.map(|conditions| ask(states, &conditions)).transpose()
         };
         let mut whole = self.states.borrow_mut();
-        if let Some(states) = &mut *whole {
+        if let Some((states, spent)) = &mut *whole {
             states.limit(&self.budget);
             match asked(states) {
                 Ok(Some(answer)) => return Ok(answer),
                 Ok(None) => {}
-                // The next question goes on from what was reached.
-                Err(Spent) if self.budget.spent() => return Err(Spent),
+                // The next question goes on from what was reached, unless it leads nowhere: then what it depends on is asked.
+                Err(Spent) if self.budget.spent() => {
+                    *spent += 1;
+                    if *spent == PATIENCE {
+                        *whole = None;
+                    }
+                    return Err(Spent);
+                }
                 // It has no room for the next question either, nor has the same again.
                 Err(Spent) => {
                     *whole = None;

@@ -35,6 +35,19 @@ impl Index {
         fresh
     }
 
+    /// The number of a value, if it has one.
+    fn get(&self, value: u64) -> Option<u32> {
+        let mask = self.slots.len().checked_sub(1)?;
+        let mut at = mix(value) as usize & mask;
+        loop {
+            match self.slots[at] {
+                (_, 0) => return None,
+                (old, number) if old == value => return Some(number - 1),
+                _ => at = (at + 1) & mask,
+            }
+        }
+    }
+
     #[cold]
     fn grow(&mut self) {
         let old = std::mem::take(&mut self.slots);
@@ -72,9 +85,10 @@ pub(super) struct Places {
 }
 
 impl Places {
-    /// Rows have at least so much room, and this many slots for each pair are too many.
+    /// Rows have at least so much room; this many slots for each pair are too many, but for the first ones.
     const LEAST: usize = 16;
     const GAPS: usize = 16;
+    const FEW: usize = 1 << 12;
 
     /// The number of a pair: `fresh` if it is new.
     #[inline]
@@ -93,19 +107,16 @@ impl Places {
     /// The number of a pair that stands in no row yet.
     #[cold]
     fn other(&mut self, first: u32, second: u32, fresh: u32) -> u32 {
-        let number = self
-            .others
-            .number(u64::from(first) << 32 | u64::from(second), fresh);
-        if number == fresh {
-            self.used += 1;
-        }
         if self.rows.len() <= first as usize {
             self.rows.resize(first as usize + 1, (0, 0));
         }
         let (from, room) = self.rows[first as usize];
+        let pair = u64::from(first) << 32 | u64::from(second);
         if second >= room {
             let wider = (second as usize + 1).next_power_of_two().max(Self::LEAST);
-            if self.slots.len() + wider > (self.used * Self::GAPS).max(1 << 16) {
+            if self.slots.len() + wider > (self.used * Self::GAPS).max(Self::FEW) {
+                let number = self.others.number(pair, fresh);
+                self.used += usize::from(number == fresh);
                 return number;
             }
             let begin = self.slots.len();
@@ -114,6 +125,9 @@ impl Places {
             self.slots.resize(begin + wider, 0);
             self.rows[first as usize] = (begin as u32, wider as u32);
         }
+        // It may have come when there was no room.
+        let number = self.others.get(pair).unwrap_or(fresh);
+        self.used += usize::from(number == fresh);
         let (from, _) = self.rows[first as usize];
         self.slots[(from + second) as usize] = number + 1;
         number
@@ -214,7 +228,7 @@ mod tests {
             let number = places.number(*first, *second, fresh);
             assert_eq!(number, *known.entry((*first, *second)).or_insert(fresh));
         }
-        assert!(places.slots.len() <= (1 << 16).max(places.used * Places::GAPS));
+        assert!(places.slots.len() <= Places::FEW.max(places.used * Places::GAPS));
     }
 
     #[test]

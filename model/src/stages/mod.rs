@@ -4,9 +4,10 @@
 //! What a stage leaves to those after it is a *class*: the values, of inputs too, that still matter. Ways through the stages that
 //! agree in their class and in the state so far are one way, with the sum of their input combinations.
 
+mod fusion;
 mod index;
 mod pace;
-mod prefix;
+mod table;
 mod watched;
 
 pub(crate) use pace::Pace;
@@ -15,10 +16,12 @@ pub(crate) use watched::{Event, Watched};
 use crate::pack::{Key, Packer};
 use crate::process::Origin;
 use crate::system::{Domain, Fault};
-use index::{Index, Merge, Places};
-use prefix::{Looked, Prefixes};
+use fusion::{Change, Fusion};
+use index::Merge;
+use std::collections::BTreeSet;
 use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
+use table::{Count, Table, Traffic};
 
 /// Holds in a cycle in which each of these atoms has the value beside it.
 pub type Condition = Vec<(usize, bool)>;
@@ -26,8 +29,8 @@ pub type Condition = Vec<(usize, bool)>;
 /// The most conditions that are told apart.
 pub(crate) const MOST_CONDITIONS: usize = 128;
 
-/// Of what may be held, the part that prefixes may.
-const SHARE_OF_PREFIXES: u64 = 4;
+/// Of what may be held, the part that tables of groups may.
+const SHARE_OF_GROUPS: u64 = 2;
 
 /// One of the outcomes of a stage.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -78,74 +81,10 @@ pub trait Stages: Send {
     fn bytes(&self) -> u64;
 }
 
-/// What is known of one stage.
-struct Part<K> {
-    /// The variables it reads: number, least value, stride in the number of their values together.
-    reads: Vec<(usize, i32, u64)>,
-    writes: Vec<usize>,
-    combinations: u128,
-    /// The values of the variables it reads, numbered.
-    projections: Index,
-    /// By such a number and a class the place of what follows.
-    places: Places,
-    known: Vec<Known>,
-    /// The input combinations that have come to each place and are not counted yet.
-    visits: Vec<u128>,
-    /// What each outcome adds to the index of the state after, its class, and in how many of the combinations.
-    outcomes: Vec<(K, u32, u64)>,
-    fired: Vec<(usize, u64)>,
-    merges: Merges,
-}
-
-/// Whether ways that have become one behind a stage are looked for: where hardly any do, it costs more than it saves. The last stage
-/// always does.
-#[derive(Clone, Copy, Default)]
-struct Merges {
-    rare: bool,
-    states: u32,
-    made: usize,
-    left: usize,
-}
-
-impl Merges {
-    /// The ways made until it is judged anew, the share of them that is worth it, and the states of which one is looked at all the same.
-    const JUDGED: usize = 4096;
-    const WORTH: usize = 16;
-    const SAMPLE: u32 = 64;
-
-    /// Whether this state is looked at.
-    #[inline]
-    fn begin(&mut self) -> bool {
-        self.states = self.states.wrapping_add(1);
-        !self.rare || self.states % Self::SAMPLE == 0
-    }
-
-    /// What became of the ways.
-    fn end(&mut self, made: usize, left: usize) {
-        self.made += made;
-        self.left += left;
-        if self.made >= Self::JUDGED {
-            self.rare = (self.made - self.left) * Self::WORTH < self.made;
-            (self.made, self.left) = (0, 0);
-        }
-    }
-}
-
-/// What follows from a class and the values of the variables read: ranges of outcomes and of rules. Where there is a fault, no outcome.
-#[derive(Clone, Copy)]
-struct Known {
-    outcomes: (u32, u32),
-    fired: (u32, u32),
-}
-
-impl Known {
-    fn outcomes(self) -> Range<usize> {
-        self.outcomes.0 as usize..self.outcomes.1 as usize
-    }
-
-    fn fired(self) -> Range<usize> {
-        self.fired.0 as usize..self.fired.1 as usize
-    }
+/// Stages next to each other that are looked up as one: by the table of the first one if it is alone, else by one of their own.
+struct Group {
+    table: usize,
+    stages: Range<usize>,
 }
 
 /// A way through some stages: the index of the state so far, the class, the input combinations.
@@ -159,8 +98,13 @@ struct Way<K> {
 /// A work area of one thread.
 pub(crate) struct Staged<'a, K> {
     stages: Box<dyn Stages + 'a>,
-    parts: Vec<Part<K>>,
-    prefixes: Prefixes<K>,
+    /// What each stage writes.
+    writes: Vec<Vec<usize>>,
+    /// One for each stage, then those of groups.
+    tables: Vec<Table<K>>,
+    groups: Vec<Group>,
+    fusion: Fusion,
+    domains: &'a [Domain],
     packer: &'a Packer<K>,
     combinations: u128,
     before: Vec<i32>,
@@ -169,10 +113,10 @@ pub(crate) struct Staged<'a, K> {
     ways: Vec<Way<K>>,
     next: Vec<Way<K>>,
     merge: Merge,
+    /// The same three for the stages of a group.
+    inner: (Vec<Way<K>>, Vec<Way<K>>, Merge),
     /// The places looked up for this state, with the combinations that came there.
-    looked: Vec<Looked>,
-    /// The number of what each of the first stages reads.
-    numbers: Vec<u32>,
+    looked: Vec<(u32, u32, u128)>,
     marks: Vec<u128>,
     /// Of rules, from what was forgotten since.
     fired: Vec<(usize, u64)>,
@@ -198,24 +142,36 @@ impl<'a, K: Key> Staged<'a, K> {
         let stages = origin.stages(conditions)?;
         let domains = origin.domains();
         let mut owned = vec![false; domains.len()];
-        let mut parts = Vec::new();
+        let mut tables = Vec::new();
+        let mut writes = Vec::new();
         for stage in 0..stages.number() {
-            let part = Part::new(&*stages, stage, domains)?;
-            for variable in &part.writes {
-                if std::mem::replace(&mut owned[*variable], true) {
+            let combinations = u128::from(stages.combinations(stage));
+            // Products of weights and shares have to fit.
+            origin.combinations().checked_mul(combinations)?;
+            let reads = stages.reads(stage).iter().copied();
+            let mut table = Table::new(reads, combinations, domains)?;
+            table.merges.shift(stage);
+            tables.push(table);
+            let own = stages.writes(stage).to_vec();
+            for variable in &own {
+                if std::mem::replace(owned.get_mut(*variable)?, true) {
                     return None;
                 }
             }
-            // Products of weights and shares have to fit.
-            origin.combinations().checked_mul(part.combinations)?;
-            parts.push(part);
+            writes.push(own);
         }
         let whole = owned.iter().all(|owned| *owned);
+        let single = |stage: usize| Group {
+            table: stage,
+            stages: stage..stage + 1,
+        };
         whole.then(|| Staged {
-            prefixes: Prefixes::new(parts.len(), most / SHARE_OF_PREFIXES),
-            numbers: Vec::new(),
+            groups: (0..tables.len()).map(single).collect(),
+            fusion: Fusion::new(tables.len()),
             stages,
-            parts,
+            writes,
+            tables,
+            domains,
             packer,
             combinations: origin.combinations(),
             before: vec![0; domains.len()],
@@ -224,6 +180,7 @@ impl<'a, K: Key> Staged<'a, K> {
             ways: Vec::new(),
             next: Vec::new(),
             merge: Merge::default(),
+            inner: Default::default(),
             looked: Vec::new(),
             marks: Vec::new(),
             fired: Vec::new(),
@@ -238,97 +195,58 @@ impl<'a, K: Key> Staged<'a, K> {
     #[inline]
     pub(crate) fn cycles(&mut self, key: K) -> bool {
         self.packer.unpack(key, &mut self.before);
-        let begun = self.begin();
-        let from = begun.map_or(0, |(stages, _)| stages);
-        let counted = self.looked.len();
-        for stage in from..self.parts.len() {
-            let projection = match self.numbers.get(stage) {
-                Some(number) => *number,
-                None => self.parts[stage].projection(&self.before),
-            };
+        self.looked.clear();
+        self.ways.clear();
+        self.ways.push(Way {
+            key: K::of([0, 0]),
+            class: 0,
+            weight: self.combinations,
+        });
+        for group in 0..self.groups.len() {
+            let table = self.groups[group].table;
+            let projection = self.tables[table].projection(&self.before);
+            let last = group + 1 == self.groups.len();
+            let merges = self.tables[table].merges.begin() || last;
             self.next.clear();
-            let last = stage + 1 == self.parts.len();
-            let merges = self.parts[stage].merges.begin() || last;
             if merges {
                 self.merge.start();
             }
             let mut made = 0;
             for at in 0..self.ways.len() {
                 let way = self.ways[at];
-                let Some(place) = self.place(stage, projection, way.class) else {
-                    return false;
-                };
-                let part = &self.parts[stage];
-                let outcomes = &part.outcomes[part.known[place as usize].outcomes()];
-                self.looked.push((stage as u32, place, way.weight));
-                made += outcomes.len();
-                for (own, class, share) in outcomes {
-                    let key = way.key.plus(*own);
-                    let weight = match *share as u128 == part.combinations {
-                        true => way.weight,
-                        false => part_of(way.weight, *share, part.combinations),
-                    };
-                    let class = *class;
-                    if merges {
-                        let hash =
-                            key.hash() ^ u64::from(class).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-                        let next = &self.next;
-                        let same = |at: usize| next[at].key == key && next[at].class == class;
-                        if let Some(at) = self.merge.find(hash, next.len(), same) {
-                            self.next[at].weight += weight;
-                            continue;
-                        }
-                    }
-                    self.next.push(Way { key, class, weight });
+                let (place, fresh) = self.tables[table].place(projection, way.class);
+                if fresh {
+                    self.learn(group, way.class);
                 }
+                let of = &self.tables[table];
+                let known = of.known[place as usize];
+                if known.is_fault() {
+                    return false;
+                }
+                self.looked.push((table as u32, place, way.weight));
+                let outcomes = &of.outcomes[known.outcomes()];
+                made += outcomes.len();
+                let merge = merges.then_some(&mut self.merge);
+                follow(way, outcomes, of.whole, &mut self.next, merge);
             }
+            let of = &mut self.tables[table];
             if merges {
-                self.parts[stage].merges.end(made, self.next.len());
+                of.merges.end(made, self.next.len());
             }
+            of.traffic.ways += self.ways.len() as u64;
             std::mem::swap(&mut self.ways, &mut self.next);
-            if self.prefixes.wants(stage + 1) {
-                self.grown |= self.prefixes.keep(stage + 1, &self.ways, &self.looked);
-            }
         }
-        if let Some((_, node)) = begun {
-            self.prefixes.visit(node);
-        }
-        for looked in &self.looked[counted..] {
-            visit(&mut self.parts, self.combinations, looked, 1);
+        for (table, place, weight) in &self.looked {
+            let visits = &mut self.tables[*table as usize].visits[*place as usize];
+            visit(visits, Some(*weight), self.combinations);
         }
         if std::mem::take(&mut self.grown) {
             self.weigh();
         }
-        true
-    }
-
-    /// Begins behind the longest prefix of this state that is kept, if there is one: its stages and its node, which counts what has been
-    /// looked up in it.
-    #[inline]
-    fn begin(&mut self) -> Option<(usize, u32)> {
-        let (parts, before, numbers) = (&mut self.parts, &self.before, &mut self.numbers);
-        numbers.clear();
-        let kept = self.prefixes.walk(|stage| {
-            let number = parts[stage].projection(before);
-            numbers.push(number);
-            number
-        });
-        self.looked.clear();
-        self.ways.clear();
-        let Some((from, node)) = kept else {
-            self.ways.push(Way {
-                key: K::of([0, 0]),
-                class: 0,
-                weight: self.combinations,
-            });
-            return None;
-        };
-        self.ways.extend_from_slice(self.prefixes.ways(node));
-        // A longer one has them too.
-        if self.prefixes.wants_more(from) {
-            self.looked.extend_from_slice(self.prefixes.looked(node));
+        if self.fusion.is_due() {
+            self.fuse();
         }
-        kept
+        true
     }
 
     /// Makes all cycles from a state; none if one of them meets a fault.
@@ -354,50 +272,52 @@ impl<'a, K: Key> Staged<'a, K> {
         weights.fold(0, u128::wrapping_add)
     }
 
-    /// The place of what follows; none for a fault.
-    #[inline]
-    fn place(&mut self, stage: usize, projection: u32, class: u32) -> Option<u32> {
-        let part = &mut self.parts[stage];
-        let fresh = part.known.len() as u32;
-        let place = part.places.number(projection, class, fresh);
-        if place == fresh {
-            self.learn(stage, class);
+    /// Makes what follows from a class that comes to a group, for the next place of its table.
+    #[cold]
+    fn learn(&mut self, group: usize, class: u32) {
+        let Group { table, stages } = &self.groups[group];
+        let (table, stages) = (*table, stages.clone());
+        match table == stages.start {
+            true => self.learn_stage(table, class),
+            false => self.learn_group(table, stages, class),
         }
-        let (from, to) = self.parts[stage].known[place as usize].outcomes;
-        (from < to).then_some(place)
+        self.grown = true;
     }
 
-    /// Has a stage make its outcomes, for the next place.
-    #[cold]
-    fn learn(&mut self, stage: usize, class: u32) {
+    /// Has a stage make its outcomes.
+    fn learn_stage(&mut self, stage: usize, class: u32) {
         self.list.clear();
         let made = self
             .stages
             .outcomes(stage, &self.before, class, &mut self.list);
-        let last = stage + 1 == self.parts.len();
-        let part = &mut self.parts[stage];
-        let (from, fired) = (part.outcomes.len(), part.fired.len());
+        let last = stage + 1 == self.writes.len();
+        let writes = &self.writes[stage];
+        let table = &mut self.tables[stage];
+        let (from, counts) = (table.outcomes.len(), table.counts.len());
         let mut fault = made.is_err();
         for outcome in self.list.drain(..) {
-            for (variable, value) in part.writes.iter().zip(&outcome.after) {
+            for (variable, value) in writes.iter().zip(&outcome.after) {
                 self.after[*variable] = *value;
             }
-            let Some(own) = self.packer.share(&part.writes, &self.after) else {
+            let Some(own) = self.packer.share(writes, &self.after) else {
                 fault = true;
                 continue;
             };
-            let old = part.outcomes[from..]
+            let old = table.outcomes[from..]
                 .iter_mut()
                 .find(|(k, class, _)| (*k, *class) == (own, outcome.class));
             match old {
                 Some((_, _, share)) => *share += outcome.share,
-                None => part.outcomes.push((own, outcome.class, outcome.share)),
+                None => table.outcomes.push((own, outcome.class, outcome.share)),
             }
             if let Some(rule) = outcome.rule {
-                let old = part.fired[fired..].iter_mut().find(|(r, _)| *r == rule);
+                let old = table.counts[counts..].iter_mut().find_map(|old| match old {
+                    Count::Rule(r, share) if *r == rule => Some(share),
+                    _ => None,
+                });
                 match old {
-                    Some((_, share)) => *share += outcome.share,
-                    None => part.fired.push((rule, outcome.share)),
+                    Some(share) => *share += outcome.share,
+                    None => table.counts.push(Count::Rule(rule, outcome.share)),
                 }
             }
             if last {
@@ -408,15 +328,118 @@ impl<'a, K: Key> Staged<'a, K> {
                 self.marks[class] = self.stages.conditions(outcome.class);
             }
         }
-        if fault {
-            part.outcomes.truncate(from);
-        }
-        part.known.push(Known {
-            outcomes: (from as u32, part.outcomes.len() as u32),
-            fired: (fired as u32, part.fired.len() as u32),
+        table.learn(from, counts, fault);
+    }
+
+    /// Goes through the stages of a group.
+    fn learn_group(&mut self, table: usize, stages: Range<usize>, class: u32) {
+        let (mut ways, mut next, mut merge) = std::mem::take(&mut self.inner);
+        let whole = self.tables[table].whole;
+        let (from, counts) = (
+            self.tables[table].outcomes.len(),
+            self.tables[table].counts.len(),
+        );
+        let mut fault = false;
+        ways.clear();
+        ways.push(Way {
+            key: K::of([0, 0]),
+            class,
+            weight: whole,
         });
-        part.visits.push(0);
+        'stages: for stage in stages {
+            let projection = self.tables[stage].projection(&self.before);
+            next.clear();
+            merge.start();
+            for way in &ways {
+                let (place, fresh) = self.tables[stage].place(projection, way.class);
+                if fresh {
+                    self.learn_stage(stage, way.class);
+                }
+                let of = &self.tables[stage];
+                let known = of.known[place as usize];
+                if known.is_fault() {
+                    fault = true;
+                    break 'stages;
+                }
+                follow(
+                    *way,
+                    &of.outcomes[known.outcomes()],
+                    of.whole,
+                    &mut next,
+                    Some(&mut merge),
+                );
+                // The weights are parts of the whole, which is one of 64 bits.
+                let count = Count::Place(stage as u32, place, way.weight as u64);
+                self.tables[table].counts.push(count);
+            }
+            std::mem::swap(&mut ways, &mut next);
+        }
+        let outcomes = ways
+            .iter()
+            .map(|way| (way.key, way.class, way.weight as u64));
+        let own = &mut self.tables[table];
+        own.outcomes.extend(outcomes);
+        own.learn(from, counts, fault);
+        self.inner = (ways, next, merge);
+    }
+
+    /// Has more stages, or fewer, looked up as one.
+    #[cold]
+    fn fuse(&mut self) {
+        let traffic = |group: &Group| self.tables[group.table].traffic;
+        let seen: Vec<_> = self
+            .groups
+            .iter()
+            .map(|g| (g.stages.clone(), traffic(g)))
+            .collect();
+        let bytes = self.tables[self.writes.len()..]
+            .iter()
+            .map(Table::bytes)
+            .sum::<u64>();
+        let room = bytes < self.most / SHARE_OF_GROUPS;
+        match self.fusion.next(&seen, room) {
+            Some(Change::Fuse(group)) => {
+                let stages = seen[group].0.start..seen[group + 1].0.end;
+                match self.table(stages.clone()) {
+                    Some(mut table) => {
+                        table.merges.shift(group);
+                        self.tables.push(table);
+                        let table = self.tables.len() - 1;
+                        self.groups
+                            .splice(group..group + 2, [Group { table, stages }]);
+                    }
+                    None => self.fusion.close(stages),
+                }
+            }
+            Some(Change::Split(group)) => {
+                let stages = seen[group].0.clone();
+                let table = self.groups[group].table;
+                self.count_places(table);
+                self.tables[table].forget();
+                let single = |stage| Group {
+                    table: stage,
+                    stages: stage..stage + 1,
+                };
+                self.groups.splice(group..group + 1, stages.map(single));
+            }
+            None => {}
+        }
+        for table in &mut self.tables {
+            table.traffic = Traffic::default();
+        }
         self.grown = true;
+    }
+
+    /// A table for some stages together; none if numbers do not fit.
+    fn table(&self, stages: Range<usize>) -> Option<Table<K>> {
+        let tables = &self.tables[stages];
+        let whole = tables
+            .iter()
+            .try_fold(1, |all: u128, t| all.checked_mul(t.whole))?;
+        self.combinations
+            .checked_mul(u128::from(u64::try_from(whole).ok()?))?;
+        let reads: BTreeSet<usize> = tables.iter().flat_map(Table::reads).collect();
+        Table::new(reads, whole, self.domains)
     }
 
     /// Tells what is held, and forgets all if it is too much.
@@ -425,8 +448,7 @@ impl<'a, K: Key> Staged<'a, K> {
             let mut kept = std::mem::take(&mut self.fired);
             self.drain(&mut |rule, count| kept.push((rule, count)));
             self.fired = kept;
-            self.parts.iter_mut().for_each(Part::forget);
-            self.prefixes.forget();
+            self.tables.iter_mut().for_each(Table::forget);
         }
         let bytes = self.bytes();
         self.held
@@ -435,23 +457,48 @@ impl<'a, K: Key> Staged<'a, K> {
     }
 
     fn bytes(&self) -> u64 {
-        let parts = self.parts.iter().map(Part::bytes);
-        self.stages.bytes() + self.prefixes.bytes() + parts.sum::<u64>()
+        self.stages.bytes() + self.tables.iter().map(Table::bytes).sum::<u64>()
+    }
+
+    /// Counts what has come to the places of a group where it comes in its stages.
+    fn count_places(&mut self, table: usize) {
+        let (of, group) = self.tables.split_at_mut(table);
+        let Some(group) = group.first_mut() else {
+            return;
+        };
+        for (known, visits) in group.known.iter().zip(&mut group.visits) {
+            let visits = std::mem::take(visits);
+            if visits == 0 {
+                continue;
+            }
+            for count in &group.counts[known.counts()] {
+                if let Count::Place(stage, place, share) = count {
+                    let more = rational(visits, *share, group.whole);
+                    visit(
+                        &mut of[*stage as usize].visits[*place as usize],
+                        more,
+                        self.combinations,
+                    );
+                }
+            }
+        }
     }
 
     fn drain(&mut self, each: &mut dyn FnMut(usize, u64)) {
-        let (parts, combinations) = (&mut self.parts, self.combinations);
-        self.prefixes
-            .settle(|looked, states| visit(parts, combinations, looked, states));
-        for part in &mut self.parts {
-            for (known, visits) in part.known.iter().zip(&mut part.visits) {
+        let stages = self.writes.len();
+        (stages..self.tables.len()).for_each(|table| self.count_places(table));
+        for table in &mut self.tables[..stages] {
+            for (known, visits) in table.known.iter().zip(&mut table.visits) {
                 let visits = std::mem::take(visits);
                 if visits == 0 {
                     continue;
                 }
-                for (rule, share) in &part.fired[known.fired()] {
-                    let count = rational(visits, *share, part.combinations);
-                    each(*rule, u64::try_from(count).unwrap_or(u64::MAX));
+                for count in &table.counts[known.counts()] {
+                    if let Count::Rule(rule, share) = count {
+                        let count = rational(visits, *share, table.whole);
+                        let count = count.and_then(|count| u64::try_from(count).ok());
+                        each(*rule, count.unwrap_or(u64::MAX));
+                    }
                 }
             }
         }
@@ -477,14 +524,37 @@ impl<K> Drop for Staged<'_, K> {
     }
 }
 
-/// Counts the input combinations that have come to a place, from so many states.
+/// The ways that follow from one, added to a list; those that are one are made one if they are looked for.
 #[inline]
-fn visit<K>(parts: &mut [Part<K>], combinations: u128, looked: &Looked, states: u64) {
-    let (stage, place, weight) = *looked;
-    let visits = &mut parts[stage as usize].visits[place as usize];
-    let more = weight.checked_mul(u128::from(states));
+fn follow<K: Key>(
+    way: Way<K>,
+    outcomes: &[(K, u32, u64)],
+    whole: u128,
+    next: &mut Vec<Way<K>>,
+    mut merge: Option<&mut Merge>,
+) {
+    for (own, class, share) in outcomes {
+        let (key, class) = (way.key.plus(*own), *class);
+        let weight = match u128::from(*share) == whole {
+            true => way.weight,
+            false => part_of(way.weight, *share, whole),
+        };
+        if let Some(merge) = merge.as_deref_mut() {
+            let hash = key.hash() ^ u64::from(class).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+            let same = |at: usize| next[at].key == key && next[at].class == class;
+            if let Some(at) = merge.find(hash, next.len(), same) {
+                next[at].weight += weight;
+                continue;
+            }
+        }
+        next.push(Way { key, class, weight });
+    }
+}
+
+/// Counts more input combinations that have come to a place. So many that they do not fit, do not fit the counts of rules either.
+#[inline]
+fn visit(visits: &mut u128, more: Option<u128>, combinations: u128) {
     let sum = more.and_then(|more| visits.checked_add(more));
-    // So many do not fit the counts of rules either.
     *visits = sum.unwrap_or(u128::MAX / combinations * combinations);
 }
 
@@ -500,64 +570,10 @@ fn part_of(weight: u128, share: u64, whole: u128) -> u128 {
     }
 }
 
-/// The same for a sum of weights, which may be so large that the product does not fit.
-fn rational(visits: u128, share: u64, whole: u128) -> u128 {
+/// The same for a sum of weights; none if it is so large that it does not fit.
+fn rational(visits: u128, share: u64, whole: u128) -> Option<u128> {
     match visits.checked_mul(u128::from(share)) {
-        Some(product) => product / whole,
-        None => (visits / whole).saturating_mul(u128::from(share)),
-    }
-}
-
-impl<K: Key> Part<K> {
-    fn new(stages: &dyn Stages, stage: usize, domains: &[Domain]) -> Option<Self> {
-        let mut stride = 1u64;
-        let mut reads = Vec::new();
-        for variable in stages.reads(stage) {
-            let domain = domains.get(*variable)?;
-            reads.push((*variable, domain.lo, stride));
-            stride = stride.checked_mul(domain.size()).filter(|s| *s < 1 << 63)?;
-        }
-        let writes = stages.writes(stage).to_vec();
-        let fits = writes.iter().all(|variable| *variable < domains.len());
-        fits.then(|| Part {
-            reads,
-            writes,
-            combinations: u128::from(stages.combinations(stage)),
-            projections: Index::default(),
-            places: Places::default(),
-            known: Vec::new(),
-            visits: Vec::new(),
-            outcomes: Vec::new(),
-            fired: Vec::new(),
-            merges: Merges::default(),
-        })
-    }
-
-    /// The number of the values of the variables that it reads.
-    #[inline]
-    fn projection(&mut self, before: &[i32]) -> u32 {
-        let mut all = 0;
-        for (variable, lo, stride) in &self.reads {
-            all += u64::from((before[*variable] as u32).wrapping_sub(*lo as u32)) * stride;
-        }
-        let fresh = self.projections.len();
-        self.projections.number(all, fresh)
-    }
-
-    fn bytes(&self) -> u64 {
-        let lists = self.known.capacity() * size_of::<Known>()
-            + self.visits.capacity() * size_of::<u128>()
-            + self.outcomes.capacity() * size_of::<(K, u32, u64)>()
-            + self.fired.capacity() * size_of::<(usize, u64)>();
-        lists as u64 + self.projections.bytes() + self.places.bytes()
-    }
-
-    fn forget(&mut self) {
-        self.projections = Index::default();
-        self.places = Places::default();
-        self.known = Vec::new();
-        self.visits = Vec::new();
-        self.outcomes = Vec::new();
-        self.fired = Vec::new();
+        Some(product) => Some(product / whole),
+        None => (visits / whole).checked_mul(u128::from(share)),
     }
 }
