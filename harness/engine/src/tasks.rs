@@ -28,6 +28,9 @@ pub(crate) struct Explored {
 /// A task that is done, and what decides its outcome, if others may have the same.
 type Done = (Checked, Option<Identity>);
 
+/// The same, or why a system cannot be explored, with the task's title.
+type Answer = Result<Done, (String, Error)>;
+
 /// Makes the progress of a task.
 type Follow<'a> = dyn FnMut(&Task) -> Box<dyn Progress> + Send + 'a;
 
@@ -125,7 +128,7 @@ struct Ways<'a, 'f, Q> {
     progress: Mutex<&'a mut Follow<'f>>,
     /// The tasks that nobody has begun.
     queue: Mutex<Q>,
-    done: Mutex<Vec<Option<Result<Done, (String, Error)>>>>,
+    done: Mutex<Vec<Option<Answer>>>,
 }
 
 impl<'t, Q: Iterator<Item = (usize, &'t mut Task)>> Ways<'_, '_, Q> {
@@ -163,7 +166,7 @@ impl<'t, Q: Iterator<Item = (usize, &'t mut Task)>> Ways<'_, '_, Q> {
         self.queue().by_ref().for_each(drop);
     }
 
-    fn task(&self, number: usize, task: &mut Task) -> Result<Done, (String, Error)> {
+    fn task(&self, number: usize, task: &mut Task) -> Answer {
         let settings = self.settings;
         let keep = settings.keep.as_ref();
         let options = Options {
