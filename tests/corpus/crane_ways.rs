@@ -145,7 +145,7 @@ fn a_crane_stops_where_its_values_say_and_is_as_fast_as_they_say() {
     let least = travel.speed(100.0);
     let with = |speed: f64| {
         let speed = format!("speed = \"{speed} mm/min\"");
-        violated(&text, "speed    = \"90000 mm/min\"", speed, "transfer")
+        violated(&text, "speed    = \"87000 mm/min\"", speed, "transfer")
     };
     // Ways are whole millimetres there.
     assert!(!with(least + 150.0), "{least} mm/min and 150");

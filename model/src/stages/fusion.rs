@@ -84,3 +84,49 @@ impl Fusion {
         most.map(Change::Fuse)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn seen(groups: &[(Range<usize>, u64, u64)]) -> Vec<(Range<usize>, Traffic)> {
+        let one = |(stages, ways, fresh): &(Range<usize>, u64, u64)| {
+            let traffic = Traffic {
+                ways: *ways,
+                fresh: *fresh,
+            };
+            (stages.clone(), traffic)
+        };
+        groups.iter().map(one).collect()
+    }
+
+    #[test]
+    fn stages_with_the_most_ways_between_them_are_tried_first() {
+        let mut fusion = Fusion::new(4);
+        let all = seen(&[
+            (0..1, 256, 9),
+            (1..2, 700, 9),
+            (2..3, 9000, 9),
+            (3..4, 600, 9),
+        ]);
+        assert!(matches!(fusion.next(&all, true), Some(Change::Fuse(1))));
+        assert_eq!(fusion.due, TRIAL);
+        // Hardly anything goes between them.
+        let few = seen(&[(0..1, 256, 9), (1..4, 300, 9)]);
+        assert!(fusion.next(&few, true).is_none());
+        assert_eq!(fusion.due, LATER);
+    }
+
+    #[test]
+    fn what_is_mostly_new_is_taken_apart_and_not_tried_again() {
+        let mut fusion = Fusion::new(3);
+        let new = seen(&[(0..1, 256, 9), (1..3, 8000, 1001)]);
+        assert!(matches!(fusion.next(&new, true), Some(Change::Split(1))));
+        let apart = seen(&[(0..1, 256, 9), (1..2, 700, 9), (2..3, 8000, 9)]);
+        assert!(matches!(fusion.next(&apart, true), Some(Change::Fuse(0))));
+        let known = seen(&[(0..2, 8000, 1000), (2..3, 8000, 9)]);
+        assert!(fusion.next(&known, true).is_none());
+        // Without room nothing is taken together, and what is together is taken apart.
+        assert!(matches!(fusion.next(&known, false), Some(Change::Split(0))));
+    }
+}
