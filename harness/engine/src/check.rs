@@ -84,7 +84,7 @@ pub struct Checked {
     pub outcome: Outcome,
     /// The same was explored before, in this check or another one, and the outcome is that one's.
     pub again: bool,
-    /// Seconds from the begin of the check until its exploration had ended; 0 where nothing was explored.
+    /// Seconds from the begin of the check until its outcome was there; 0 where all is cited.
     pub ended: f64,
     /// Whether anything was explored: else all is known from theorems.
     pub explored: bool,

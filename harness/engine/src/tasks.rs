@@ -20,7 +20,7 @@ pub(crate) struct Explored {
     pub(crate) outcome: Outcome,
     /// It is the outcome of a task before it, or of another check.
     pub(crate) again: bool,
-    /// Seconds from the begin of the check; 0 where nothing was explored.
+    /// Seconds from the begin of the check until its outcome was there; 0 where all is cited.
     pub(crate) ended: f64,
     pub(crate) cited: Cited,
 }

@@ -13,6 +13,9 @@ const LATER: u32 = 8192;
 /// One of so many ways may be new to a group.
 const REUSE: u64 = 8;
 
+/// So much that is new to one group is a reason to look at it before its time.
+const MUCH: u64 = 1 << 14;
+
 /// Fewer ways than these in a trial are not worth it.
 const FEW: u64 = 2 * TRIAL as u64;
 
@@ -45,6 +48,13 @@ impl Fusion {
     pub(super) fn is_due(&mut self) -> bool {
         self.states += 1;
         self.states >= self.due
+    }
+
+    /// Looks at the groups after this state already, where one of them learns so much.
+    pub(super) fn learned(&mut self, traffic: Traffic) {
+        if traffic.fresh >= MUCH {
+            self.states = self.due;
+        }
     }
 
     /// The stages of a group that does not come about are not tried together again.
@@ -115,6 +125,16 @@ mod tests {
         let few = seen(&[(0..1, 256, 9), (1..4, 300, 9)]);
         assert!(fusion.next(&few, true).is_none());
         assert_eq!(fusion.due, LATER);
+    }
+
+    #[test]
+    fn what_learns_much_is_looked_at_soon() {
+        let mut fusion = Fusion::new(3);
+        let traffic = |fresh| Traffic { ways: 0, fresh };
+        fusion.learned(traffic(MUCH - 1));
+        assert!(!fusion.is_due());
+        fusion.learned(traffic(MUCH));
+        assert!(fusion.is_due());
     }
 
     #[test]

@@ -279,7 +279,10 @@ impl<'a, K: Key> Staged<'a, K> {
         let (table, stages) = (*table, stages.clone());
         match table == stages.start {
             true => self.learn_stage(table, class),
-            false => self.learn_group(table, stages, class),
+            false => {
+                self.learn_group(table, stages, class);
+                self.fusion.learned(self.tables[table].traffic);
+            }
         }
         self.grown = true;
     }
