@@ -5,7 +5,6 @@
 //! the explorer judges all properties. Without spin or gcc only the explorer is timed. Where SPIN has not ended after
 //! a minute, and 40 times what the explorer takes, it is stopped.
 
-use std::collections::BTreeMap;
 use std::process::{Command, Stdio};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
@@ -15,11 +14,8 @@ use stillpoint_harness::export::promela::promela;
 use stillpoint_harness::report::grouped;
 use stillpoint_lang::bind::Bound;
 use stillpoint_model::{Limits, Options, Storage};
-use stillpoint_tests::peer::{Folder, load, tools};
+use stillpoint_tests::peer::{Folder, TRUE_TIMES, Values, load, system, tools};
 use stillpoint_tests::root;
-
-/// Values of parameters in place of the defaults.
-type Values = &'static [(&'static str, i64)];
 
 /// A system to time: its file, its name, what it stands for, and values.
 const YARDSTICKS: [(&str, &str, &str, Values); 4] = [
@@ -45,13 +41,7 @@ const YARDSTICKS: [(&str, &str, &str, Values); 4] = [
         "spec/families/sinumerik-840d/axis.toml",
         "sinumerik-840d/axis/stop_pair",
         "coupled channels, true times",
-        &[
-            ("t_b", 25),
-            ("t_c", 25),
-            ("t_d", 34),
-            ("t_e", 50),
-            ("t_f", 9),
-        ],
+        TRUE_TIMES,
     ),
 ];
 
@@ -164,14 +154,7 @@ fn main() {
     );
     let peers = tools(&["spin", "gcc"]);
     for (file, name, kind, values) in YARDSTICKS {
-        let subject = load(&root().join(file));
-        let task = subject.tasks.iter().find(|t| t.bound.system.name == name);
-        let task = task.unwrap_or_else(|| panic!("{file} has no system {name}"));
-        let values: BTreeMap<String, Vec<i64>> = (values.iter())
-            .map(|(name, value)| ((*name).to_owned(), vec![*value]))
-            .collect();
-        let bound = Bound::new(task.bound.system.clone(), &values, &BTreeMap::new());
-        let bound = &bound.unwrap_or_else(|e| panic!("{name}: {e}"));
+        let bound = &system(file, name, values);
         let found = engine::run(bound, &options(0), false, &mut ());
         let report = found.unwrap_or_else(|e| panic!("{name}: {e}")).report;
         let most = LEAST.max(Duration::from_secs_f64(report.seconds) * PATIENCE);

@@ -4,7 +4,6 @@
 //! property by itself, as AIGER; without it its column is empty. Wall seconds with one thread; each contestant ends after [`LIMIT`] for
 //! each system.
 
-use std::collections::BTreeMap;
 use std::process::Command;
 use std::time::{Duration, Instant};
 
@@ -14,30 +13,17 @@ use stillpoint_harness::proof::{Choice, Every, Proof, Settings, Which, judge, ju
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::ir::Form;
 use stillpoint_model::{Limits, Options, Verdict};
-use stillpoint_tests::peer::{Folder, load};
-use stillpoint_tests::root;
+use stillpoint_tests::peer::{Folder, TRUE_TIMES, Values, system};
 
 /// What a contestant may take for a system.
 const LIMIT: Duration = Duration::from_secs(15);
 
-/// Parameter values in place of the defaults.
-type Values = &'static [(&'static str, i64)];
-
-/// Times of a machine in cycles, not scaled down.
-const TRUE: Values = &[
-    ("t_b", 25),
-    ("t_c", 25),
-    ("t_d", 34),
-    ("t_e", 50),
-    ("t_f", 9),
-];
-
 /// File, system, what it stands for, values.
 const SYSTEMS: [(&str, &str, &str, Values); 4] = [
     ("sinumerik-840d/axis", "stop", "default times", &[]),
-    ("sinumerik-840d/axis", "stop", "true times", TRUE),
+    ("sinumerik-840d/axis", "stop", "true times", TRUE_TIMES),
     ("sinumerik-840d/axis", "stop_pair", "default times", &[]),
-    ("sinumerik-840d/axis", "stop_pair", "true times", TRUE),
+    ("sinumerik-840d/axis", "stop_pair", "true times", TRUE_TIMES),
 ];
 
 #[test]
@@ -48,16 +34,8 @@ fn table() {
     );
     println!("| --- | --- | --- | --- | --- | --- | --- |");
     for (file, name, what, values) in SYSTEMS {
-        let subject = load(&root().join(format!("spec/families/{file}.toml")));
         let whole = format!("{file}/{name}");
-        let mut tasks = subject.tasks.iter();
-        let task = tasks.find(|t| t.bound.system.name == whole);
-        let task = task.unwrap_or_else(|| panic!("there is no system {whole}"));
-        let values: BTreeMap<String, Vec<i64>> = (values.iter())
-            .map(|(name, value)| ((*name).to_owned(), vec![*value]))
-            .collect();
-        let bound = Bound::new(task.bound.system.clone(), &values, &BTreeMap::new());
-        let bound = bound.unwrap_or_else(|e| panic!("{whole}: {e}"));
+        let bound = system(&format!("spec/families/{file}.toml"), &whole, values);
         println!(
             "| {whole}, {what} | {} | {} | {} | {} | {} | {} |",
             size(&bound),

@@ -8,7 +8,10 @@ use std::sync::{Arc, Mutex, OnceLock};
 
 use stillpoint_engine::check::{Settings, check};
 use stillpoint_engine::subject::{self, Readings, Subject, Task};
+use stillpoint_lang::bind::Bound;
 use stillpoint_model::Report;
+
+use crate::root;
 
 /// Whether these programs are there and start. A user without them sees that the test was skipped; where the environment has
 /// `CI`, it fails then.
@@ -47,7 +50,7 @@ pub fn starts(program: &str, option: &str) -> bool {
 /// # Panics
 /// If it is missing and `CI` is set.
 pub fn fetched(file: &str) -> Option<PathBuf> {
-    let path = crate::root().join("target/tools").join(file);
+    let path = root().join("target/tools").join(file);
     if path.exists() {
         return Some(path);
     }
@@ -66,6 +69,32 @@ pub fn shipped() -> Vec<PathBuf> {
     let mut files = crate::specification_files();
     files.retain(|path| has_system(path) && !path.ends_with("bench/two-axis.toml"));
     files
+}
+
+/// Values of parameters in place of the defaults.
+pub type Values = &'static [(&'static str, i64)];
+
+/// Times of a machine in cycles, not scaled down: of the stops of `sinumerik-840d/axis`.
+pub const TRUE_TIMES: Values = &[
+    ("t_b", 25),
+    ("t_c", 25),
+    ("t_d", 34),
+    ("t_e", 50),
+    ("t_f", 9),
+];
+
+/// A system of a file of the workspace with these values.
+///
+/// # Panics
+/// If the file has no such system, or it has not these parameters.
+pub fn system(file: &str, name: &str, values: Values) -> Bound {
+    let mut tasks = load(&root().join(file)).tasks.into_iter();
+    let task = tasks.find(|t| t.bound.system.name == name);
+    let task = task.unwrap_or_else(|| panic!("{file} has no system {name}"));
+    let values = values.iter();
+    let values = values.map(|(name, value)| ((*name).to_owned(), vec![*value]));
+    let bound = Bound::new(task.bound.system, &values.collect(), &BTreeMap::new());
+    bound.unwrap_or_else(|e| panic!("{name}: {e}"))
 }
 
 /// A folder that goes away with the value.

@@ -1,118 +1,16 @@
 //! `check`: explores every task of a subject and judges its properties.
 
-use std::collections::BTreeMap;
-use std::sync::{Arc, Mutex, PoisonError};
-use std::time::{Duration, Instant};
-
 use indexmap::IndexMap;
 use indexmap::map::Entry;
 use stillpoint_lang::ir::Property;
-use stillpoint_model::{
-    Cluster, Error, Interrupt, Limits, Options, Progress, Trace, Until, Verdict,
-};
+use stillpoint_model::{Error, Progress, Trace, Verdict};
 
-use crate::excluded::{Decisive, Exclusion, Judge, decisive};
-use crate::keep::Keep;
-use crate::known::Known;
-use crate::outcome::{Outcome, Reductions, label};
+pub use crate::checked::{Checked, Unfired};
+use crate::excluded::Decisive;
+use crate::outcome::label;
+pub use crate::settings::Settings;
 use crate::subject::{Subject, Task};
-use crate::tasks::{self, Explored};
-use crate::theorems::Theorems;
-
-/// How to check.
-#[derive(Debug, Clone, Default)]
-pub struct Settings {
-    /// Worker threads; 0 for all processors.
-    pub threads: usize,
-    /// Bytes for the explorer.
-    pub memory: Option<u64>,
-    /// Wall time for everything.
-    pub time: Option<Duration>,
-    /// Use the interpreter even where there is generated code.
-    pub interpret: bool,
-    /// Where to keep the explorations, so that the check can be continued.
-    pub keep: Option<Keep>,
-    /// Explore less where that keeps the verdicts.
-    pub reductions: Reductions,
-    /// Rebuild the runs that show what must be reachable, not only those that break a property.
-    pub witnesses: bool,
-    /// When an exploration ends; with [`Until::Violated`] what comes after the one that has found a violation is not explored.
-    pub until: Until,
-    /// Look for the parameters that decide a broken guarantee: an exploration for each of them.
-    pub decisive: bool,
-    /// The processes that explore together; none for this one alone.
-    pub cluster: Option<Arc<Cluster>>,
-    /// Ends everything from outside, as a limit would.
-    pub interrupt: Option<Interrupt>,
-    /// Explore nothing loosely, see [`crate::subject::Loose`].
-    pub exact: bool,
-    /// What other checks have explored, which need not be explored again; what this one explores is kept there.
-    pub known: Option<Arc<Known>>,
-    /// The theorems of the family, which need not be explored; none: all is explored.
-    pub theorems: Option<Arc<Theorems>>,
-}
-
-impl Settings {
-    /// The limits of what begins now, where `start` began the time.
-    pub fn limits(&self, start: Instant) -> Limits {
-        Limits {
-            memory: self.memory,
-            time: self.time.map(|t| t.saturating_sub(start.elapsed())),
-            threads: self.threads,
-        }
-    }
-
-    /// The settings for what follows, where `start` began the time.
-    #[must_use]
-    pub fn after(&self, start: Instant) -> Self {
-        Self {
-            time: self.limits(start).time,
-            ..self.clone()
-        }
-    }
-
-    /// Whether all was ended from outside.
-    pub fn interrupted(&self) -> bool {
-        self.interrupt.as_ref().is_some_and(Interrupt::is_raised)
-    }
-}
-
-/// What exploring one task gave.
-#[derive(Debug)]
-pub struct Checked {
-    /// The engine's outcome.
-    pub outcome: Outcome,
-    /// The same was explored before, in this check or another one, and the outcome is that one's.
-    pub again: bool,
-    /// Seconds from the begin of the check until its outcome was there; 0 where all is cited.
-    pub ended: f64,
-    /// Whether anything was explored: else all is known from theorems.
-    pub explored: bool,
-    /// Properties that are theorems of the family, by number: their verdict is no exploration's.
-    pub cited: Vec<usize>,
-    /// Rules that never fired: (name, why).
-    pub unfired: Vec<(String, Unfired)>,
-    /// Witnesses that the values of the machine exclude, by property number.
-    pub excluded: BTreeMap<usize, Exclusion>,
-    /// Parameters that alone decide that a guarantee is broken, by property number.
-    pub decisive: BTreeMap<usize, Vec<Decisive>>,
-}
-
-/// Beyond this many states of a broken guarantee it is not asked which parameter decides.
-const ASKED: u64 = 3_000_000;
-
-/// Why a rule never fired.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Unfired {
-    /// No state and input can make it fire under these parameters.
-    Parameters,
-    /// The specification gives the reason.
-    Explained(String),
-    /// Nothing explains it: a finding.
-    Unexplained,
-    /// The exploration did not end.
-    Unknown,
-}
+use crate::tasks;
 
 /// A verdict on one property id over all tasks.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -147,95 +45,6 @@ pub fn check(
 ) -> Result<Vec<Checked>, (String, Error)> {
     let machine = subject.machine.is_some();
     tasks::explore(&mut subject.tasks, machine, settings, progress)
-}
-
-/// What is told of an explored task: where `options` are those with which it was explored.
-pub(crate) fn told(
-    task: &Task,
-    mut explored: Explored,
-    judge: Option<&Mutex<Judge>>,
-    settings: &Settings,
-    options: &Options,
-) -> Result<Checked, Error> {
-    let outcome = &mut explored.outcome;
-    let unfired = match explored.cited.all {
-        true => Vec::new(),
-        false => unfired(task, outcome),
-    };
-    let excluded = match judge {
-        Some(judge) => {
-            let mut judge = judge.lock().unwrap_or_else(PoisonError::into_inner);
-            judge.of(task, outcome, options, settings.interpret)?
-        }
-        None => BTreeMap::new(),
-    };
-    let mut decided = BTreeMap::new();
-    let alone = settings.cluster.as_ref().is_none_or(|c| c.process() == 0);
-    let asked = settings.decisive && task.guarantee.is_some() && alone;
-    let judged = outcome.report.properties.iter().enumerate();
-    let broken = judged.filter(|(_, j)| j.verdict == Verdict::Violated);
-    for (k, _) in broken.filter(|_| asked && outcome.report.states <= ASKED) {
-        decided.insert(k, decisive(task, k, options, settings.interpret)?);
-    }
-    Ok(Checked {
-        outcome: explored.outcome,
-        again: explored.again,
-        ended: explored.ended,
-        unfired,
-        excluded,
-        decisive: decided,
-        explored: !explored.cited.all,
-        cited: explored.cited.properties,
-    })
-}
-
-/// How what begins now is explored, where `start` began the time.
-pub(crate) fn options(settings: &Settings, start: Instant) -> Options {
-    Options {
-        limits: settings.limits(start),
-        interrupt: settings.interrupt.clone(),
-        // Most reports tell the length of a witness only; rebuilding their runs takes as long as the search.
-        witnesses: settings.witnesses,
-        until: settings.until,
-        ..Options::default()
-    }
-}
-
-fn unfired(task: &Task, outcome: &Outcome) -> Vec<(String, Unfired)> {
-    let system = &task.bound.system;
-    let mut out = Vec::new();
-    if outcome
-        .reduction
-        .as_ref()
-        .is_some_and(|r| r.whole.is_none())
-    {
-        // Slices and orbits tell nothing about rules.
-        return out;
-    }
-    for (k, rule) in system.rules().enumerate() {
-        if outcome.report.coverage.get(k).is_some_and(|n| *n > 0) {
-            continue;
-        }
-        let general = match (rule.name.find('['), rule.name.find(']')) {
-            (Some(a), Some(b)) => format!("{}{}", &rule.name[..a], &rule.name[b + 1..]),
-            _ => rule.name.clone(),
-        };
-        let reason = system
-            .unreached
-            .iter()
-            .find(|(n, _)| *n == rule.name || *n == general);
-        let why = if task.analysis.dead.contains(&k) {
-            Unfired::Parameters
-        } else if let Some((_, reason)) = reason {
-            Unfired::Explained(reason.clone())
-        } else if outcome.report.complete {
-            Unfired::Unexplained
-        } else {
-            Unfired::Unknown
-        };
-        out.push((rule.name.clone(), why));
-    }
-    out
 }
 
 /// Rank of a verdict when several runs are put together: what says most about a fault comes first.

@@ -4,6 +4,7 @@
 //! whole or reduced ([`reduce`]), and judges its properties. What the answer is told in is no matter of this crate.
 
 pub mod check;
+mod checked;
 mod cycles;
 mod digest;
 pub mod excluded;
@@ -15,6 +16,7 @@ mod outcome;
 pub mod pairs;
 pub mod readings;
 pub mod reduce;
+mod settings;
 mod staged;
 mod stated;
 pub mod subject;

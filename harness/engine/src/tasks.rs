@@ -6,30 +6,21 @@ use std::time::Instant;
 
 use stillpoint_model::{Beside, Error, Options, Progress, Until, Verdict};
 
-use crate::check::{Checked, Settings, options, told};
+use crate::checked::{Answer, Checked, told};
 use crate::excluded::Judge;
 use crate::explore;
 use crate::known::{Claim, Identity, Known, identity};
 use crate::outcome::Outcome;
 use crate::reduce;
+use crate::settings::Settings;
 use crate::subject::Task;
 use crate::theorems::Cited;
-
-/// What exploring a task gave.
-pub(crate) struct Explored {
-    pub(crate) outcome: Outcome,
-    /// It is the outcome of a task before it, or of another check.
-    pub(crate) again: bool,
-    /// Seconds from the begin of the check until its outcome was there; 0 where all is cited.
-    pub(crate) ended: f64,
-    pub(crate) cited: Cited,
-}
 
 /// A task that is done, and what decides its outcome, if others may have the same.
 type Done = (Checked, Option<Identity>);
 
 /// The same, or why a system cannot be explored, with the task's title.
-type Answer = Result<Done, (String, Error)>;
+type Tried = Result<Done, (String, Error)>;
 
 /// Makes the progress of a task.
 type Follow<'a> = dyn FnMut(&Task) -> Box<dyn Progress> + Send + 'a;
@@ -128,7 +119,7 @@ struct Ways<'a, 'f, Q> {
     progress: Mutex<&'a mut Follow<'f>>,
     /// The tasks that nobody has begun.
     queue: Mutex<Q>,
-    done: Mutex<Vec<Option<Answer>>>,
+    done: Mutex<Vec<Option<Tried>>>,
 }
 
 impl<'t, Q: Iterator<Item = (usize, &'t mut Task)>> Ways<'_, '_, Q> {
@@ -166,13 +157,13 @@ impl<'t, Q: Iterator<Item = (usize, &'t mut Task)>> Ways<'_, '_, Q> {
         self.queue().by_ref().for_each(drop);
     }
 
-    fn task(&self, number: usize, task: &mut Task) -> Answer {
+    fn task(&self, number: usize, task: &mut Task) -> Tried {
         let settings = self.settings;
         let keep = settings.keep.as_ref();
         let options = Options {
             checkpoint: keep.map(|k| k.of(number, &task.bound)),
             beside: Some(self.beside.clone()),
-            ..options(settings, self.start)
+            ..settings.options(self.start)
         };
         let mut cited = Cited::take(settings.theorems.as_deref(), task);
         // What the processes of a cluster share, and what is kept for later, belongs to the system itself.
@@ -188,7 +179,7 @@ impl<'t, Q: Iterator<Item = (usize, &'t mut Task)>> Ways<'_, '_, Q> {
             None => self.own(task, &options)?,
         };
         cited.put_back(task, &mut outcome);
-        let explored = Explored {
+        let answer = Answer {
             outcome,
             again,
             ended: match nothing {
@@ -197,7 +188,7 @@ impl<'t, Q: Iterator<Item = (usize, &'t mut Task)>> Ways<'_, '_, Q> {
             },
             cited,
         };
-        let checked = told(task, explored, self.judge.as_ref(), settings, &options);
+        let checked = told(task, answer, self.judge.as_ref(), settings, &options);
         let checked = checked.map_err(|e| (task.title.clone(), e))?;
         Ok((checked, identity))
     }

@@ -87,12 +87,28 @@ struct Group {
     stages: Range<usize>,
 }
 
+impl Group {
+    fn single(stage: usize) -> Self {
+        Group {
+            table: stage,
+            stages: stage..stage + 1,
+        }
+    }
+}
+
 /// A way through some stages: the index of the state so far, the class, the input combinations.
 #[derive(Clone, Copy)]
 struct Way<K> {
     key: K,
     class: u32,
     weight: u128,
+}
+
+impl<K: Key> Way<K> {
+    fn begin(class: u32, weight: u128) -> Self {
+        let key = K::of([0, 0]);
+        Way { key, class, weight }
+    }
 }
 
 /// A work area of one thread.
@@ -161,12 +177,8 @@ impl<'a, K: Key> Staged<'a, K> {
             writes.push(own);
         }
         let whole = owned.iter().all(|owned| *owned);
-        let single = |stage: usize| Group {
-            table: stage,
-            stages: stage..stage + 1,
-        };
         whole.then(|| Staged {
-            groups: (0..tables.len()).map(single).collect(),
+            groups: (0..tables.len()).map(Group::single).collect(),
             fusion: Fusion::new(tables.len()),
             stages,
             writes,
@@ -197,11 +209,7 @@ impl<'a, K: Key> Staged<'a, K> {
         self.packer.unpack(key, &mut self.before);
         self.looked.clear();
         self.ways.clear();
-        self.ways.push(Way {
-            key: K::of([0, 0]),
-            class: 0,
-            weight: self.combinations,
-        });
+        self.ways.push(Way::begin(0, self.combinations));
         for group in 0..self.groups.len() {
             let table = self.groups[group].table;
             let projection = self.tables[table].projection(&self.before);
@@ -344,11 +352,7 @@ impl<'a, K: Key> Staged<'a, K> {
         );
         let mut fault = false;
         ways.clear();
-        ways.push(Way {
-            key: K::of([0, 0]),
-            class,
-            weight: whole,
-        });
+        ways.push(Way::begin(class, whole));
         'stages: for stage in stages {
             let projection = self.tables[stage].projection(&self.before);
             next.clear();
@@ -419,11 +423,8 @@ impl<'a, K: Key> Staged<'a, K> {
                 let table = self.groups[group].table;
                 self.count_places(table);
                 self.tables[table].forget();
-                let single = |stage| Group {
-                    table: stage,
-                    stages: stage..stage + 1,
-                };
-                self.groups.splice(group..group + 1, stages.map(single));
+                self.groups
+                    .splice(group..group + 1, stages.map(Group::single));
             }
             None => {}
         }

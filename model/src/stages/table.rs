@@ -158,15 +158,15 @@ pub(super) struct Merges {
 }
 
 impl Merges {
-    /// Looks at other states than a table before it.
-    pub(super) fn shift(&mut self, by: usize) {
-        self.states = self.states.wrapping_add(by as u32 * 7);
-    }
-
     /// The ways made until it is judged anew, the share of them that is worth it, and the states of which one is looked at all the same.
     const JUDGED: usize = 4096;
     const WORTH: usize = 16;
     const SAMPLE: u32 = 64;
+
+    /// Looks at other states than a table before it.
+    pub(super) fn shift(&mut self, by: usize) {
+        self.states = self.states.wrapping_add(by as u32 * 7);
+    }
 
     /// Whether this state is looked at.
     #[inline]
