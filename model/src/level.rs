@@ -168,26 +168,24 @@ impl<O: Origin, T: Store> Level<'_, O, T> {
         else {
             return false;
         };
-        if !staged.cycles(key) {
-            return false;
-        }
-        let (mut stays, mut shown, mut last) = (true, 0, key);
-        let ends = staged.ends();
-        *unwatched += ends.len() as u32;
-        for (after, marks) in ends {
-            stays &= after == key;
+        let mut last = key;
+        let news = staged.news(key, |after, marks| {
             if after != last {
                 self.store.visit(local, after);
                 last = after;
             }
-            shown |= marks;
             let mut duties = marks & self.watched.pending;
             while duties != 0 {
                 let (property, _) = self.watched.events[duties.trailing_zeros() as usize];
                 self.pending[property].insert(&mut pending[property], after);
                 duties &= duties - 1;
             }
-        }
+        });
+        let Some(news) = news else {
+            return false;
+        };
+        *unwatched += news.made as u32 + 1;
+        let mut shown = news.marks;
         shown &= !self.watched.pending;
         while shown != 0 {
             let (property, event) = self.watched.events[shown.trailing_zeros() as usize];
@@ -203,11 +201,10 @@ impl<O: Origin, T: Store> Level<'_, O, T> {
             *unwatched = 0;
             *broken = self.over();
         }
-        let weight = staged.weight();
         worker.explored += 1;
-        worker.weights = worker.weights.wrapping_add(weight);
-        worker.transitions = worker.transitions.saturating_add(weight);
-        if stays {
+        worker.weights = worker.weights.wrapping_add(news.weight);
+        worker.transitions = worker.transitions.saturating_add(news.weight);
+        if news.stays {
             self.absorbing(worker, key);
         }
         true

@@ -14,11 +14,20 @@ pub const COMMAND: &str = "cargo run -p stillpoint-proofs --bin inventory";
 
 /// Runs every enumeration on the production monitors.
 pub fn results() -> Vec<(&'static Entry, Count)> {
-    let entries: Vec<&Entry> = inventory::all().collect();
+    results_of(inventory::all().collect())
+}
+
+/// Runs some enumerations on the production monitors.
+pub fn results_of(entries: Vec<&'static Entry>) -> Vec<(&'static Entry, Count)> {
     entries
         .into_par_iter()
         .map(|entry| (entry, (entry.enumerate)(&Subject::PRODUCTION)))
         .collect()
+}
+
+/// What the page says of one harness: its line in the table, and the section below it.
+pub fn told(entry: &Entry, count: &Count, kani: &Results) -> [String; 2] {
+    [line(entry, count, kani), details(entry, count)]
 }
 
 /// The page as Markdown, from the results of the enumerations and the answers of Kani. The same results always give the same
@@ -39,22 +48,25 @@ pub fn render(results: &[(&Entry, Count)], kani: &Results) -> String {
     );
     page.push_str("| --- | --- | --- | --- | --- | --- | --- | --- |\n");
     for (entry, count) in results {
-        let _ = writeln!(
-            page,
-            "| `{}` | {} | {} | {} | test | {} | {} | {} |",
-            entry.id,
-            entry.property,
-            stands_for(entry),
-            verdict(count),
-            answer(entry, kani),
-            entry.bound,
-            caveat(entry),
-        );
+        page.push_str(&line(entry, count, kani));
     }
     for (entry, count) in results {
-        details(&mut page, entry, count);
+        page.push_str(&details(entry, count));
     }
     page
+}
+
+fn line(entry: &Entry, count: &Count, kani: &Results) -> String {
+    format!(
+        "| `{}` | {} | {} | {} | test | {} | {} | {} |\n",
+        entry.id,
+        entry.property,
+        stands_for(entry),
+        verdict(count),
+        answer(entry, kani),
+        entry.bound,
+        caveat(entry),
+    )
 }
 
 const HEAD: &str = "# Proof inventory\n
@@ -199,9 +211,8 @@ fn verdict(count: &Count) -> String {
     }
 }
 
-fn details(page: &mut String, entry: &Entry, count: &Count) {
-    let _ = write!(
-        page,
+fn details(entry: &Entry, count: &Count) -> String {
+    let mut page = format!(
         "\n## `{}`\n\nMonitor: {}. Domain of the enumeration: {}.\n\n",
         entry.id,
         entry.monitor,
@@ -229,6 +240,7 @@ fn details(page: &mut String, entry: &Entry, count: &Count) {
             );
         }
     }
+    page
 }
 
 /// A number with its digits in groups of three.

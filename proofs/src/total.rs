@@ -60,7 +60,7 @@ fn count<T: Fields>() -> u32 {
 }
 
 /// A step of the domain of the enumeration.
-fn ends<M: Contract>(source: &mut impl Source) -> Option<Case<M>> {
+pub fn ends<M: Contract>(source: &mut impl Source) -> Option<Case<M>> {
     let numbers = count::<M::State>() + count::<M::Config>() + count::<M::Inputs>();
     // A type without a number has nothing to set: its place stands for none.
     let first = source.any_in(0, numbers);
@@ -159,45 +159,4 @@ pub fn called<M: Contract>(source: &mut impl Source) {
         !initial || count::<M::State>() == 0,
         "a call in another one"
     );
-}
-
-#[cfg(test)]
-mod tests {
-    use stillpoint_monitors::srm::{add_dint, load_monitor};
-
-    use super::*;
-    use crate::inventory::NARROW;
-
-    #[test]
-    fn two_numbers_are_apart() {
-        let mut steps = Vec::new();
-        enumerate(NARROW, 0, |source| {
-            steps.push(ends::<add_dint::Monitor>(source).expect("no configuration is refused"));
-            Verdict::Held
-        });
-        let has = |operand1, operand2| {
-            let inputs = add_dint::Inputs { operand1, operand2 };
-            steps.iter().any(|step| step.2 == inputs)
-        };
-        assert!(
-            has(i32::MIN, i32::MAX) && has(1, 1) && has(0, i32::MIN) && has(i32::MAX, i32::MAX)
-        );
-    }
-
-    /// An addition that is not checked is found, and nothing in the production monitor.
-    #[test]
-    fn an_overflow_is_found() {
-        let next = |state: load_monitor::State,
-                    config: &load_monitor::Config,
-                    inputs: &load_monitor::Inputs| {
-            let difference = inputs.load1 - inputs.load2;
-            let (after, mut outputs) = load_monitor::next(state, config, inputs);
-            outputs.error |= difference > config.maxtol_load;
-            (after, outputs)
-        };
-        let count = enumerated::<load_monitor::Monitor>(NARROW, next);
-        assert_eq!(count.broken.map(|(law, _)| law), Some("no_call_panics"));
-        let count = enumerated::<load_monitor::Monitor>(NARROW, load_monitor::next);
-        assert!(count.proves());
-    }
 }

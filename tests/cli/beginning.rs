@@ -160,42 +160,6 @@ functions =";
     );
 }
 
-/// The reset button of the press in its safe PLC program, and the contactors of its drive.
-#[test]
-fn a_press_from_nothing_to_a_clean_verdict() {
-    let options = ["--name", "press", "--linear", "Y"];
-    to_a_clean_verdict(
-        "heidenhain-fs",
-        &options,
-        "front_axes_som_1",
-        |folder, _, text| {
-            let button = crate::common::root().join("tests/machines/reset-button.st");
-            let button = std::fs::read_to_string(button).expect("the program");
-            folder.write("reset.st", &button);
-            let text = text.replace(
-                "[guarantee.reset]",
-                "[guarantee.reset]\nbutton_contacts = 2",
-            );
-            let more = "
-[logic.reset_logic]
-source = \"reset.st\"
-
-[guarantee.drive]
-pattern    = \"contactor\"
-axes       = [\"Y\"]
-contactors = 2
-switching  = \"60 ms\"
-within     = \"66 ms\"
-
-[[accepted]]
-warning = \"brake-test-none\"
-reason  = \"The ram lies level: nothing sags when the drive is off.\"
-";
-            text + more
-        },
-    );
-}
-
 /// The brake of its vertical axis.
 #[test]
 fn a_gantry_from_nothing_to_a_clean_verdict() {
@@ -327,24 +291,6 @@ fn what_cannot_begin_is_refused_and_nothing_is_overwritten() {
     assert_eq!(std::fs::read_to_string(&file).expect("the file"), "mine");
 }
 
-/// The place where a sweep finds the change is that of a check with the values beside it.
-#[test]
-fn a_sweep_agrees_with_checks() {
-    let folder = Folder::new("sweep");
-    let text = std::fs::read_to_string(crate::common::root().join(MILLING)).expect("the machine");
-    let sweep = |within: &str| {
-        let text = text.replacen("within  = \"1.3 s\"", &format!("within  = \"{within}\""), 1);
-        let file = folder.write("machine.toml", &text);
-        let arguments = ["check", &file, "--sweep", "guarantee.table.way"];
-        let output = command(&arguments).output().expect("it runs");
-        (status(&output), stdout(&output))
-    };
-    // 1.248 s is the tightest bound of a check.
-    assert_eq!(sweep("1248 ms").0, 0);
-    let (status, said) = sweep("1247 ms");
-    assert_eq!(status, 1, "{said}");
-}
-
 /// What takes a minute: `.ci/run` has it beside the daily tests.
 mod slow {
     use super::*;
@@ -368,5 +314,62 @@ mod slow {
             said.push_str(&session(&arguments, &output));
         }
         insta::assert_snapshot!(said);
+    }
+
+    /// The reset button of the press in its safe PLC program, and the contactors of its drive.
+    #[test]
+    #[ignore = "slow: a step of .ci/run"]
+    fn a_press_from_nothing_to_a_clean_verdict() {
+        let options = ["--name", "press", "--linear", "Y"];
+        to_a_clean_verdict(
+            "heidenhain-fs",
+            &options,
+            "front_axes_som_1",
+            |folder, _, text| {
+                let button = crate::common::root().join("tests/machines/reset-button.st");
+                let button = std::fs::read_to_string(button).expect("the program");
+                folder.write("reset.st", &button);
+                let text = text.replace(
+                    "[guarantee.reset]",
+                    "[guarantee.reset]\nbutton_contacts = 2",
+                );
+                let more = "
+[logic.reset_logic]
+source = \"reset.st\"
+
+[guarantee.drive]
+pattern    = \"contactor\"
+axes       = [\"Y\"]
+contactors = 2
+switching  = \"60 ms\"
+within     = \"66 ms\"
+
+[[accepted]]
+warning = \"brake-test-none\"
+reason  = \"The ram lies level: nothing sags when the drive is off.\"
+";
+                text + more
+            },
+        );
+    }
+
+    /// The place where a sweep finds the change is that of a check with the values beside it.
+    #[test]
+    #[ignore = "slow: a step of .ci/run"]
+    fn a_sweep_agrees_with_checks() {
+        let folder = Folder::new("sweep");
+        let text =
+            std::fs::read_to_string(crate::common::root().join(MILLING)).expect("the machine");
+        let sweep = |within: &str| {
+            let text = text.replacen("within  = \"1.3 s\"", &format!("within  = \"{within}\""), 1);
+            let file = folder.write("machine.toml", &text);
+            let arguments = ["check", &file, "--sweep", "guarantee.table.way"];
+            let output = command(&arguments).output().expect("it runs");
+            (status(&output), stdout(&output))
+        };
+        // 1.248 s is the tightest bound of a check.
+        assert_eq!(sweep("1248 ms").0, 0);
+        let (status, said) = sweep("1247 ms");
+        assert_eq!(status, 1, "{said}");
     }
 }

@@ -44,57 +44,6 @@ fn unusual_values_are_told_with_place_reason_and_what_is_better() {
     insta::assert_snapshot!(said);
 }
 
-/// A warning and a verdict never mix: everything holds, and the warning is beside it.
-#[test]
-fn a_check_tells_warnings_apart_from_verdicts() {
-    let folder = Folder::new("values");
-    let page = folder.file("report.html");
-    let output = stillpoint(&["check", FAST, "--json", "--html", &page, "--deny-warnings"]);
-    assert_eq!(status(&output), 1, "{}", stderr(&output));
-    assert!(
-        stderr(&output).starts_with("error: 2 warnings about the values"),
-        "{}",
-        stderr(&output)
-    );
-    let report: Value = serde_json::from_str(&stdout(&output)).expect("JSON");
-    let verdicts = report["properties"].as_array().expect("properties").iter();
-    let verdicts: Vec<&str> = verdicts.filter_map(|p| p["verdict"].as_str()).collect();
-    assert!(verdicts.len() > 20);
-    assert!(
-        verdicts
-            .iter()
-            .all(|v| ["holds", "reached", "unreachable"].contains(v))
-    );
-    let warnings = report["warnings"].as_array().expect("warnings");
-    let ids: Vec<&str> = warnings.iter().filter_map(|w| w["id"].as_str()).collect();
-    assert_eq!(
-        ids,
-        [
-            "door-stage-fast",
-            "stage-without-effect",
-            "door-stage-not-slowest"
-        ]
-    );
-    let door = &warnings[2];
-    assert_eq!((&door["line"], &door["column"]), (&23.into(), &8.into()));
-    assert_eq!(door["of"], "door front, axis X");
-    assert_eq!(door["file"], FAST);
-    assert_eq!(door["values"][0]["name"], "open");
-    assert_eq!(door["values"][1]["name"], "VELO_LIMIT[3]");
-    assert_eq!(door["values"][1]["value"], "10000 mm/min");
-    assert_eq!(door["accepted"], Value::Null);
-    let accepted = warnings[1]["accepted"].as_str().expect("a reason");
-    let html = std::fs::read_to_string(&page).expect("the page");
-    for text in [
-        accepted,
-        "door-stage-not-slowest",
-        "These values",
-        "NO GUARANTEE IS ASKED",
-    ] {
-        assert!(html.contains(text), "{text}");
-    }
-}
-
 /// The same as text and as Markdown, of a machine that is checked in a second.
 #[test]
 fn warnings_stand_before_the_properties_and_can_be_denied() {
@@ -246,4 +195,61 @@ fn parameters_in_json_have_what_the_text_has() {
     has("systems", "system", "selection (axis.toml)");
     has("sources", "id", "S840D-PARAM-020");
     assert_eq!(one["functions"][0], "Safe operating stop (SBH)");
+}
+
+/// What takes a minute: `.ci/run` has it beside the daily tests.
+mod slow {
+    use super::*;
+
+    /// A warning and a verdict never mix: everything holds, and the warning is beside it.
+    #[test]
+    #[ignore = "slow: a step of .ci/run"]
+    fn a_check_tells_warnings_apart_from_verdicts() {
+        let folder = Folder::new("values");
+        let page = folder.file("report.html");
+        let output = stillpoint(&["check", FAST, "--json", "--html", &page, "--deny-warnings"]);
+        assert_eq!(status(&output), 1, "{}", stderr(&output));
+        assert!(
+            stderr(&output).starts_with("error: 2 warnings about the values"),
+            "{}",
+            stderr(&output)
+        );
+        let report: Value = serde_json::from_str(&stdout(&output)).expect("JSON");
+        let verdicts = report["properties"].as_array().expect("properties").iter();
+        let verdicts: Vec<&str> = verdicts.filter_map(|p| p["verdict"].as_str()).collect();
+        assert!(verdicts.len() > 20);
+        assert!(
+            verdicts
+                .iter()
+                .all(|v| ["holds", "reached", "unreachable"].contains(v))
+        );
+        let warnings = report["warnings"].as_array().expect("warnings");
+        let ids: Vec<&str> = warnings.iter().filter_map(|w| w["id"].as_str()).collect();
+        assert_eq!(
+            ids,
+            [
+                "door-stage-fast",
+                "stage-without-effect",
+                "door-stage-not-slowest"
+            ]
+        );
+        let door = &warnings[2];
+        assert_eq!((&door["line"], &door["column"]), (&23.into(), &8.into()));
+        assert_eq!(door["of"], "door front, axis X");
+        assert_eq!(door["file"], FAST);
+        assert_eq!(door["values"][0]["name"], "open");
+        assert_eq!(door["values"][1]["name"], "VELO_LIMIT[3]");
+        assert_eq!(door["values"][1]["value"], "10000 mm/min");
+        assert_eq!(door["accepted"], Value::Null);
+        let accepted = warnings[1]["accepted"].as_str().expect("a reason");
+        let html = std::fs::read_to_string(&page).expect("the page");
+        for text in [
+            accepted,
+            "door-stage-not-slowest",
+            "These values",
+            "NO GUARANTEE IS ASKED",
+        ] {
+            assert!(html.contains(text), "{text}");
+        }
+    }
 }

@@ -244,3 +244,14 @@ fn a_page_that_is_old_missing_or_left_over_is_told() {
     );
     std::fs::remove_dir_all(&folder).expect("removed");
 }
+
+/// The report folds the inventory of the proofs away: each harness of the page is a row of it.
+#[test]
+fn every_harness_of_the_page_is_a_row_of_the_report() {
+    let page = std::fs::read_to_string(root().join("docs/src/proofs.md")).expect("the page");
+    let said = page.split(" harnesses,").next();
+    let said = said.and_then(|before| before.rsplit(' ').next()?.parse::<usize>().ok());
+    let rows = stillpoint_harness::report::inventory::rows();
+    assert_eq!(Some(rows.len()), said);
+    assert!(rows.iter().all(|row| row.len() == 7), "seven cells each");
+}

@@ -133,31 +133,6 @@ fn centre(deep: bool) -> Subject {
     subject
 }
 
-#[test]
-fn the_machining_centre_keeps_every_property() {
-    assert!(MACHINING_CENTRE.0.tasks.len() >= 10);
-    let properties = keeps_every_property(&MACHINING_CENTRE, &CENTRE);
-    assert!(properties >= 200, "{properties}");
-}
-
-/// An exploration is spared exactly where the same system with the same values was explored before.
-#[test]
-fn equal_explorations_are_made_once() {
-    let (subject, checked) = &*MACHINING_CENTRE;
-    let mut spared = 0;
-    for (n, (task, done)) in subject.tasks.iter().zip(checked).enumerate() {
-        let mut before = subject.tasks[..n].iter().zip(checked);
-        let same = before.find(|(earlier, _)| earlier.bound == task.bound);
-        assert_eq!(same.is_some(), done.again, "{}", task.title);
-        if let Some((_, first)) = same {
-            let verdicts = |c: &Checked| c.outcome.report.properties.clone();
-            assert_eq!(verdicts(first), verdicts(done), "{}", task.title);
-            spared += 1;
-        }
-    }
-    assert!(spared >= 2, "{spared}");
-}
-
 /// Two at a time or one after the other: the same outcomes, and the same of them are those of a run before.
 #[test]
 fn explorations_side_by_side_tell_the_same() {
@@ -222,4 +197,36 @@ fn a_program_that_ignores_the_doors_is_found() {
     }
     let summaries = summarise(&subject, &checked);
     assert_eq!(exit_status(&summaries, &checked), 1);
+}
+
+/// What takes a minute: `.ci/run` has it beside the daily tests.
+mod slow {
+    use super::*;
+
+    #[test]
+    #[ignore = "slow: a step of .ci/run"]
+    fn the_machining_centre_keeps_every_property() {
+        assert!(MACHINING_CENTRE.0.tasks.len() >= 10);
+        let properties = keeps_every_property(&MACHINING_CENTRE, &CENTRE);
+        assert!(properties >= 200, "{properties}");
+    }
+
+    /// An exploration is spared exactly where the same system with the same values was explored before.
+    #[test]
+    #[ignore = "slow: a step of .ci/run"]
+    fn equal_explorations_are_made_once() {
+        let (subject, checked) = &*MACHINING_CENTRE;
+        let mut spared = 0;
+        for (n, (task, done)) in subject.tasks.iter().zip(checked).enumerate() {
+            let mut before = subject.tasks[..n].iter().zip(checked);
+            let same = before.find(|(earlier, _)| earlier.bound == task.bound);
+            assert_eq!(same.is_some(), done.again, "{}", task.title);
+            if let Some((_, first)) = same {
+                let verdicts = |c: &Checked| c.outcome.report.properties.clone();
+                assert_eq!(verdicts(first), verdicts(done), "{}", task.title);
+                spared += 1;
+            }
+        }
+        assert!(spared >= 2, "{spared}");
+    }
 }

@@ -11,7 +11,7 @@ use stillpoint_machine as machine;
 use stillpoint_model::{Until, Verdict};
 use stillpoint_tests::guarantees::decided;
 use stillpoint_tests::peer::each;
-use stillpoint_tests::root;
+use stillpoint_tests::{daily, root};
 
 const LATHE: &str = "spec/machines/lathe-840d";
 const INTERLOCK: &str = "tests/machines/interlock-840d";
@@ -116,28 +116,6 @@ fn judged(path: &std::path::Path, guarantee: &str, until: Until) -> (Verdict, Ve
 }
 
 #[test]
-fn the_lathe_keeps_what_it_guarantees() {
-    let lathe = root().join(format!("{LATHE}.toml"));
-    for name in [
-        "slides",
-        "work",
-        "emergency_stop",
-        "emergency_stop_work",
-        "setting_up",
-        "acknowledge",
-        "acknowledge_work",
-        "tests",
-        "tests_work",
-    ] {
-        assert_eq!(
-            judged(&lathe, name, Until::Complete).0,
-            Verdict::Holds,
-            "{name}"
-        );
-    }
-}
-
-#[test]
 fn a_door_that_is_confirmed_keeps_what_it_guarantees() {
     let machine = root().join(format!("{INTERLOCK}.toml"));
     for name in [
@@ -168,11 +146,10 @@ fn a_press_with_modes_a_lock_and_contactors_keeps_what_it_guarantees() {
     }
 }
 
-#[test]
-fn every_mistake_of_the_safe_logic_breaks_a_guarantee() {
-    let cases = cases().mistake.into_iter().enumerate().collect::<Vec<_>>();
+/// Judges these mistakes.
+fn each_breaks(cases: &[(usize, Case)]) {
     assert!(cases.len() >= 10);
-    let wrong = each(&cases, |(k, case)| {
+    let wrong = each(cases, |(k, case)| {
         let name = case.breaks.as_ref().expect("a guarantee");
         let (verdict, lines) = judged(&written(*k, case), name, Until::Violated);
         let line = case.line.as_deref().unwrap_or("");
@@ -182,6 +159,11 @@ fn every_mistake_of_the_safe_logic_breaks_a_guarantee() {
     });
     let wrong: Vec<String> = wrong.into_iter().flatten().collect();
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn mistakes_of_the_safe_logic_break_guarantees() {
+    each_breaks(&daily(cases().mistake.into_iter().enumerate().collect()));
 }
 
 #[test]
@@ -303,4 +285,38 @@ fn a_contact_that_the_program_does_not_know_is_an_error() {
         told.contains("guarantee slides") && told.contains("contact names no signal"),
         "{told}"
     );
+}
+
+/// What takes a minute: `.ci/run` has it beside the daily tests.
+mod slow {
+    use super::*;
+
+    #[test]
+    #[ignore = "slow: a step of .ci/run"]
+    fn every_mistake_of_the_safe_logic_breaks_a_guarantee() {
+        each_breaks(&cases().mistake.into_iter().enumerate().collect::<Vec<_>>());
+    }
+
+    #[test]
+    #[ignore = "slow: a step of .ci/run"]
+    fn the_lathe_keeps_what_it_guarantees() {
+        let lathe = root().join(format!("{LATHE}.toml"));
+        for name in [
+            "slides",
+            "work",
+            "emergency_stop",
+            "emergency_stop_work",
+            "setting_up",
+            "acknowledge",
+            "acknowledge_work",
+            "tests",
+            "tests_work",
+        ] {
+            assert_eq!(
+                judged(&lathe, name, Until::Complete).0,
+                Verdict::Holds,
+                "{name}"
+            );
+        }
+    }
 }

@@ -163,3 +163,49 @@ fn no_comment_has_an_example_that_nothing_runs() {
         }
     }
 }
+
+/// Of the libraries with `test = false` no test in the sources would be run, but for those of the modules that `harness/tests/unit`
+/// compiles alone.
+#[test]
+fn no_library_has_tests_that_nothing_runs() {
+    let folder = root().join("harness/tests/unit");
+    let unit = std::fs::read_to_string(folder.join("main.rs")).expect("readable");
+    let alone = unit
+        .split('"')
+        .filter(|text| text.starts_with("../../src/"));
+    let alone: Vec<PathBuf> = alone
+        .map(|path| folder.join(path).canonicalize().expect("a module"))
+        .collect();
+    assert!(alone.len() >= 9, "{alone:?}");
+    let is_alone = |path: &Path| {
+        let path = path.canonicalize().expect("a source");
+        let inside = |module: &PathBuf| {
+            let folder = module.parent().filter(|_| module.ends_with("mod.rs"));
+            folder.is_some_and(|folder| path.starts_with(folder))
+        };
+        alone.contains(&path) || alone.iter().any(inside)
+    };
+    let mut all = Vec::new();
+    for folder in ["harness", "impl", "model", "proofs", "spec", "tests"] {
+        sources(&root().join(folder), &[], &mut all);
+    }
+    let manifest = |path: &Path| {
+        let folders = path.ancestors().skip(1);
+        let mut manifests = folders.map(|folder| folder.join("Cargo.toml"));
+        let manifest = manifests.find(|manifest| manifest.is_file());
+        std::fs::read_to_string(manifest.expect("a crate")).expect("readable")
+    };
+    let mut libraries = 0;
+    for path in all {
+        let below = path.strip_prefix(root()).expect("below the root");
+        let in_tests = below.components().any(|part| part.as_os_str() == "tests");
+        if in_tests || !manifest(&path).contains("\ntest = false") || is_alone(&path) {
+            continue;
+        }
+        let text = std::fs::read_to_string(&path).expect("readable");
+        let has_tests = text.lines().any(|line| line.trim() == "#[test]");
+        assert!(!has_tests, "{}: never run", path.display());
+        libraries += 1;
+    }
+    assert!(libraries > 100, "{libraries} files");
+}

@@ -60,8 +60,8 @@ fn holds(number: usize) {
 
 /// A test for each part.
 macro_rules! parts {
-    ($($(#[$attribute:meta])* $name:ident: $number:literal;)+) => {
-        const PARTS: usize = [$($number),+].len();
+    ($($(#[$attribute:meta])* $name:ident: $number:literal;)+; slow $($slow:ident: $large:literal;)+) => {
+        const PARTS: usize = [$($number,)+ $($large),+].len();
 
         $(
             #[test]
@@ -70,6 +70,17 @@ macro_rules! parts {
                 holds($number);
             }
         )+
+
+        /// What takes a minute: `.ci/run` has it beside the daily tests.
+        mod slow {
+            $(
+                #[test]
+                #[ignore = "slow: a step of .ci/run"]
+                fn $slow() {
+                    super::holds($large);
+                }
+            )+
+        }
     };
 }
 
@@ -81,7 +92,6 @@ parts! {
     tolerance_time_of_the_stops: 2;
     #[ignore = "deep: minutes"]
     tolerance_time_of_the_selection: 3;
-    motion_under_the_operating_stop: 4;
     #[ignore = "deep: minutes"]
     test_stops: 5;
     test_of_the_external_shutdown: 6;
@@ -92,6 +102,8 @@ parts! {
     lost_reference_and_parking: 10;
     gear_stages: 11;
     motion_with_gear_stages: 12;
+    ; slow
+    motion_under_the_operating_stop: 4;
     limit_positions: 13;
 }
 

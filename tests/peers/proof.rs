@@ -12,6 +12,7 @@ use stillpoint_harness::proof::{
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::ir::Form;
 use stillpoint_model::Verdict;
+use stillpoint_tests::daily;
 use stillpoint_tests::peer::each;
 
 use super::reductions::shipped::{must_fail, shipped};
@@ -141,9 +142,18 @@ fn check(systems: &[&(Bound, Outcome)], choice: Choice) -> (usize, usize) {
 
 /// Compares the shipped systems of at most so many states; of so many properties at least nearly all must be decided.
 fn check_shipped(choice: Choice, most: u64, least: usize) {
-    let systems: Vec<_> = (shipped().iter())
-        .filter(|(_, whole)| whole.report.states <= most)
-        .collect();
+    check_those(shipped_of(most), choice, least);
+}
+
+/// The shipped systems of at most so many states.
+fn shipped_of(most: u64) -> Vec<&'static (Bound, Outcome)> {
+    let all = shipped().iter();
+    all.filter(|(_, whole)| whole.report.states <= most)
+        .collect()
+}
+
+/// Compares these systems; of so many properties at least nearly all must be decided.
+fn check_those(systems: Vec<&(Bound, Outcome)>, choice: Choice, least: usize) {
     let (decided, hold) = check(&systems, choice);
     let all = systems
         .iter()
@@ -158,7 +168,7 @@ fn check_shipped(choice: Choice, most: u64, least: usize) {
 
 #[test]
 fn shipped_systems_have_the_verdicts_of_the_explorer() {
-    check_shipped(Choice::Auto, MOST, 50);
+    check_those(daily(shipped_of(MOST)), Choice::Auto, 50);
 }
 
 #[test]
@@ -336,4 +346,15 @@ fn random_systems_have_the_verdicts_of_the_explorer() {
 #[ignore = "deep: 5000 random systems"]
 fn many_random_systems_have_the_verdicts_of_the_explorer() {
     random(1000..6000);
+}
+
+/// What takes a minute: `.ci/run` has it beside the daily tests.
+mod slow {
+    use super::*;
+
+    #[test]
+    #[ignore = "slow: a step of .ci/run"]
+    fn most_shipped_systems_have_the_verdicts_of_the_explorer() {
+        check_shipped(Choice::Auto, MOST, 50);
+    }
 }

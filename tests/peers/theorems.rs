@@ -11,7 +11,7 @@ use stillpoint_certify::proof::read::read_theorems;
 use stillpoint_engine::check::{Settings as CheckSettings, check, summarise};
 use stillpoint_engine::label;
 use stillpoint_engine::subject::{self, Readings};
-use stillpoint_engine::theorems::{Proved, Theorems};
+use stillpoint_engine::theorems::{OfSystem, Proved, Theorems};
 use stillpoint_harness::proof::{Choice, Every, Settings, judge_every};
 use stillpoint_harness::theorems::certificates::{Certificates, check as check_certificates};
 use stillpoint_harness::theorems::{prints, ranges, systems};
@@ -21,7 +21,7 @@ use stillpoint_lang::ir::{Form, Node, System};
 use stillpoint_model::Verdict;
 use stillpoint_model::proof::Budget;
 use stillpoint_tests::peer::each;
-use stillpoint_tests::root;
+use stillpoint_tests::{daily, root};
 
 /// Theorems that took longer together, in seconds, are proved again by the deep test.
 const QUICK: f64 = 1.0;
@@ -133,8 +133,11 @@ fn all_theorems_are_proved_again() {
     println!("{count} proved again");
 }
 
-#[test]
-fn the_certificates_of_all_theorems_are_confirmed() {
+/// A system with its theorems, and the certificates of them.
+type Shown = (Bound, OfSystem, Vec<Certificate>);
+
+/// Every system that has theorems.
+fn shown() -> Vec<Shown> {
     let mut work = Vec::new();
     for family in FAMILIES {
         let known = theorems(family);
@@ -152,7 +155,12 @@ fn the_certificates_of_all_theorems_are_confirmed() {
             work.push((bound, own, shown));
         }
     }
-    let counts = each(&work, |(bound, own, shown)| {
+    work
+}
+
+/// The checker confirms each of these; the answer is how many theorems there were.
+fn confirmed(work: &[Shown]) -> usize {
+    let counts = each(work, |(bound, own, shown)| {
         let found = check_certificates(bound, own, shown, &Budget::default());
         let found = found.unwrap_or_else(|what| panic!("{}: {what}", bound.system.name));
         assert_eq!(found.other, 0, "{}", bound.system.name);
@@ -160,7 +168,13 @@ fn the_certificates_of_all_theorems_are_confirmed() {
         assert_eq!(found.confirmed, all.sum::<usize>(), "{}", bound.system.name);
         found.confirmed
     });
-    println!("{} theorems confirmed", counts.iter().sum::<usize>());
+    counts.into_iter().sum()
+}
+
+#[test]
+fn certificates_of_theorems_are_confirmed() {
+    let count = confirmed(&daily(shown()));
+    assert!(count >= 100, "{count}");
 }
 
 /// A certificate that says something else, or is about something else, confirms nothing.
@@ -391,5 +405,16 @@ fn machines_have_the_same_verdicts_without_theorems() {
             let cited = compare(&path);
             println!("{}: {cited} cited", path.display());
         }
+    }
+}
+
+/// What takes a minute: `.ci/run` has it beside the daily tests.
+mod slow {
+    use super::*;
+
+    #[test]
+    #[ignore = "slow: a step of .ci/run"]
+    fn the_certificates_of_all_theorems_are_confirmed() {
+        println!("{} theorems confirmed", confirmed(&shown()));
     }
 }

@@ -20,6 +20,11 @@ pub fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
+/// What is compared daily, where a slow test compares all: every fourth.
+pub fn daily<T>(all: Vec<T>) -> Vec<T> {
+    all.into_iter().step_by(4).collect()
+}
+
 /// The files with this extension in a folder of the workspace, in the order of their names.
 ///
 /// # Panics

@@ -4,7 +4,7 @@ mod shipped;
 
 use std::collections::BTreeSet;
 
-use shipped::{Random, subjects};
+use shipped::{Random, side_by_side, subjects};
 use stillpoint_certify::cycle::Cycle;
 use stillpoint_certify::states::Radix;
 use stillpoint_lang::bind::Bound;
@@ -107,22 +107,7 @@ fn share(bounds: &[&Bound], from: usize, step: usize) -> [usize; 3] {
 fn what_is_looked_up_is_what_the_interpreter_does() {
     let subjects = subjects();
     let bounds: Vec<&Bound> = subjects.iter().flat_map(|s| &s.bounds).collect();
-    let processors = std::thread::available_parallelism().map_or(1, usize::from);
-    let [systems, compared, whole] = std::thread::scope(|scope| {
-        let shares: Vec<_> = (0..processors)
-            .map(|from| {
-                scope.spawn({
-                    let bounds = &bounds;
-                    move || share(bounds, from, processors)
-                })
-            })
-            .collect();
-        shares.into_iter().fold([0; 3], |mut sum, one| {
-            let one = one.join().expect("no difference");
-            sum.iter_mut().zip(one).for_each(|(sum, one)| *sum += one);
-            sum
-        })
-    });
+    let [systems, compared, whole] = side_by_side(|from, step| share(&bounds, from, step));
     println!("{systems} systems, {compared} cycles, all of {whole} states");
     assert!(
         systems > 200 && compared > 50_000 && whole > 2_000,

@@ -5,7 +5,7 @@ mod shipped;
 
 use std::collections::BTreeMap;
 
-use shipped::{Random, subjects};
+use shipped::{Random, side_by_side, subjects};
 use stillpoint_certify::proof::gates::Bit;
 use stillpoint_certify::proof::rup::Clauses;
 use stillpoint_certify::proof::symbolic::Symbolic;
@@ -162,29 +162,33 @@ impl<'a> Compared<'a> {
     }
 }
 
+/// Compares every so many-th system from one on: systems, those not told, those with free parameters, cycles with a fault.
+fn share(bounds: &[&Bound], from: usize, step: usize) -> [usize; 4] {
+    let [mut systems, mut untold, mut free, mut faults] = [0; 4];
+    for (k, bound) in bounds.iter().enumerate().skip(from).step_by(step) {
+        let mut random = Random(0x9e37_79b9_7f4a_7c15 + k as u64);
+        match Compared::new(bound, &[]) {
+            Ok(mut compared) => {
+                systems += 1;
+                compared.walk(bound, &mut random, &mut faults);
+            }
+            Err(what) => {
+                println!("{}: {what}", bound.system.name);
+                untold += 1;
+            }
+        }
+        free += usize::from(configurations(bound, &mut random, &mut faults));
+    }
+    [systems, untold, free, faults]
+}
+
 #[test]
 fn cycles_over_bits_are_those_of_the_interpreter() {
-    let mut random = Random(0x9e37_79b9_7f4a_7c15);
-    let (mut systems, mut untold, mut faults, mut free) = (0, 0, 0, 0);
+    let subjects = subjects();
     let mut seen = std::collections::BTreeSet::new();
-    for subject in subjects() {
-        for bound in &subject.bounds {
-            if !seen.insert((bound.system.fingerprint(), bound.values.clone())) {
-                continue;
-            }
-            match Compared::new(bound, &[]) {
-                Ok(mut compared) => {
-                    systems += 1;
-                    compared.walk(bound, &mut random, &mut faults);
-                }
-                Err(what) => {
-                    println!("{}: {what}", bound.system.name);
-                    untold += 1;
-                }
-            }
-            free += usize::from(configurations(bound, &mut random, &mut faults));
-        }
-    }
+    let mut bounds: Vec<&Bound> = subjects.iter().flat_map(|s| &s.bounds).collect();
+    bounds.retain(|bound| seen.insert((bound.system.fingerprint(), bound.values.clone())));
+    let [systems, untold, free, faults] = side_by_side(|from, step| share(&bounds, from, step));
     println!(
         "{systems} systems, {untold} not told, {free} with free parameters, {faults} cycles with a fault"
     );

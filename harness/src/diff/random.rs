@@ -352,19 +352,3 @@ pub fn shrink(product: &Product, found: Divergence) -> Divergence {
     }
     best
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_sequence_is_fixed() {
-        let mut random = Random::new(42);
-        assert_eq!(random.draw(), 13_679_457_532_755_275_413);
-        let mut counts = [0; 5];
-        for _ in 0..5000 {
-            counts[random.below(5)] += 1;
-        }
-        assert!(counts.iter().all(|n| (850..1150).contains(n)), "{counts:?}");
-    }
-}

@@ -3,7 +3,7 @@
 mod configuration;
 mod document;
 mod exploration;
-mod inventory;
+pub mod inventory;
 mod json;
 mod properties;
 pub mod readings;

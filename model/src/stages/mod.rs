@@ -7,6 +7,7 @@
 mod fusion;
 mod index;
 mod pace;
+mod seen;
 mod table;
 mod watched;
 
@@ -18,6 +19,7 @@ use crate::process::Origin;
 use crate::system::{Domain, Fault};
 use fusion::{Change, Fusion};
 use index::Merge;
+use seen::Seen;
 use std::collections::BTreeSet;
 use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -96,6 +98,18 @@ impl Group {
     }
 }
 
+/// What is to be told of the cycles of a state beside the states after them.
+pub(crate) struct News {
+    /// The conditions that hold in some of them.
+    pub(crate) marks: u128,
+    /// All of them lead to the state itself.
+    pub(crate) stays: bool,
+    /// The input combinations, added up.
+    pub(crate) weight: u128,
+    /// The states handed on.
+    pub(crate) made: usize,
+}
+
 /// A way through some stages: the index of the state so far, the class, the input combinations.
 #[derive(Clone, Copy)]
 struct Way<K> {
@@ -134,6 +148,7 @@ pub(crate) struct Staged<'a, K> {
     /// The places looked up for this state, with the combinations that came there.
     looked: Vec<(u32, u32, u128)>,
     marks: Vec<u128>,
+    seen: Seen<K>,
     /// Of rules, from what was forgotten since.
     fired: Vec<(usize, u64)>,
     /// What all threads hold, and of it what this one has told.
@@ -195,6 +210,7 @@ impl<'a, K: Key> Staged<'a, K> {
             inner: Default::default(),
             looked: Vec::new(),
             marks: Vec::new(),
+            seen: Seen::default(),
             fired: Vec::new(),
             held,
             told: 0,
@@ -206,44 +222,118 @@ impl<'a, K: Key> Staged<'a, K> {
     /// Makes all cycles from a state; [`Staged::ends`] has them. False if one of them meets a fault: nothing is known then.
     #[inline]
     pub(crate) fn cycles(&mut self, key: K) -> bool {
+        self.begin(key);
+        let last = self.groups.len() - 1;
+        let made = (0..=last).all(|group| self.pass(group, group == last));
+        if made {
+            self.end();
+        }
+        made
+    }
+
+    /// Makes all cycles from a state and hands on the states after them, each with the conditions that hold in it, but for those of
+    /// bursts that it has handed on before. None if one of the cycles meets a fault: nothing is known then.
+    #[inline]
+    pub(crate) fn news(&mut self, key: K, mut each: impl FnMut(K, u128)) -> Option<News> {
+        self.begin(key);
+        let last = self.groups.len() - 1;
+        if !(0..last).all(|group| self.pass(group, false)) {
+            return None;
+        }
+        let table = self.groups[last].table;
+        let projection = self.tables[table].projection(&self.before);
+        let from = self.looked.len();
+        let mut news = News {
+            marks: 0,
+            stays: true,
+            weight: 0,
+            made: 0,
+        };
+        for at in 0..self.ways.len() {
+            let way = self.ways[at];
+            let (place, fresh) = self.tables[table].place(projection, way.class);
+            if fresh {
+                self.learn(last, way.class);
+            }
+            if self.tables[table].known[place as usize].is_fault() {
+                return None;
+            }
+            self.looked.push((table as u32, place, way.weight));
+            news.weight = news.weight.wrapping_add(way.weight);
+        }
+        let of = &mut self.tables[table];
+        of.traffic.ways += self.ways.len() as u64;
+        for (way, (_, place, _)) in self.ways.iter().zip(&self.looked[from..]) {
+            let outcomes = &of.outcomes[of.known[*place as usize].outcomes()];
+            news.stays = news.stays && outcomes.iter().all(|(own, ..)| way.key.plus(*own) == key);
+            let burst = (way.key, *place);
+            if let Some(marks) = self.seen.marks(burst) {
+                news.marks |= marks;
+                continue;
+            }
+            let mut all = 0;
+            for (own, class, _) in outcomes {
+                let marks = self.marks.get(*class as usize).copied().unwrap_or(0);
+                each(way.key.plus(*own), marks);
+                all |= marks;
+            }
+            news.marks |= all;
+            news.made += outcomes.len();
+            self.seen.add(burst, all);
+        }
+        self.end();
+        Some(news)
+    }
+
+    /// Nothing is made yet of this state.
+    #[inline]
+    fn begin(&mut self, key: K) {
         self.packer.unpack(key, &mut self.before);
         self.looked.clear();
         self.ways.clear();
         self.ways.push(Way::begin(0, self.combinations));
-        for group in 0..self.groups.len() {
-            let table = self.groups[group].table;
-            let projection = self.tables[table].projection(&self.before);
-            let last = group + 1 == self.groups.len();
-            let merges = self.tables[table].merges.begin() || last;
-            self.next.clear();
-            if merges {
-                self.merge.start();
-            }
-            let mut made = 0;
-            for at in 0..self.ways.len() {
-                let way = self.ways[at];
-                let (place, fresh) = self.tables[table].place(projection, way.class);
-                if fresh {
-                    self.learn(group, way.class);
-                }
-                let of = &self.tables[table];
-                let known = of.known[place as usize];
-                if known.is_fault() {
-                    return false;
-                }
-                self.looked.push((table as u32, place, way.weight));
-                let outcomes = &of.outcomes[known.outcomes()];
-                made += outcomes.len();
-                let merge = merges.then_some(&mut self.merge);
-                follow(way, outcomes, of.whole, &mut self.next, merge);
-            }
-            let of = &mut self.tables[table];
-            if merges {
-                of.merges.end(made, self.next.len());
-            }
-            of.traffic.ways += self.ways.len() as u64;
-            std::mem::swap(&mut self.ways, &mut self.next);
+    }
+
+    /// Goes on through the stages of a group; false if one of the ways meets a fault.
+    #[inline]
+    fn pass(&mut self, group: usize, last: bool) -> bool {
+        let table = self.groups[group].table;
+        let projection = self.tables[table].projection(&self.before);
+        let merges = self.tables[table].merges.begin() || last;
+        self.next.clear();
+        if merges {
+            self.merge.start();
         }
+        let mut made = 0;
+        for at in 0..self.ways.len() {
+            let way = self.ways[at];
+            let (place, fresh) = self.tables[table].place(projection, way.class);
+            if fresh {
+                self.learn(group, way.class);
+            }
+            let of = &self.tables[table];
+            let known = of.known[place as usize];
+            if known.is_fault() {
+                return false;
+            }
+            self.looked.push((table as u32, place, way.weight));
+            let outcomes = &of.outcomes[known.outcomes()];
+            made += outcomes.len();
+            let merge = merges.then_some(&mut self.merge);
+            follow(way, outcomes, of.whole, &mut self.next, merge);
+        }
+        let of = &mut self.tables[table];
+        if merges {
+            of.merges.end(made, self.next.len());
+        }
+        of.traffic.ways += self.ways.len() as u64;
+        std::mem::swap(&mut self.ways, &mut self.next);
+        true
+    }
+
+    /// Counts what has come to the places looked up.
+    #[inline]
+    fn end(&mut self) {
         for (table, place, weight) in &self.looked {
             let visits = &mut self.tables[*table as usize].visits[*place as usize];
             visit(visits, Some(*weight), self.combinations);
@@ -254,7 +344,6 @@ impl<'a, K: Key> Staged<'a, K> {
         if self.fusion.is_due() {
             self.fuse();
         }
-        true
     }
 
     /// Makes all cycles from a state; none if one of them meets a fault.
@@ -272,12 +361,6 @@ impl<'a, K: Key> Staged<'a, K> {
             let marks = marks.get(way.class as usize).copied();
             (way.key, marks.unwrap_or(0))
         })
-    }
-
-    /// The input combinations of the cycles just made, added up.
-    pub(crate) fn weight(&self) -> u128 {
-        let weights = self.ways.iter().map(|way| way.weight);
-        weights.fold(0, u128::wrapping_add)
     }
 
     /// Makes what follows from a class that comes to a group, for the next place of its table.
@@ -431,6 +514,7 @@ impl<'a, K: Key> Staged<'a, K> {
         for table in &mut self.tables {
             table.traffic = Traffic::default();
         }
+        self.seen.forget();
         self.grown = true;
     }
 
@@ -453,6 +537,7 @@ impl<'a, K: Key> Staged<'a, K> {
             self.drain(&mut |rule, count| kept.push((rule, count)));
             self.fired = kept;
             self.tables.iter_mut().for_each(Table::forget);
+            self.seen.forget();
         }
         let bytes = self.bytes();
         self.held
@@ -461,7 +546,8 @@ impl<'a, K: Key> Staged<'a, K> {
     }
 
     fn bytes(&self) -> u64 {
-        self.stages.bytes() + self.tables.iter().map(Table::bytes).sum::<u64>()
+        let tables = self.tables.iter().map(Table::bytes).sum::<u64>();
+        self.stages.bytes() + self.seen.bytes() + tables
     }
 
     /// Counts what has come to the places of a group where it comes in its stages.

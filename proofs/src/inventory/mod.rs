@@ -395,7 +395,7 @@ pub fn all() -> impl Iterator<Item = &'static Entry> {
 }
 
 /// A domain for properties that read no wide value.
-pub(crate) const NARROW: Domain = Domain {
+pub const NARROW: Domain = Domain {
     delays: &[0],
     highest_speed: 0,
 };

@@ -1,7 +1,7 @@
 //! What Kani answered: the file `kani.toml`, which a run writes and the inventory shows.
 
-mod log;
-mod sources;
+pub mod log;
+pub mod sources;
 
 pub use log::answers;
 pub use sources::{fingerprint, has_sources};

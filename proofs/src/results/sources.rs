@@ -68,7 +68,7 @@ pub fn fingerprint(entry: &Entry) -> String {
 }
 
 /// The files of the stubs that the attributes of a harness name, but for those that every harness is made of, or its draws.
-fn stubs(attributes: &str) -> BTreeSet<PathBuf> {
+pub fn stubs(attributes: &str) -> BTreeSet<PathBuf> {
     let attributes = attributes.replace(' ', "");
     let paths = attributes.split("crate::").skip(1);
     let of = |path: &str| {
@@ -89,7 +89,7 @@ fn stubs(attributes: &str) -> BTreeSet<PathBuf> {
 }
 
 /// The modules of `modules` that a text names.
-fn named(text: &str, modules: &BTreeMap<String, Vec<String>>) -> Vec<String> {
+pub fn named(text: &str, modules: &BTreeMap<String, Vec<String>>) -> Vec<String> {
     let is_named = |name: &&String| {
         text.match_indices(&format!("{name}::")).any(|(at, _)| {
             let before = text.get(..at).and_then(|text| text.chars().next_back());
@@ -101,7 +101,7 @@ fn named(text: &str, modules: &BTreeMap<String, Vec<String>>) -> Vec<String> {
 
 /// The modules of a family of monitors, however deep, each with its files without comments: a folder has all that is in it. The
 /// wrong variants are left out.
-fn modules(folder: &Path) -> BTreeMap<String, Vec<String>> {
+pub fn modules(folder: &Path) -> BTreeMap<String, Vec<String>> {
     let mut modules: BTreeMap<String, Vec<String>> = BTreeMap::new();
     for (path, text) in texts(folder) {
         let inside = path.strip_prefix(folder).unwrap_or(&path);
@@ -150,7 +150,7 @@ fn texts(folder: &Path) -> BTreeMap<PathBuf, String> {
 }
 
 /// The lines of a file that are neither blank nor a comment; nothing of a file that cannot be read.
-fn code(path: &Path) -> String {
+pub fn code(path: &Path) -> String {
     let text = std::fs::read_to_string(path).unwrap_or_default();
     let lines = text.lines().map(str::trim);
     let lines: Vec<&str> = lines
@@ -166,44 +166,4 @@ fn hash(texts: &[String]) -> String {
         (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
     });
     format!("{hash:016x}")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_monitor_needs_the_modules_it_names() {
-        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../impl/src/sinumerik");
-        let modules = modules(&root);
-        assert!(!modules.contains_key("mutant"));
-        assert_eq!(
-            modules["selection"].len(),
-            2,
-            "the module and its file of limits"
-        );
-        let needed = |name: &str| named(&modules[name].join("\n"), &modules);
-        assert!(needed("channel").contains(&"ramp".to_owned()));
-        assert!(!needed("ramp").contains(&"channel".to_owned()));
-    }
-
-    #[test]
-    fn a_stub_is_a_source() {
-        let attributes = "kani(stub(a::b, crate :: properties::sinumerik::units::by_definition::quotient), stub(c, \
-            crate::total::srm::endzone), stub(d, crate::kani_source::folded_in_range))";
-        let files = ["src/properties/sinumerik/units.rs", "src/total.rs"];
-        assert_eq!(stubs(attributes), files.map(PathBuf::from).into());
-    }
-
-    #[test]
-    fn comments_do_not_count() {
-        let folder = std::env::temp_dir().join(format!("fingerprint-{}", std::process::id()));
-        std::fs::create_dir_all(&folder).expect("a folder");
-        let file = folder.join("a.rs");
-        std::fs::write(&file, "// one\nfn a() {}\n\n").expect("a file");
-        let first = code(&file);
-        std::fs::write(&file, "fn a() {}\n/// two\n").expect("a file");
-        assert_eq!(first, code(&file));
-        std::fs::remove_dir_all(&folder).expect("removed");
-    }
 }

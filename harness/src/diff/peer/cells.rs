@@ -1,6 +1,18 @@
 //! The types of the monitors as cells and ports: every number of theirs in its order.
+//!
+//! What is done with the numbers is behind a pointer: else each type would be compiled once for everything that is done with it.
 
-use stillpoint_monitors::fields::{Fields, Kind, get, set, walk};
+use stillpoint_monitors::fields::{self, Fields, Kind};
+
+/// Shows each number of a value.
+pub(crate) fn get<T: Fields>(value: T, each: &mut dyn FnMut(i64)) {
+    fields::get(value, each);
+}
+
+/// The value with these numbers, as [`fields::set`] makes it.
+pub(crate) fn set<T: Fields>(numbers: &mut dyn Iterator<Item = i64>) -> T {
+    fields::set(numbers)
+}
 
 /// A number of a type: its name, that with the names of the fields it is in, and its values.
 #[derive(Clone)]
@@ -13,19 +25,20 @@ pub(crate) struct Number {
 /// The numbers of a part of a step, which is the first part of their names.
 pub(crate) fn numbers<T: Fields>(part: &'static str) -> Vec<Number> {
     let mut numbers = Vec::new();
-    walk::<T>(part, |path, kind| {
+    let each: &mut dyn FnMut(&[&'static str], Kind) = &mut |path, kind| {
         numbers.push(Number {
             short: path.last().copied().unwrap_or_default(),
             name: path.join("."),
             kind,
         });
-    });
+    };
+    fields::walk::<T>(part, each);
     numbers
 }
 
 /// The value in cells.
 pub(crate) fn load<T: Fields>(cells: &[i32]) -> T {
-    set(cells.iter().map(|cell| i64::from(*cell)))
+    set(&mut cells.iter().map(|cell| i64::from(*cell)))
 }
 
 /// A number in a cell; one that is too large for it is the largest.
@@ -36,7 +49,7 @@ pub(crate) fn cell(number: i64) -> i32 {
 /// Writes a value to cells.
 pub(crate) fn store<T: Fields>(value: T, cells: &mut [i32]) {
     let mut cells = cells.iter_mut();
-    get(value, |number| {
+    get(value, &mut |number| {
         if let Some(place) = cells.next() {
             *place = cell(number);
         }
@@ -46,6 +59,6 @@ pub(crate) fn store<T: Fields>(value: T, cells: &mut [i32]) {
 /// A value in cells of its own.
 pub(crate) fn stored<T: Fields>(value: T) -> Vec<i32> {
     let mut cells = Vec::new();
-    get(value, |number| cells.push(cell(number)));
+    get(value, &mut |number| cells.push(cell(number)));
     cells
 }

@@ -3,11 +3,11 @@
 
 use stillpoint_model::Domain;
 use stillpoint_monitors::contract::{Contract, Next};
-use stillpoint_monitors::fields::{Fields, get, set};
+use stillpoint_monitors::fields::Fields;
 use stillpoint_monitors::mutant::Mutant;
 
 use super::adapter::Adapter;
-use super::cells::{Number, cell, load, stored};
+use super::cells::{Number, cell, get, load, set, stored};
 use super::words::{Feed, Make, Plan, Shape, Words};
 use super::{Params, Refusable, Refusal, chosen};
 use crate::diff::product::Values;
@@ -161,11 +161,11 @@ impl<'a, M: Contract> Same<'a, M> {
             return Ok(config);
         }
         let values = self.words.values(self.params, numbers)?;
-        let config = set(values.iter().copied());
+        let config = set(&mut values.iter().copied());
         // A number that the type does not have has become another one.
         let mut same = true;
         let mut given = values.iter();
-        get(config, |number| same &= given.next() == Some(&number));
+        get(config, &mut |number| same &= given.next() == Some(&number));
         if same && M::accepted(&config) {
             Ok(config)
         } else {
@@ -196,7 +196,7 @@ impl<'a, M: Contract> Same<'a, M> {
         let next = self.next;
         let step = move |cells: &mut [i32], ports: &[i32], said: &mut super::Numbers| {
             let state = load(cells);
-            let inputs = set(feeds.iter().map(|feed| match feed {
+            let inputs = set(&mut feeds.iter().map(|feed| match feed {
                 Feed::Port(k) => i64::from(ports[*k]),
                 Feed::Constant(value) => *value,
                 Feed::Made(first, make) => make(&ports[*first..]),
@@ -207,11 +207,11 @@ impl<'a, M: Contract> Same<'a, M> {
             };
             let (after, outputs) = next(state, &config, &inputs);
             let mut compared = from_outputs.iter();
-            get(outputs, |number| {
+            get(outputs, &mut |number| {
                 said.extend(compared.next().filter(|c| **c).map(|_| number))
             });
             let (mut compared, mut own) = (from_state.iter(), cells.iter_mut());
-            get(after, |number| {
+            get(after, &mut |number| {
                 said.extend(compared.next().filter(|c| **c).map(|_| number));
                 if let Some(place) = own.next() {
                     *place = cell(number);
@@ -233,11 +233,11 @@ impl<'a, M: Contract> Same<'a, M> {
 /// The configuration with some of its numbers from ports.
 fn changed<C: Fields>(config: C, live: &[(usize, usize)], ports: &[i32]) -> C {
     let mut values = Vec::new();
-    get(config, |number| values.push(number));
+    get(config, &mut |number| values.push(number));
     for (number, port) in live {
         values[*number] = i64::from(ports[*port]);
     }
-    set(values.into_iter())
+    set(&mut values.into_iter())
 }
 
 /// The monitors of a family that its tables describe in the same words: the machine of the table, the module of the monitor, and

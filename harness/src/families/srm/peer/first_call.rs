@@ -1,8 +1,8 @@
 //! The checks of the parameters in the first call. In the tables the parameters are inputs that only the first call reads; in the
 //! monitors they are the configuration.
 
+use crate::diff::peer::cells::{get, set};
 use stillpoint_monitors::contract::Contract;
-use stillpoint_monitors::fields::{get, set};
 use stillpoint_monitors::mutant::Mutant;
 use stillpoint_monitors::srm::common::ErrReact;
 use stillpoint_monitors::srm::interpolation::Curve;
@@ -163,7 +163,7 @@ fn named<M: Contract>(
         .collect();
     peer::<M>(mutant, inputs, outputs, move |i| {
         let values = places.iter();
-        set(values.map(|place| place.map_or(0, |k| i64::from(i[k]))))
+        set(&mut values.map(|place| place.map_or(0, |k| i64::from(i[k]))))
     })
 }
 
@@ -185,9 +185,9 @@ fn peer<M: Contract>(
         .position(|number| number.short == "diag");
     let step = move |cells: &mut [i32], i: &[i32], o: &mut Vec<i64>| {
         if cells[0] == 0 {
-            let (_, outputs) = next(M::INITIAL, &config(i), &set(std::iter::repeat(0)));
+            let (_, outputs) = next(M::INITIAL, &config(i), &set(&mut std::iter::repeat(0)));
             let mut said = Vec::new();
-            get(outputs, |number| said.push(number));
+            get(outputs, &mut |number| said.push(number));
             let diag = place.and_then(|k| said.get(k)).copied().unwrap_or(0);
             cells[0] = 1;
             cells[1] = i32::try_from(diag).unwrap_or(0);
