@@ -4,12 +4,14 @@
 //! What a stage leaves to those after it is a *class*: the values, of inputs too, that still matter. Ways through the stages that
 //! agree in their class and in the state so far are one way, with the sum of their input combinations.
 
+mod counting;
 mod fusion;
 mod index;
 mod pace;
 mod seen;
 mod table;
 mod watched;
+mod ways;
 
 pub(crate) use pace::Pace;
 pub(crate) use watched::{Event, Watched};
@@ -17,6 +19,7 @@ pub(crate) use watched::{Event, Watched};
 use crate::pack::{Key, Packer};
 use crate::process::Origin;
 use crate::system::{Domain, Fault};
+use counting::visit;
 use fusion::{Change, Fusion};
 use index::Merge;
 use seen::Seen;
@@ -24,6 +27,7 @@ use std::collections::BTreeSet;
 use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
 use table::{Count, Table, Traffic};
+use ways::{Way, follow};
 
 /// Holds in a cycle in which each of these atoms has the value beside it.
 pub type Condition = Vec<(usize, bool)>;
@@ -108,21 +112,6 @@ pub(crate) struct News {
     pub(crate) weight: u128,
     /// The states handed on.
     pub(crate) made: usize,
-}
-
-/// A way through some stages: the index of the state so far, the class, the input combinations.
-#[derive(Clone, Copy)]
-struct Way<K> {
-    key: K,
-    class: u32,
-    weight: u128,
-}
-
-impl<K: Key> Way<K> {
-    fn begin(class: u32, weight: u128) -> Self {
-        let key = K::of([0, 0]);
-        Way { key, class, weight }
-    }
 }
 
 /// A work area of one thread.
@@ -210,7 +199,7 @@ impl<'a, K: Key> Staged<'a, K> {
             inner: Default::default(),
             looked: Vec::new(),
             marks: Vec::new(),
-            seen: Seen::default(),
+            seen: Seen::new(most),
             fired: Vec::new(),
             held,
             told: 0,
@@ -549,121 +538,10 @@ impl<'a, K: Key> Staged<'a, K> {
         let tables = self.tables.iter().map(Table::bytes).sum::<u64>();
         self.stages.bytes() + self.seen.bytes() + tables
     }
-
-    /// Counts what has come to the places of a group where it comes in its stages.
-    fn count_places(&mut self, table: usize) {
-        let (of, group) = self.tables.split_at_mut(table);
-        let Some(group) = group.first_mut() else {
-            return;
-        };
-        for (known, visits) in group.known.iter().zip(&mut group.visits) {
-            let visits = std::mem::take(visits);
-            if visits == 0 {
-                continue;
-            }
-            for count in &group.counts[known.counts()] {
-                if let Count::Place(stage, place, share) = count {
-                    let more = rational(visits, *share, group.whole);
-                    visit(
-                        &mut of[*stage as usize].visits[*place as usize],
-                        more,
-                        self.combinations,
-                    );
-                }
-            }
-        }
-    }
-
-    fn drain(&mut self, each: &mut dyn FnMut(usize, u64)) {
-        let stages = self.writes.len();
-        (stages..self.tables.len()).for_each(|table| self.count_places(table));
-        for table in &mut self.tables[..stages] {
-            for (known, visits) in table.known.iter().zip(&mut table.visits) {
-                let visits = std::mem::take(visits);
-                if visits == 0 {
-                    continue;
-                }
-                for count in &table.counts[known.counts()] {
-                    if let Count::Rule(rule, share) = count {
-                        let count = rational(visits, *share, table.whole);
-                        let count = count.and_then(|count| u64::try_from(count).ok());
-                        each(*rule, count.unwrap_or(u64::MAX));
-                    }
-                }
-            }
-        }
-    }
-
-    /// Adds to the count of each rule in how many input combinations it fired since the last call.
-    pub(crate) fn count(&mut self, coverage: &mut [u64]) {
-        let mut add = |rule: usize, count: u64| {
-            if let Some(sum) = coverage.get_mut(rule) {
-                *sum = sum.saturating_add(count);
-            }
-        };
-        std::mem::take(&mut self.fired)
-            .into_iter()
-            .for_each(|(rule, count)| add(rule, count));
-        self.drain(&mut add);
-    }
 }
 
 impl<K> Drop for Staged<'_, K> {
     fn drop(&mut self) {
         self.held.fetch_sub(self.told, Ordering::Relaxed);
-    }
-}
-
-/// The ways that follow from one, added to a list; those that are one are made one if they are looked for.
-#[inline]
-fn follow<K: Key>(
-    way: Way<K>,
-    outcomes: &[(K, u32, u64)],
-    whole: u128,
-    next: &mut Vec<Way<K>>,
-    mut merge: Option<&mut Merge>,
-) {
-    for (own, class, share) in outcomes {
-        let (key, class) = (way.key.plus(*own), *class);
-        let weight = match u128::from(*share) == whole {
-            true => way.weight,
-            false => part_of(way.weight, *share, whole),
-        };
-        if let Some(merge) = merge.as_deref_mut() {
-            let hash = key.hash() ^ u64::from(class).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-            let same = |at: usize| next[at].key == key && next[at].class == class;
-            if let Some(at) = merge.find(hash, next.len(), same) {
-                next[at].weight += weight;
-                continue;
-            }
-        }
-        next.push(Way { key, class, weight });
-    }
-}
-
-/// Counts more input combinations that have come to a place. So many that they do not fit, do not fit the counts of rules either.
-#[inline]
-fn visit(visits: &mut u128, more: Option<u128>, combinations: u128) {
-    let sum = more.and_then(|more| visits.checked_add(more));
-    *visits = sum.unwrap_or(u128::MAX / combinations * combinations);
-}
-
-/// `share` of `whole` parts of a weight, which is a whole number.
-#[inline]
-fn part_of(weight: u128, share: u64, whole: u128) -> u128 {
-    match (u64::try_from(weight), u64::try_from(whole)) {
-        (Ok(weight), Ok(whole)) => match weight.checked_mul(share) {
-            Some(product) => u128::from(product / whole),
-            None => u128::from(weight) * u128::from(share) / u128::from(whole),
-        },
-        _ => weight * u128::from(share) / whole,
-    }
-}
-
-/// The same for a sum of weights; none if it is so large that it does not fit.
-fn rational(visits: u128, share: u64, whole: u128) -> Option<u128> {
-    match visits.checked_mul(u128::from(share)) {
-        Some(product) => Some(product / whole),
-        None => (visits / whole).checked_mul(u128::from(share)),
     }
 }

@@ -1,0 +1,79 @@
+//! In how many input combinations each rule fired: counted by what has come to the places of the tables.
+
+use super::Staged;
+use super::table::Count;
+use crate::pack::Key;
+
+impl<K: Key> Staged<'_, K> {
+    /// Counts what has come to the places of a group where it comes in its stages.
+    pub(super) fn count_places(&mut self, table: usize) {
+        let (of, group) = self.tables.split_at_mut(table);
+        let Some(group) = group.first_mut() else {
+            return;
+        };
+        for (known, visits) in group.known.iter().zip(&mut group.visits) {
+            let visits = std::mem::take(visits);
+            if visits == 0 {
+                continue;
+            }
+            for count in &group.counts[known.counts()] {
+                if let Count::Place(stage, place, share) = count {
+                    let more = rational(visits, *share, group.whole);
+                    visit(
+                        &mut of[*stage as usize].visits[*place as usize],
+                        more,
+                        self.combinations,
+                    );
+                }
+            }
+        }
+    }
+
+    pub(super) fn drain(&mut self, each: &mut dyn FnMut(usize, u64)) {
+        let stages = self.writes.len();
+        (stages..self.tables.len()).for_each(|table| self.count_places(table));
+        for table in &mut self.tables[..stages] {
+            for (known, visits) in table.known.iter().zip(&mut table.visits) {
+                let visits = std::mem::take(visits);
+                if visits == 0 {
+                    continue;
+                }
+                for count in &table.counts[known.counts()] {
+                    if let Count::Rule(rule, share) = count {
+                        let count = rational(visits, *share, table.whole);
+                        let count = count.and_then(|count| u64::try_from(count).ok());
+                        each(*rule, count.unwrap_or(u64::MAX));
+                    }
+                }
+            }
+        }
+    }
+
+    /// Adds to the count of each rule in how many input combinations it fired since the last call.
+    pub(crate) fn count(&mut self, coverage: &mut [u64]) {
+        let mut add = |rule: usize, count: u64| {
+            if let Some(sum) = coverage.get_mut(rule) {
+                *sum = sum.saturating_add(count);
+            }
+        };
+        std::mem::take(&mut self.fired)
+            .into_iter()
+            .for_each(|(rule, count)| add(rule, count));
+        self.drain(&mut add);
+    }
+}
+
+/// Counts more input combinations that have come to a place. So many that they do not fit, do not fit the counts of rules either.
+#[inline]
+pub(super) fn visit(visits: &mut u128, more: Option<u128>, combinations: u128) {
+    let sum = more.and_then(|more| visits.checked_add(more));
+    *visits = sum.unwrap_or(u128::MAX / combinations * combinations);
+}
+
+/// The same for a sum of weights; none if it is so large that it does not fit.
+fn rational(visits: u128, share: u64, whole: u128) -> Option<u128> {
+    match visits.checked_mul(u128::from(share)) {
+        Some(product) => Some(product / whole),
+        None => (visits / whole).checked_mul(u128::from(share)),
+    }
+}
