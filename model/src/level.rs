@@ -168,24 +168,35 @@ impl<O: Origin, T: Store> Level<'_, O, T> {
         else {
             return false;
         };
-        let mut last = key;
-        let news = staged.news(key, |after, marks| {
-            if after != last {
-                self.store.visit(local, after);
-                last = after;
-            }
-            let mut duties = marks & self.watched.pending;
-            while duties != 0 {
-                let (property, _) = self.watched.events[duties.trailing_zeros() as usize];
-                self.pending[property].insert(&mut pending[property], after);
-                duties &= duties - 1;
-            }
+        let (mut stays, mut shown, mut last) = (true, 0, key);
+        // What was noted of a burst is what is shown in it: the states after it are stored already.
+        let weight = staged.bursts(key, |noted, burst| {
+            *unwatched += 1;
+            stays = stays && burst.ends().all(|(after, _)| after == key);
+            let all = noted.unwrap_or_else(|| {
+                let mut all = 0;
+                *unwatched += burst.ends().len() as u32;
+                for (after, marks) in burst.ends() {
+                    if after != last {
+                        self.store.visit(local, after);
+                        last = after;
+                    }
+                    all |= marks;
+                    let mut duties = marks & self.watched.pending;
+                    while duties != 0 {
+                        let (property, _) = self.watched.events[duties.trailing_zeros() as usize];
+                        self.pending[property].insert(&mut pending[property], after);
+                        duties &= duties - 1;
+                    }
+                }
+                all
+            });
+            shown |= all;
+            all
         });
-        let Some(news) = news else {
+        let Some(weight) = weight else {
             return false;
         };
-        *unwatched += news.made as u32 + 1;
-        let mut shown = news.marks;
         shown &= !self.watched.pending;
         while shown != 0 {
             let (property, event) = self.watched.events[shown.trailing_zeros() as usize];
@@ -202,9 +213,9 @@ impl<O: Origin, T: Store> Level<'_, O, T> {
             *broken = self.over();
         }
         worker.explored += 1;
-        worker.weights = worker.weights.wrapping_add(news.weight);
-        worker.transitions = worker.transitions.saturating_add(news.weight);
-        if news.stays {
+        worker.weights = worker.weights.wrapping_add(weight);
+        worker.transitions = worker.transitions.saturating_add(weight);
+        if stays {
             self.absorbing(worker, key);
         }
         true

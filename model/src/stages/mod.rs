@@ -22,6 +22,7 @@ use crate::system::{Domain, Fault};
 use counting::visit;
 use fusion::{Change, Fusion};
 use index::Merge;
+pub(crate) use seen::Burst;
 use seen::Seen;
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -102,18 +103,6 @@ impl Group {
     }
 }
 
-/// What is to be told of the cycles of a state beside the states after them.
-pub(crate) struct News {
-    /// The conditions that hold in some of them.
-    pub(crate) marks: u128,
-    /// All of them lead to the state itself.
-    pub(crate) stays: bool,
-    /// The input combinations, added up.
-    pub(crate) weight: u128,
-    /// The states handed on.
-    pub(crate) made: usize,
-}
-
 /// A work area of one thread.
 pub(crate) struct Staged<'a, K> {
     stages: Box<dyn Stages + 'a>,
@@ -180,7 +169,7 @@ impl<'a, K: Key> Staged<'a, K> {
             }
             writes.push(own);
         }
-        let whole = owned.iter().all(|owned| *owned);
+        let whole = !tables.is_empty() && owned.iter().all(|owned| *owned);
         whole.then(|| Staged {
             groups: (0..tables.len()).map(Group::single).collect(),
             fusion: Fusion::new(tables.len()),
@@ -220,10 +209,15 @@ impl<'a, K: Key> Staged<'a, K> {
         made
     }
 
-    /// Makes all cycles from a state and hands on the states after them, each with the conditions that hold in it, but for those of
-    /// bursts that it has handed on before. None if one of the cycles meets a fault: nothing is known then.
+    /// Makes all cycles from a state and hands them on in bursts, each with what was noted of it when it was handed on before, if that
+    /// is still known; the answer is noted of it. The result is the input combinations, added up; none if one of the cycles meets
+    /// a fault: nothing is handed on then.
     #[inline]
-    pub(crate) fn news(&mut self, key: K, mut each: impl FnMut(K, u128)) -> Option<News> {
+    pub(crate) fn bursts(
+        &mut self,
+        key: K,
+        mut each: impl FnMut(Option<u128>, Burst<K>) -> u128,
+    ) -> Option<u128> {
         self.begin(key);
         let last = self.groups.len() - 1;
         if !(0..last).all(|group| self.pass(group, false)) {
@@ -232,46 +226,39 @@ impl<'a, K: Key> Staged<'a, K> {
         let table = self.groups[last].table;
         let projection = self.tables[table].projection(&self.before);
         let from = self.looked.len();
-        let mut news = News {
-            marks: 0,
-            stays: true,
-            weight: 0,
-            made: 0,
-        };
+        let mut weight = 0u128;
         for at in 0..self.ways.len() {
             let way = self.ways[at];
             let (place, fresh) = self.tables[table].place(projection, way.class);
             if fresh {
                 self.learn(last, way.class);
             }
-            if self.tables[table].known[place as usize].is_fault() {
+            let known = self.tables[table].known[place as usize];
+            if known.is_fault() {
                 return None;
             }
             self.looked.push((table as u32, place, way.weight));
-            news.weight = news.weight.wrapping_add(way.weight);
+            // Where shares are missing it does not come to all of them.
+            if known.adds_up {
+                weight = weight.wrapping_add(way.weight);
+            }
         }
         let of = &mut self.tables[table];
         of.traffic.ways += self.ways.len() as u64;
         for (way, (_, place, _)) in self.ways.iter().zip(&self.looked[from..]) {
-            let outcomes = &of.outcomes[of.known[*place as usize].outcomes()];
-            news.stays = news.stays && outcomes.iter().all(|(own, ..)| way.key.plus(*own) == key);
-            let burst = (way.key, *place);
-            if let Some(marks) = self.seen.marks(burst) {
-                news.marks |= marks;
-                continue;
+            let burst = Burst {
+                state: way.key,
+                outcomes: &of.outcomes[of.known[*place as usize].outcomes()],
+                marks: &self.marks,
+            };
+            let note = self.seen.note(way.key, *place);
+            let new = each(note, burst);
+            if note != Some(new) {
+                self.seen.add(way.key, *place, new);
             }
-            let mut all = 0;
-            for (own, class, _) in outcomes {
-                let marks = self.marks.get(*class as usize).copied().unwrap_or(0);
-                each(way.key.plus(*own), marks);
-                all |= marks;
-            }
-            news.marks |= all;
-            news.made += outcomes.len();
-            self.seen.add(burst, all);
         }
         self.end();
-        Some(news)
+        Some(weight)
     }
 
     /// Nothing is made yet of this state.
@@ -476,6 +463,7 @@ impl<'a, K: Key> Staged<'a, K> {
             .map(Table::bytes)
             .sum::<u64>();
         let room = bytes < self.most / SHARE_OF_GROUPS;
+        let last = self.groups[self.groups.len() - 1].table;
         match self.fusion.next(&seen, room) {
             Some(Change::Fuse(group)) => {
                 let stages = seen[group].0.start..seen[group + 1].0.end;
@@ -503,7 +491,10 @@ impl<'a, K: Key> Staged<'a, K> {
         for table in &mut self.tables {
             table.traffic = Traffic::default();
         }
-        self.seen.forget();
+        // Places of the last table are what bursts are told apart by.
+        if self.groups[self.groups.len() - 1].table != last {
+            self.seen.forget();
+        }
         self.grown = true;
     }
 

@@ -1,5 +1,5 @@
-//! Which bursts were handed on already: a burst is what follows from one way behind the last table, a state so far with a place there.
-//! Many states share theirs, and a state after a cycle has to be stored once.
+//! Bursts: what follows from one way behind the last table, from a state so far and a place there. Many states share them, so what is
+//! made of one is noted.
 
 use crate::pack::Key;
 
@@ -9,10 +9,29 @@ const MOST: usize = 1 << 14;
 /// Of what may be held, the part that they may.
 const SHARE: u64 = 16;
 
-/// A burst, the age in which it was handed on, and the conditions that hold in some of its cycles.
+/// Cycles of a state, of which others may have the same.
+#[derive(Clone, Copy)]
+pub(crate) struct Burst<'a, K> {
+    pub(super) state: K,
+    pub(super) outcomes: &'a [(K, u32, u64)],
+    pub(super) marks: &'a [u128],
+}
+
+impl<K: Key> Burst<'_, K> {
+    /// The states after them, each with the conditions that hold in it.
+    #[inline]
+    pub(crate) fn ends(&self) -> impl ExactSizeIterator<Item = (K, u128)> + '_ {
+        self.outcomes.iter().map(|(own, class, _)| {
+            let marks = self.marks.get(*class as usize).copied();
+            (self.state.plus(*own), marks.unwrap_or(0))
+        })
+    }
+}
+
+/// A burst, the age in which it was handed on, and what was noted.
 type Slot<K> = ((K, u32), u32, u128);
 
-/// Some of the bursts handed on, those that came last.
+/// What was noted of bursts, of those that came last.
 pub(super) struct Seen<K> {
     /// A power of two; none before the first burst.
     slots: Vec<Slot<K>>,
@@ -33,26 +52,26 @@ impl<K: Key> Seen<K> {
     }
 
     #[inline]
-    fn slot(&self, (state, place): (K, u32)) -> usize {
+    fn slot(&self, state: K, place: u32) -> usize {
         let hash = state.hash() ^ u64::from(place).wrapping_mul(0x9e37_79b9_7f4a_7c15);
         (hash.wrapping_mul(0xd6e8_feb8_6659_fd93) >> 32) as usize & (self.room - 1)
     }
 
-    /// The conditions that hold in some of the cycles of a burst that was handed on.
+    /// What was noted of a burst.
     #[inline]
-    pub(super) fn marks(&self, burst: (K, u32)) -> Option<u128> {
-        let (of, age, marks) = self.slots.get(self.slot(burst))?;
-        (*age == self.age && *of == burst).then_some(*marks)
+    pub(super) fn note(&self, state: K, place: u32) -> Option<u128> {
+        let (of, age, note) = self.slots.get(self.slot(state, place))?;
+        (*age == self.age && *of == (state, place)).then_some(*note)
     }
 
-    /// A burst is handed on.
+    /// Notes something of a burst.
     #[inline]
-    pub(super) fn add(&mut self, burst: (K, u32), marks: u128) {
+    pub(super) fn add(&mut self, state: K, place: u32, note: u128) {
         if self.slots.is_empty() {
             self.slots = vec![((K::of([0, 0]), 0), 0, 0); self.room];
         }
-        let slot = self.slot(burst);
-        self.slots[slot] = (burst, self.age, marks);
+        let slot = self.slot(state, place);
+        self.slots[slot] = ((state, place), self.age, note);
     }
 
     /// The numbers of places have another meaning from now on.

@@ -38,6 +38,8 @@ pub(super) enum Count {
 pub(super) struct Known {
     pub(super) outcomes: (u32, u32),
     pub(super) counts: (u32, u32),
+    /// Whether the shares of the outcomes are all there is.
+    pub(super) adds_up: bool,
 }
 
 impl Known {
@@ -121,7 +123,12 @@ impl<K> Table<K> {
             self.outcomes.truncate(outcomes);
             self.counts.truncate(counts);
         }
+        let shares = self.outcomes[outcomes..]
+            .iter()
+            .map(|(.., share)| u128::from(*share));
+        let adds_up = shares.sum::<u128>() == self.whole;
         self.known.push(Known {
+            adds_up,
             outcomes: (outcomes as u32, self.outcomes.len() as u32),
             counts: (counts as u32, self.counts.len() as u32),
         });
@@ -182,6 +189,28 @@ impl Merges {
         if self.made >= Self::JUDGED {
             self.rare = (self.made - self.left) * Self::WORTH < self.made;
             (self.made, self.left) = (0, 0);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_share_that_is_missing_is_noticed() {
+        let mut table = Table::<u64>::new([], 8, &[]).expect("numbers that fit");
+        for (shares, fault, adds_up) in [
+            (&[5, 3][..], false, true),
+            (&[5, 2], false, false),
+            (&[8], true, false),
+        ] {
+            let from = table.outcomes.len();
+            let outcomes = shares.iter().zip(0..).map(|(share, n)| (n, 0, *share));
+            table.outcomes.extend(outcomes);
+            table.learn(from, 0, fault);
+            let known = table.known.last().expect("learned");
+            assert_eq!((known.is_fault(), known.adds_up), (fault, adds_up));
         }
     }
 }
