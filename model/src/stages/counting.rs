@@ -70,7 +70,7 @@ pub(super) fn visit(visits: &mut u128, more: Option<u128>, combinations: u128) {
     *visits = sum.unwrap_or(u128::MAX / combinations * combinations);
 }
 
-/// The same for a sum of weights; none if it is so large that it does not fit.
+/// `share` of `whole` parts of a sum of weights, which is a whole number; none if it is so large that it does not fit.
 fn rational(visits: u128, share: u64, whole: u128) -> Option<u128> {
     match visits.checked_mul(u128::from(share)) {
         Some(product) => Some(product / whole),
