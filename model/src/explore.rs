@@ -3,11 +3,12 @@
 use crate::crew::Crew;
 use crate::cursor::Leaf;
 use crate::hashed::{Halves, Hashed, Plain};
-use crate::liveness::{fair, recoverable, recovery};
+use crate::liveness::fair;
 use crate::model::Model;
 use crate::pack::{Key, Packer, space};
 use crate::process::{Any, Origin, Process};
 use crate::property::{Eval, Form, Property, Sign, validate};
+use crate::recoverable::{recoverable, recovery};
 use crate::report::{
     Error, FaultReport, Judgement, Options, Progress, Report, Step, Storage, Trace, Verdict,
 };
@@ -211,7 +212,7 @@ impl<K: Key> Finish<'_, K> {
             storage,
         } = self;
         let tally = &found.tally;
-        let decisions = decide(model, &found, properties, options, store.bytes())?;
+        let decisions = decide(model, &found, properties, options, &store)?;
         let mut requests = Vec::new();
         let mut judgements = Vec::new();
         let mut tails = Vec::new();
@@ -385,14 +386,14 @@ pub(crate) fn seen<'a, K: Key>(
 }
 
 /// Judges every property.
-fn decide<'a, K: Key>(
-    model: &'a Model<'a, Any<'a>, K>,
-    found: &Found<K>,
+fn decide<'a, T: Store>(
+    model: &'a Model<'a, Any<'a>, T::Key>,
+    found: &Found<T::Key>,
     properties: &'a [Property],
     options: &Options,
-    held: u64,
-) -> Result<Vec<Decision<'a, K>>, Error> {
-    let tally = &found.tally;
+    store: &T,
+) -> Result<Vec<Decision<'a, T::Key>>, Error> {
+    let (tally, held) = (&found.tally, store.bytes());
     let mut goals = Vec::new();
     if tally.complete {
         for property in properties {
@@ -401,7 +402,7 @@ fn decide<'a, K: Key>(
             }
         }
     }
-    let mut lost = recoverable(model, &goals, held)?.into_iter();
+    let mut lost = recoverable(model, &goals, store, tally.states)?.into_iter();
     let mut decisions = Vec::new();
     for (number, Property { form, .. }) in properties.iter().enumerate() {
         let signs = tally.signs[number];

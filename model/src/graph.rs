@@ -4,6 +4,7 @@ use crate::choices::Odometer;
 use crate::cursor::Leaf;
 use crate::distinct::Distinct;
 use crate::model::Model;
+use crate::nodes::{Nodes, push};
 use crate::pack::Key;
 use crate::process::{Any, Process};
 use crate::stages::Condition;
@@ -18,8 +19,8 @@ pub(crate) type Rule<'a, K> = dyn Fn(&mut dyn Process, &mut Odometer, K) -> Mark
 pub(crate) struct Rules<'a, K> {
     pub(crate) rule: &'a Rule<'a, K>,
     pub(crate) conditions: Vec<Condition>,
-    /// What a cycle is in which these conditions hold, one bit for each.
-    pub(crate) mark: &'a (dyn Fn(u128) -> Mark + Sync),
+    /// What a cycle to the given state is in which these conditions hold, one bit for each.
+    pub(crate) mark: &'a (dyn Fn(u128, K) -> Mark + Sync),
 }
 
 /// What a cycle is to a graph.
@@ -27,6 +28,8 @@ pub(crate) struct Rules<'a, K> {
 pub(crate) enum Mark {
     /// An edge with this label.
     Edge(u32),
+    /// An edge with this label from the state to itself, in place of one that leads out of the graph.
+    Around(u32),
     /// No edge, but a way out of the graph.
     Exit,
     /// Nothing.
@@ -43,22 +46,12 @@ pub(crate) struct Edge {
 /// A graph closed under a rule. Nodes are numbered in breadth-first order, the seeds first.
 #[derive(Debug)]
 pub(crate) struct Graph<K> {
-    keys: Vec<K>,
-    /// Open addressing from keys to node numbers plus one.
-    table: Vec<u32>,
+    nodes: Nodes<K>,
     first: Vec<usize>,
     edges: Vec<Edge>,
     pub(crate) seeds: u32,
     /// The first node with a way out; no other one is nearer to the seeds.
     exit: Option<u32>,
-}
-
-/// Appends to a list that grows by an eighth: doubling it could take far more than the memory that is left.
-fn push<T>(list: &mut Vec<T>, value: T) {
-    if list.len() == list.capacity() {
-        list.reserve_exact(list.len() / 8 + 64);
-    }
-    list.push(value);
 }
 
 /// Edges found from the nodes of one piece.
@@ -79,17 +72,16 @@ impl<K: Key> Graph<K> {
         held: u64,
     ) -> Option<Self> {
         let mut graph = Graph {
-            keys: Vec::new(),
-            table: vec![0; 64],
+            nodes: Nodes::new(),
             first: vec![0],
             edges: Vec::new(),
             seeds: 0,
             exit: None,
         };
         for key in seeds {
-            graph.node(*key)?;
+            graph.nodes.add(*key)?;
         }
-        graph.seeds = u32::try_from(graph.keys.len()).ok()?;
+        graph.seeds = graph.nodes();
         let mut workers: Vec<_> = (0..model.crew.size())
             .map(|_| {
                 let staged = model.quicker(&rules.conditions);
@@ -97,14 +89,15 @@ impl<K: Key> Graph<K> {
             })
             .collect();
         let mut done = 0;
-        while done < graph.keys.len() {
+        while done < graph.nodes.keys().len() {
             if model.watch.over(0) || model.watch.too_much(held + graph.bytes()) {
                 return None;
             }
             // What the pieces of this block hold, and whether it is too much.
             let (found, broken) = (AtomicU64::new(0), AtomicBool::new(false));
             let before = held + graph.bytes() + model.known();
-            let block = &graph.keys[done..graph.keys.len().min(done + 1024 * PIECE)];
+            let keys = graph.nodes.keys();
+            let block = &keys[done..keys.len().min(done + 1024 * PIECE)];
             model.crew.share(
                 &mut workers,
                 block.len().div_ceil(PIECE),
@@ -125,8 +118,9 @@ impl<K: Key> Graph<K> {
                         let whole = match staged.as_mut().and_then(|s| s.made(*key)) {
                             Some(staged) => {
                                 for (after, marks) in staged.ends() {
-                                    match (rules.mark)(marks) {
+                                    match (rules.mark)(marks, after) {
                                         Mark::Edge(label) => ends.push((after, label)),
+                                        Mark::Around(label) => ends.push((*key, label)),
                                         Mark::Exit => exits = true,
                                         Mark::Outside => (),
                                     }
@@ -139,6 +133,7 @@ impl<K: Key> Graph<K> {
                                     if let Leaf::To(after) = leaf {
                                         match (rules.rule)(&mut **process, odometer, after) {
                                             Mark::Edge(label) => ends.push((after, label)),
+                                            Mark::Around(label) => ends.push((*key, label)),
                                             Mark::Exit => exits = true,
                                             Mark::Outside => (),
                                         }
@@ -180,7 +175,7 @@ impl<K: Key> Graph<K> {
                 let exit = piece.exit.and_then(|node| u32::try_from(node).ok());
                 graph.exit = graph.exit.or(exit);
                 for (key, label) in piece.ends {
-                    let to = graph.node(key)?;
+                    let to = graph.nodes.add(key)?;
                     push(&mut graph.edges, Edge { to, label });
                 }
                 for degree in piece.degrees {
@@ -194,55 +189,22 @@ impl<K: Key> Graph<K> {
     }
 
     pub(crate) fn bytes(&self) -> u64 {
-        let keys = self.keys.capacity() * size_of::<K>() + self.table.capacity() * 4;
         let edges =
             self.edges.capacity() * size_of::<Edge>() + self.first.capacity() * size_of::<usize>();
-        (keys + edges) as u64
-    }
-
-    fn slot(&self, key: K) -> usize {
-        let size = self.table.len();
-        let mut slot = ((u128::from(key.hash()) * size as u128) >> 64) as usize;
-        while self.table[slot] != 0 && self.keys[self.table[slot] as usize - 1] != key {
-            slot = (slot + 1) % size;
-        }
-        slot
-    }
-
-    /// The number of a state, a new one if it has none; none if there are too many.
-    fn node(&mut self, key: K) -> Option<u32> {
-        let slot = self.slot(key);
-        if self.table[slot] != 0 {
-            return Some(self.table[slot] - 1);
-        }
-        let next = u32::try_from(self.keys.len() + 1).ok()?;
-        push(&mut self.keys, key);
-        self.table[slot] = next;
-        if self.keys.len() * 3 >= self.table.len() * 2 {
-            self.table = vec![0; self.table.len() * 2];
-            for (node, number) in self.keys.iter().zip(1..) {
-                let mut slot =
-                    ((u128::from(node.hash()) * self.table.len() as u128) >> 64) as usize;
-                while self.table[slot] != 0 {
-                    slot = (slot + 1) % self.table.len();
-                }
-                self.table[slot] = number;
-            }
-        }
-        Some(next - 1)
+        self.nodes.bytes() + edges as u64
     }
 
     /// The number of a state of the graph.
     pub(crate) fn number(&self, key: K) -> Option<u32> {
-        self.table[self.slot(key)].checked_sub(1)
+        self.nodes.number(key)
     }
 
     pub(crate) fn key(&self, node: u32) -> K {
-        self.keys[node as usize]
+        self.nodes.keys()[node as usize]
     }
 
     pub(crate) fn nodes(&self) -> u32 {
-        self.keys.len() as u32
+        self.nodes.keys().len() as u32
     }
 
     pub(crate) fn edges(&self, node: u32) -> &[Edge] {
@@ -269,7 +231,7 @@ impl<K: Key> Graph<K> {
     /// The strongly connected components of the edges that `keep` accepts (Tarjan, without recursion).
     pub(crate) fn components(&self, keep: impl Fn(Edge) -> bool) -> Components {
         const NONE: u32 = u32::MAX;
-        let size = self.keys.len();
+        let size = self.nodes.keys().len();
         let mut found = Components {
             of: vec![NONE; size],
             order: Vec::with_capacity(size),

@@ -16,10 +16,10 @@
 //! * `ticks`: the values of a timer as intervals. `checkpoint`: an exploration between two levels, in a file.
 //! * `crew`, `search`: one breadth-first search, level by level, on some threads. It tells for each property the first
 //!   place, in the order (depth, state), where something showed: so the report does not depend on the threads.
-//! * `graph`, `response`, `liveness`: what the search cannot tell. The cycles under a pending duty form a graph; bounded
-//!   responses ask for its longest path, responses under fairness for its strongly connected components, recoverability
-//!   for what the components of the whole graph lead to. `duty` makes a weak until part of the state, for its shortest
-//!   counterexample.
+//! * `graph`, `response`, `liveness`, `recoverable`: what the search cannot tell. The cycles under a pending duty form a graph;
+//!   bounded responses ask for its longest path, responses under fairness for its strongly connected components. Recoverability
+//!   goes backwards from the goal through all states, and asks the components of a graph of what is left. `duty` makes a weak
+//!   until part of the state, for its shortest counterexample.
 //! * `trace`: shortest runs. The search keeps no parents; a second search keeps its levels, and a walk back through them
 //!   finds the least predecessors.
 //! * `symmetry`, `narrow`: a system up to a group of permutations, and a part of a system; both systems again.
@@ -48,12 +48,14 @@ mod level;
 mod liveness;
 mod model;
 mod narrow;
+mod nodes;
 mod pack;
 mod parts;
 mod process;
 pub mod proof;
 mod property;
 mod reachable;
+mod recoverable;
 mod report;
 mod response;
 mod search;

@@ -1,21 +1,19 @@
-//! Properties of infinite runs and of branching: response under fairness, and recoverability.
+//! Properties of infinite runs: response under fairness.
 
 use crate::choices::Odometer;
 use crate::cursor::Leaf;
-use crate::distinct::Distinct;
 use crate::explore::{Decision, Evidence, Tail, sign_test};
 use crate::graph::{Components, Edge, Graph, Mark, Rules};
 use crate::model::Model;
 use crate::pack::Key;
-use crate::process::{Any, Process, beyond};
+use crate::process::{Any, Process};
 use crate::property::Form;
-use crate::report::{Error, Verdict};
+use crate::report::Verdict;
 use crate::response::Response;
 use crate::set::Set;
 use crate::stages::Condition;
 use crate::trace::Request;
 use std::collections::{HashMap, VecDeque};
-use std::ops::ControlFlow;
 use std::sync::Arc;
 
 /// The pending cycles of a response, and the components in which a fair run can stay forever.
@@ -57,7 +55,7 @@ pub(crate) fn fair<'a, K: Key>(
     let rules = Rules {
         rule: &label,
         conditions: [waits].into_iter().chain(met).collect(),
-        mark: &|marks| match marks & 1 {
+        mark: &|marks, _| match marks & 1 {
             0 => Mark::Outside,
             _ => Mark::Edge((marks >> 1) as u32),
         },
@@ -215,118 +213,5 @@ impl<K: Key> Pending<K> {
             }
         }
         None
-    }
-}
-
-/// Properties judged on one graph: a label has two bits for each.
-const TOGETHER: usize = 16;
-
-/// The goals and conditions (`goal`, `using`) of recoverability properties, judged over all reachable cycles; for each
-/// the states from which no path leads to the goal, as a test, or none if every state has one.
-pub(crate) type Lost<'a, K> = Option<Arc<dyn Fn(K) -> bool + Send + Sync + 'a>>;
-
-/// Judges recoverability. None for what a limit left open.
-#[allow(clippy::type_complexity)]
-pub(crate) fn recoverable<'a, K: Key>(
-    model: &'a Model<'a, Any<'a>, K>,
-    goals: &[(usize, Option<usize>)],
-    held: u64,
-) -> Result<Vec<Option<Lost<'a, K>>>, Error> {
-    if goals.is_empty() {
-        return Ok(Vec::new());
-    }
-    let mut initial = Distinct::new();
-    let all = model.cursor().initial(&model.packer, |key, _| {
-        initial.push(key);
-        match model.watch.too_much(held + initial.bytes()) {
-            true => ControlFlow::Break(()),
-            false => ControlFlow::Continue(()),
-        }
-    })?;
-    if !all {
-        return Ok(goals.iter().map(|_| None).collect());
-    }
-    let initial = initial.sorted();
-    let mut verdicts = Vec::new();
-    for goals in goals.chunks(TOGETHER) {
-        let label = |process: &mut dyn Process, choices: &mut Odometer, _: K| {
-            // What some choice makes possible: a path may take it, so the choices of one cycle add up.
-            let mut mask = 0;
-            process.save();
-            for (number, (goal, using)) in goals.iter().enumerate() {
-                beyond(process, choices, |process, choices| {
-                    let mut eval = model.eval(process, choices);
-                    let used = eval.given(*using);
-                    let reached = used && eval.atom(*goal);
-                    mask |= (u32::from(used) | u32::from(reached) << 1) << (2 * number);
-                });
-            }
-            Mark::Edge(mask)
-        };
-        let conditions = goals.iter().flat_map(|(goal, using)| {
-            let used: Condition = using.iter().map(|atom| (*atom, true)).collect();
-            let reached = used.iter().copied().chain([(*goal, true)]).collect();
-            [used, reached]
-        });
-        let rules = Rules {
-            rule: &label,
-            conditions: conditions.collect(),
-            mark: &|marks| Mark::Edge(marks as u32),
-        };
-        let Some(graph) = Graph::build(model, &initial, &rules, held).map(Arc::new) else {
-            verdicts.extend(goals.iter().map(|_| None));
-            continue;
-        };
-        for number in 0..goals.len() {
-            let used = |edge: Edge| edge.label >> (2 * number) & 1 != 0;
-            let reached = |edge: &Edge| edge.label >> (2 * number) & 2 != 0;
-            let components = graph.components(used);
-            let saved =
-                components.reaching(&graph, used, |node| graph.edges(node).iter().any(reached));
-            if saved.iter().all(|saved| *saved) {
-                verdicts.push(Some(None));
-                continue;
-            }
-            let graph = Arc::clone(&graph);
-            let lost = move |key| {
-                graph
-                    .number(key)
-                    .is_some_and(|n| !saved[components.of[n as usize] as usize])
-            };
-            verdicts.push(Some(Some(
-                Arc::new(lost) as Arc<dyn Fn(K) -> bool + Send + Sync>
-            )));
-        }
-    }
-    Ok(verdicts)
-}
-
-/// The decision that follows.
-pub(crate) fn recovery<'a, K: Key>(
-    lost: Option<Lost<'a, K>>,
-    witness: Evidence<'a, K>,
-) -> Decision<'a, K> {
-    match lost {
-        None => Verdict::Inconclusive.into(),
-        Some(None) => Decision {
-            verdict: Verdict::Holds,
-            bound: None,
-            fastest: None,
-            evidence: witness,
-        },
-        Some(Some(lost)) => {
-            let state = Arc::clone(&lost);
-            let request = Request {
-                at: None,
-                test: Arc::new(move |_, _, leaf| matches!(leaf, Leaf::To(after) if lost(after))),
-                state: Some(state),
-            };
-            Decision {
-                verdict: Verdict::Violated,
-                bound: None,
-                fastest: None,
-                evidence: Evidence::Run(request, None),
-            }
-        }
     }
 }

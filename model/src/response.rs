@@ -62,7 +62,7 @@ pub(crate) fn bounded<'a, K: Key>(
     let rules = Rules {
         rule: &edge,
         conditions: vec![with(false), with(true)],
-        mark: &|marks| match marks & 3 {
+        mark: &|marks, _| match marks & 3 {
             0 => Mark::Outside,
             1 => Mark::Edge(0),
             _ => Mark::Exit,
@@ -159,7 +159,7 @@ pub(crate) fn until<'a, K: Key>(
                 vec![(unless, false), (holds, true)],
                 vec![(unless, false), (holds, false)],
             ],
-            mark: &|marks| {
+            mark: &|marks, _| {
                 if marks & 2 != 0 {
                     violated.store(true, Ordering::Relaxed);
                 }

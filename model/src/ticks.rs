@@ -279,6 +279,21 @@ impl Store for Ticked {
         }
     }
 
+    fn all(&self) -> Vec<u64> {
+        let mut all = Vec::new();
+        for shard in 0..SHARDS {
+            let part = self.part(shard);
+            let none = Vec::new();
+            for ((place, rest), own) in (0..).zip(&part.rests.keys).zip(&part.ticks) {
+                let more = part.more.get(&place).unwrap_or(&none);
+                for [from, to] in std::iter::once(own).chain(more) {
+                    all.extend((*from..=*to).map(|tick| rest * self.size + u64::from(tick)));
+                }
+            }
+        }
+        all
+    }
+
     fn bytes(&self) -> u64 {
         self.bytes.load(Ordering::Relaxed) + self.lists.load(Ordering::Relaxed)
     }

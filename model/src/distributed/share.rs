@@ -112,6 +112,10 @@ impl<C: Code> Store for Share<C> {
         self.own.each(piece, visit);
     }
 
+    fn all(&self) -> Vec<C::Key> {
+        self.own.all()
+    }
+
     fn bytes(&self) -> u64 {
         let waiting = self.waiting.load(Ordering::Relaxed);
         self.own.bytes() + waiting + (RECENT * size_of::<Option<C::Key>>()) as u64

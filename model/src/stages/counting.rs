@@ -5,7 +5,7 @@ use super::table::Count;
 use crate::pack::Key;
 
 impl<K: Key> Staged<'_, K> {
-    /// Counts what has come to the places of a group where it comes in its stages.
+    /// Counts what has come to the places of a group where it comes in the tables that it is made of.
     pub(super) fn count_places(&mut self, table: usize) {
         let (of, group) = self.tables.split_at_mut(table);
         let Some(group) = group.first_mut() else {
@@ -17,10 +17,10 @@ impl<K: Key> Staged<'_, K> {
                 continue;
             }
             for count in &group.counts[known.counts()] {
-                if let Count::Place(stage, place, share) = count {
+                if let Count::Place(table, place, share) = count {
                     let more = rational(visits, *share, group.whole);
                     visit(
-                        &mut of[*stage as usize].visits[*place as usize],
+                        &mut of[*table as usize].visits[*place as usize],
                         more,
                         self.combinations,
                     );
@@ -31,7 +31,9 @@ impl<K: Key> Staged<'_, K> {
 
     pub(super) fn drain(&mut self, each: &mut dyn FnMut(usize, u64)) {
         let stages = self.writes.len();
-        (stages..self.tables.len()).for_each(|table| self.count_places(table));
+        // What comes to a prefix comes to tables before it.
+        let groups = stages..self.tables.len();
+        groups.rev().for_each(|table| self.count_places(table));
         for table in &mut self.tables[..stages] {
             for (known, visits) in table.known.iter().zip(&mut table.visits) {
                 let visits = std::mem::take(visits);

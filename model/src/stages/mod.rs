@@ -6,6 +6,7 @@
 
 mod counting;
 mod fusion;
+mod group;
 mod index;
 mod pace;
 mod seen;
@@ -20,14 +21,13 @@ use crate::pack::{Key, Packer};
 use crate::process::Origin;
 use crate::system::{Domain, Fault};
 use counting::visit;
-use fusion::{Change, Fusion};
+use fusion::Fusion;
+use group::Group;
 use index::Merge;
 pub(crate) use seen::Burst;
 use seen::Seen;
-use std::collections::BTreeSet;
-use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
-use table::{Count, Table, Traffic};
+use table::{Count, Table};
 use ways::{Way, follow};
 
 /// Holds in a cycle in which each of these atoms has the value beside it.
@@ -35,9 +35,6 @@ pub type Condition = Vec<(usize, bool)>;
 
 /// The most conditions that are told apart.
 pub(crate) const MOST_CONDITIONS: usize = 128;
-
-/// Of what may be held, the part that tables of groups may.
-const SHARE_OF_GROUPS: u64 = 2;
 
 /// One of the outcomes of a stage.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -88,20 +85,8 @@ pub trait Stages: Send {
     fn bytes(&self) -> u64;
 }
 
-/// Stages next to each other that are looked up as one: by the table of the first one if it is alone, else by one of their own.
-struct Group {
-    table: usize,
-    stages: Range<usize>,
-}
-
-impl Group {
-    fn single(stage: usize) -> Self {
-        Group {
-            table: stage,
-            stages: stage..stage + 1,
-        }
-    }
-}
+/// Lists of ways, those before a table and those behind it, to be used again.
+type Room<K> = (Vec<Way<K>>, Vec<Way<K>>, Merge);
 
 /// A work area of one thread.
 pub(crate) struct Staged<'a, K> {
@@ -121,8 +106,8 @@ pub(crate) struct Staged<'a, K> {
     ways: Vec<Way<K>>,
     next: Vec<Way<K>>,
     merge: Merge,
-    /// The same three for the stages of a group.
-    inner: (Vec<Way<K>>, Vec<Way<K>>, Merge),
+    /// The same three, for each group that learns within another one.
+    inner: Vec<Room<K>>,
     /// The places looked up for this state, with the combinations that came there.
     looked: Vec<(u32, u32, u128)>,
     marks: Vec<u128>,
@@ -185,7 +170,7 @@ impl<'a, K: Key> Staged<'a, K> {
             ways: Vec::new(),
             next: Vec::new(),
             merge: Merge::default(),
-            inner: Default::default(),
+            inner: Vec::new(),
             looked: Vec::new(),
             marks: Vec::new(),
             seen: Seen::new(most),
@@ -342,15 +327,8 @@ impl<'a, K: Key> Staged<'a, K> {
     /// Makes what follows from a class that comes to a group, for the next place of its table.
     #[cold]
     fn learn(&mut self, group: usize, class: u32) {
-        let Group { table, stages } = &self.groups[group];
-        let (table, stages) = (*table, stages.clone());
-        match table == stages.start {
-            true => self.learn_stage(table, class),
-            false => {
-                self.learn_group(table, stages, class);
-                self.fusion.learned(self.tables[table].traffic);
-            }
-        }
+        let group = self.groups[group].clone();
+        self.learn_of(&group, class);
         self.grown = true;
     }
 
@@ -399,115 +377,6 @@ impl<'a, K: Key> Staged<'a, K> {
             }
         }
         table.learn(from, counts, fault);
-    }
-
-    /// Goes through the stages of a group.
-    fn learn_group(&mut self, table: usize, stages: Range<usize>, class: u32) {
-        let (mut ways, mut next, mut merge) = std::mem::take(&mut self.inner);
-        let whole = self.tables[table].whole;
-        let (from, counts) = (
-            self.tables[table].outcomes.len(),
-            self.tables[table].counts.len(),
-        );
-        let mut fault = false;
-        ways.clear();
-        ways.push(Way::begin(class, whole));
-        'stages: for stage in stages {
-            let projection = self.tables[stage].projection(&self.before);
-            next.clear();
-            merge.start();
-            for way in &ways {
-                let (place, fresh) = self.tables[stage].place(projection, way.class);
-                if fresh {
-                    self.learn_stage(stage, way.class);
-                }
-                let of = &self.tables[stage];
-                let known = of.known[place as usize];
-                if known.is_fault() {
-                    fault = true;
-                    break 'stages;
-                }
-                follow(
-                    *way,
-                    &of.outcomes[known.outcomes()],
-                    of.whole,
-                    &mut next,
-                    Some(&mut merge),
-                );
-                // The weights are parts of the whole, which is one of 64 bits.
-                let count = Count::Place(stage as u32, place, way.weight as u64);
-                self.tables[table].counts.push(count);
-            }
-            std::mem::swap(&mut ways, &mut next);
-        }
-        let outcomes = ways
-            .iter()
-            .map(|way| (way.key, way.class, way.weight as u64));
-        let own = &mut self.tables[table];
-        own.outcomes.extend(outcomes);
-        own.learn(from, counts, fault);
-        self.inner = (ways, next, merge);
-    }
-
-    /// Has more stages, or fewer, looked up as one.
-    #[cold]
-    fn fuse(&mut self) {
-        let traffic = |group: &Group| self.tables[group.table].traffic;
-        let seen: Vec<_> = self
-            .groups
-            .iter()
-            .map(|g| (g.stages.clone(), traffic(g)))
-            .collect();
-        let bytes = self.tables[self.writes.len()..]
-            .iter()
-            .map(Table::bytes)
-            .sum::<u64>();
-        let room = bytes < self.most / SHARE_OF_GROUPS;
-        let last = self.groups[self.groups.len() - 1].table;
-        match self.fusion.next(&seen, room) {
-            Some(Change::Fuse(group)) => {
-                let stages = seen[group].0.start..seen[group + 1].0.end;
-                match self.table(stages.clone()) {
-                    Some(mut table) => {
-                        table.merges.shift(group);
-                        self.tables.push(table);
-                        let table = self.tables.len() - 1;
-                        self.groups
-                            .splice(group..group + 2, [Group { table, stages }]);
-                    }
-                    None => self.fusion.close(stages),
-                }
-            }
-            Some(Change::Split(group)) => {
-                let stages = seen[group].0.clone();
-                let table = self.groups[group].table;
-                self.count_places(table);
-                self.tables[table].forget();
-                self.groups
-                    .splice(group..group + 1, stages.map(Group::single));
-            }
-            None => {}
-        }
-        for table in &mut self.tables {
-            table.traffic = Traffic::default();
-        }
-        // Places of the last table are what bursts are told apart by.
-        if self.groups[self.groups.len() - 1].table != last {
-            self.seen.forget();
-        }
-        self.grown = true;
-    }
-
-    /// A table for some stages together; none if numbers do not fit.
-    fn table(&self, stages: Range<usize>) -> Option<Table<K>> {
-        let tables = &self.tables[stages];
-        let whole = tables
-            .iter()
-            .try_fold(1, |all: u128, t| all.checked_mul(t.whole))?;
-        self.combinations
-            .checked_mul(u128::from(u64::try_from(whole).ok()?))?;
-        let reads: BTreeSet<usize> = tables.iter().flat_map(Table::reads).collect();
-        Table::new(reads, whole, self.domains)
     }
 
     /// Tells what is held, and forgets all if it is too much.

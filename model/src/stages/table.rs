@@ -29,7 +29,7 @@ pub(super) struct Table<K> {
 pub(super) enum Count {
     /// A rule that fired, with its share.
     Rule(usize, u64),
-    /// A place of the table of a stage, with its share.
+    /// A place of a table before this one, with its share.
     Place(u32, u32, u64),
 }
 

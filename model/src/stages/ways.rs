@@ -29,10 +29,7 @@ pub(super) fn follow<K: Key>(
 ) {
     for (own, class, share) in outcomes {
         let (key, class) = (way.key.plus(*own), *class);
-        let weight = match u128::from(*share) == whole {
-            true => way.weight,
-            false => part_of(way.weight, *share, whole),
-        };
+        let weight = part_of(way.weight, *share, whole);
         if let Some(merge) = merge.as_deref_mut() {
             let hash = key.hash() ^ u64::from(class).wrapping_mul(0x9e37_79b9_7f4a_7c15);
             let same = |at: usize| next[at].key == key && next[at].class == class;
@@ -48,6 +45,12 @@ pub(super) fn follow<K: Key>(
 /// `share` of `whole` parts of a weight, which is a whole number.
 #[inline]
 fn part_of(weight: u128, share: u64, whole: u128) -> u128 {
+    if u128::from(share) == whole {
+        return weight;
+    }
+    if weight == whole {
+        return u128::from(share);
+    }
     match (u64::try_from(weight), u64::try_from(whole)) {
         (Ok(weight), Ok(whole)) => match weight.checked_mul(share) {
             Some(product) => u128::from(product / whole),
