@@ -43,6 +43,8 @@ pub struct Every {
     pub(super) assumed: Vec<usize>,
     /// By property the state variable that has its bound, where that depends on the parameters.
     pub(super) within: Vec<Option<usize>>,
+    /// By property the parameters that its bound is about.
+    pub(super) about: Vec<Vec<usize>>,
 }
 
 impl Every {
@@ -75,6 +77,7 @@ impl Every {
             start: of_both(&self.start),
             assumed: of_both(&self.assumed),
             within: vec![None],
+            about: vec![Vec::new()],
             bound: both.bound,
         };
         Some((every, both.pairs))
@@ -128,6 +131,7 @@ impl<'a> Builder<'a> {
                 start: Vec::new(),
                 assumed: Vec::new(),
                 within: vec![None; old.system.properties.len()],
+                about: vec![Vec::new(); old.system.properties.len()],
             },
             places: vec![None; old.system.params.len()],
             spans: vec![None; old.system.params.len()],
@@ -345,6 +349,12 @@ impl<'a> Builder<'a> {
             if lo == hi {
                 continue;
             }
+            let about = &mut self.every.about[k];
+            within.visit(&mut |node| {
+                if let Node::Cell(Space::Before, parameter) = node {
+                    about.push(*parameter as usize);
+                }
+            });
             let place = self.every.bound.states.len();
             let cell = Node::Cell(Space::Before, place as u32);
             let is = Node::Binary(BinaryOp::Eq, Box::new(cell), Box::new(within));

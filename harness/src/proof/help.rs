@@ -4,8 +4,9 @@
 //! candidates, and those that hold by induction with each other are known beforehand. Where parameters are part of the state, so are
 //! "the timer is at most this parameter".
 
+use std::collections::HashMap;
 use stillpoint_certify::proof::clause::{Clause, Literal};
-use stillpoint_model::proof::{Budget, Graph, Lit, Netlist, Spent, Word, inductive};
+use stillpoint_model::proof::{Budget, Candidates, Graph, Lit, Netlist, Spent, Word, inductive};
 
 use super::monitor::Duty;
 use super::question::Asked;
@@ -19,14 +20,28 @@ const PHASE: i64 = 16;
 /// A variable of at least so many values may be a timer.
 const TIMER: i64 = 4;
 
-/// While the duty is open: the first or the second.
+/// What the cycles left may be short of, or have over; the strongest first.
+const SHIFTS: [i64; 4] = [-2, -1, 0, 1];
+
+/// What may be known beforehand; of the parameters those that the bound is about. The first two are about the time in which the duty is open.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 enum Candidate {
     /// A variable has not this value.
     Excluded(usize, i64),
-    /// Where a variable has a value, or always: a timer is at most the cycles left and this shift.
-    Below(Option<(usize, i64)>, usize, i64),
+    /// Where a variable has a value, or always: a timer or a parameter is at most the cycles left and this shift.
+    Below(Phase, Number, i64),
     /// Where a variable has a value, or always, duty or not: a timer is at most a parameter.
-    Limited(Option<(usize, i64)>, usize, usize),
+    Limited(Phase, usize, usize),
+}
+
+/// A variable and its value, or always.
+type Phase = Option<(usize, i64)>;
+
+/// What may be compared with the cycles left.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+enum Number {
+    Timer(usize),
+    Parameter(usize),
 }
 
 /// State variables with more than one value that are no parameters, and parameters, as numbers with their ranges and names.
@@ -54,7 +69,7 @@ pub(super) fn helped(asked: &Asked, duty: &Duty, budget: &Budget) -> Result<Opti
     let own = (0..asked.own)
         .map(named)
         .filter(|((_, (lo, hi)), _)| lo < hi);
-    let parameters = (asked.parameters.iter().map(|k| named(*k)))
+    let parameters = (duty.about.iter().map(|k| named(*k)))
         .filter(|((_, (lo, hi)), _)| hi - lo >= TIMER)
         .map(|((word, _), name)| (word, name));
     let (own, own_names) = own.unzip();
@@ -67,20 +82,23 @@ pub(super) fn helped(asked: &Asked, duty: &Duty, budget: &Budget) -> Result<Opti
     };
     let all = candidates(&variables);
     let mut netlist = translated.netlist.clone();
-    let lits: Vec<Lit> = (all.iter())
-        .map(|candidate| build(&mut netlist, &variables, duty, candidate))
-        .collect();
-    let kept = inductive(&netlist, &lits, budget)?;
+    let (mut asked, mut numbers) = (Candidates::default(), HashMap::new());
+    for candidate in &all {
+        let lit = build(&mut netlist, &variables, duty, candidate);
+        let stronger = stronger(candidate);
+        let stronger = stronger.iter().filter_map(|s| numbers.get(s).copied());
+        let number = asked.add(lit, stronger.collect());
+        numbers.insert(*candidate, number);
+    }
+    let kept = inductive(&netlist, &asked, budget)?;
     // Without the functions of all the others.
     let mut helped = translated.netlist.clone();
     let mut sentences = Vec::new();
-    for (candidate, lit) in all.iter().zip(&lits) {
-        if kept.contains(lit) {
-            let own = build(&mut helped, &variables, duty, candidate);
-            if own != Lit::TRUE {
-                helped.invariants.push(own);
-                sentences.push(sentence(&variables, candidate));
-            }
+    for candidate in kept.into_iter().map(|k| &all[k]) {
+        let own = build(&mut helped, &variables, duty, candidate);
+        if own != Lit::TRUE {
+            helped.invariants.push(own);
+            sentences.push(sentence(&variables, candidate));
         }
     }
     Ok(Some(Help {
@@ -101,27 +119,32 @@ fn sentence(variables: &Variables, candidate: &Candidate) -> Clause {
         value,
         equal: false,
     };
-    let most = |timer: usize, other: &str, shift: i64| Literal::Most {
-        name: variables.own_names[timer].clone(),
+    let most = |number: Number, other: &str, shift: i64| Literal::Most {
+        name: match number {
+            Number::Timer(timer) => variables.own_names[timer].clone(),
+            Number::Parameter(parameter) => variables.parameter_names[parameter].clone(),
+        },
         other: Some(other.to_owned()),
         shift,
     };
     let mut literals = Vec::new();
     match candidate {
         Candidate::Excluded(k, value) => literals.extend([open(), other((*k, *value))]),
-        Candidate::Below(phase, timer, shift) => {
+        Candidate::Below(phase, number, shift) => {
             literals.push(open());
             literals.extend(phase.map(other));
-            literals.push(most(*timer, "@rest", *shift));
+            literals.push(most(*number, "@rest", *shift));
         }
         Candidate::Limited(phase, timer, parameter) => {
             literals.extend(phase.map(other));
-            literals.push(most(*timer, &variables.parameter_names[*parameter], 0));
+            let parameter = &variables.parameter_names[*parameter];
+            literals.push(most(Number::Timer(*timer), parameter, 0));
         }
     }
     Clause(literals)
 }
 
+/// All candidates, each behind those that it follows from.
 fn candidates(variables: &Variables) -> Vec<Candidate> {
     let size = |range: &(i64, i64)| range.1 - range.0 + 1;
     let mut list = Vec::new();
@@ -134,19 +157,40 @@ fn candidates(variables: &Variables) -> Vec<Candidate> {
             }
         }
     }
+    let parameters = || 0..variables.parameters.len();
     for (k, (_, range)) in variables.own.iter().enumerate() {
         if size(range) >= TIMER && range.0 >= 0 {
             for phase in &phases {
-                for shift in [-1, 0, 1] {
-                    list.push(Candidate::Below(*phase, k, shift));
-                }
-                for parameter in 0..variables.parameters.len() {
-                    list.push(Candidate::Limited(*phase, k, parameter));
-                }
+                let below = SHIFTS.map(|shift| Candidate::Below(*phase, Number::Timer(k), shift));
+                list.extend(below);
+                list.extend(parameters().map(|p| Candidate::Limited(*phase, k, p)));
             }
         }
     }
+    // What has not begun yet has all its time before it.
+    for phase in &phases {
+        for number in parameters().map(Number::Parameter) {
+            list.extend(SHIFTS.map(|shift| Candidate::Below(*phase, number, shift)));
+        }
+    }
     list
+}
+
+/// What a candidate follows from: the same always, or with less time left; that the phase does not occur.
+fn stronger(candidate: &Candidate) -> Vec<Candidate> {
+    match *candidate {
+        Candidate::Excluded(..) => Vec::new(),
+        Candidate::Below(phase, number, shift) => {
+            let always = phase.map(|_| Candidate::Below(None, number, shift));
+            let never = phase.map(|(k, value)| Candidate::Excluded(k, value));
+            let less = Candidate::Below(phase, number, shift - 1);
+            always.into_iter().chain(never).chain([less]).collect()
+        }
+        Candidate::Limited(phase, timer, parameter) => {
+            let always = phase.map(|_| Candidate::Limited(None, timer, parameter));
+            always.into_iter().collect()
+        }
+    }
 }
 
 fn build(netlist: &mut Netlist, variables: &Variables, duty: &Duty, candidate: &Candidate) -> Lit {
@@ -157,10 +201,14 @@ fn build(netlist: &mut Netlist, variables: &Variables, duty: &Duty, candidate: &
     let mut open = duty.pending;
     let against = match candidate {
         Candidate::Excluded(k, value) => has(graph, (*k, *value)),
-        Candidate::Below(phase, timer, shift) => {
+        Candidate::Below(phase, number, shift) => {
             let phase = phase.map_or(Lit::TRUE, |phase| has(graph, phase));
             let limit = duty.rest.plus(graph, &Word::constant(*shift));
-            let above = limit.less(graph, &variables.own[*timer].0);
+            let number = match number {
+                Number::Timer(timer) => &variables.own[*timer].0,
+                Number::Parameter(parameter) => &variables.parameters[*parameter],
+            };
+            let above = limit.less(graph, number);
             graph.and(phase, above)
         }
         Candidate::Limited(phase, timer, parameter) => {

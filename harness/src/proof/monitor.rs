@@ -12,6 +12,8 @@ pub(super) struct Duty {
     pub rest: Word,
     /// The greatest number of cycles left.
     pub most: i64,
+    /// The parameters that its bound is about: places of their state variables.
+    pub about: Vec<usize>,
 }
 
 impl Duty {
@@ -79,6 +81,8 @@ pub(super) fn until(
 pub(super) struct Cycles {
     pub word: Word,
     pub most: i64,
+    /// These parameters: places of their state variables.
+    pub about: Vec<usize>,
 }
 
 impl Cycles {
@@ -86,6 +90,7 @@ impl Cycles {
         Cycles {
             word: Word::constant(cycles),
             most: cycles,
+            about: Vec::new(),
         }
     }
 }
@@ -123,6 +128,7 @@ pub(super) fn within(
         pending,
         rest,
         most,
+        about: within.about.clone(),
     };
     (broken, duty)
 }
@@ -194,6 +200,7 @@ pub(super) fn measured(
         pending,
         rest,
         most: rounds,
+        about: Vec::new(),
     };
     (broken, duty)
 }

@@ -7,7 +7,7 @@ use stillpoint_certify::proof::clause::{Clause, Literal};
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::ir::Property;
 use stillpoint_lang::twice::twice;
-use stillpoint_model::proof::{Lit, Spent, inductive};
+use stillpoint_model::proof::{Candidates, Lit, Spent, inductive};
 
 use super::question::Asked;
 use super::{Every, Judge, Judged, Settings};
@@ -63,11 +63,14 @@ fn alike(asked: &mut Asked, pairs: &[(usize, usize)], judge: &Judge) -> Result<V
             same.push((lit, (*one, *other), a.bits().len()));
         }
     }
-    let netlist = &mut asked.translated.netlist;
-    let candidates: Vec<Lit> = same.iter().map(|(lit, ..)| *lit).collect();
-    let kept = inductive(netlist, &candidates, &judge.budget)?;
+    let mut candidates = Candidates::default();
+    for (lit, ..) in &same {
+        candidates.add(*lit, Vec::new());
+    }
+    let kept = inductive(&asked.translated.netlist, &candidates, &judge.budget)?;
     let mut clauses = Vec::new();
-    for (_, (one, other), bits) in same.iter().filter(|(lit, ..)| kept.contains(lit)) {
+    for (lit, (one, other), bits) in kept.into_iter().map(|k| &same[k]) {
+        asked.translated.netlist.invariants.push(*lit);
         let names = (asked.name(*one), asked.name(*other));
         let literal = |name: &String, bit, set| Literal::Bit {
             name: name.clone(),
@@ -81,6 +84,5 @@ fn alike(asked: &mut Asked, pairs: &[(usize, usize)], judge: &Judge) -> Result<V
             }
         }
     }
-    asked.translated.netlist.invariants.extend(kept);
     Ok(clauses)
 }

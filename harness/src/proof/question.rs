@@ -61,6 +61,8 @@ pub(super) struct Asked<'a> {
     pub own: usize,
     /// By property the state variable that has its bound, if there is such.
     bounds: Vec<Option<usize>>,
+    /// By property the parameters that its bound is about.
+    about: Vec<Vec<usize>>,
 }
 
 impl<'a> Asked<'a> {
@@ -73,6 +75,7 @@ impl<'a> Asked<'a> {
             parameters: &[],
             own: bound.states.len(),
             bounds: vec![None; bound.system.properties.len()],
+            about: vec![Vec::new(); bound.system.properties.len()],
         };
         asked.ask();
         Ok(asked)
@@ -88,6 +91,7 @@ impl<'a> Asked<'a> {
             parameters: &every.parameters,
             own: every.own,
             bounds: every.within.clone(),
+            about: every.about.clone(),
         };
         let (always, start) = (
             asked.conditions(&every.always)?,
@@ -146,7 +150,7 @@ impl<'a> Asked<'a> {
     fn ask(&mut self) {
         let bound = self.translated.bound;
         for (k, property) in bound.system.properties.iter().enumerate() {
-            let question = self.question(property, self.bounds[k]);
+            let question = self.question(k, property);
             self.questions.push(question.unwrap_or(Question::None(
                 "an expression of it cannot be told in one cycle",
             )));
@@ -162,7 +166,7 @@ impl<'a> Asked<'a> {
         condition.map_or(Some(Lit::TRUE), |k| self.atom(k))
     }
 
-    fn question(&mut self, property: &Property, variable: Option<usize>) -> Option<Question> {
+    fn question(&mut self, number: usize, property: &Property) -> Option<Question> {
         let fault = self.translated.fault;
         let graph = |asked: &mut Self, list: &[Lit]| {
             asked.translated.netlist.graph.all(list.iter().copied())
@@ -207,10 +211,11 @@ impl<'a> Asked<'a> {
                 within: Some(within),
                 ..
             } => {
-                let within = match variable {
+                let within = match self.bounds[number] {
                     Some(k) => {
                         let (word, (_, most)) = self.translated.variable(k);
-                        Cycles { word, most }
+                        let about = self.about[number].clone();
+                        Cycles { word, most, about }
                     }
                     None => Cycles::constant(self.translated.bound.constant(within).max(0)),
                 };

@@ -1,31 +1,63 @@
 //! Candidates for invariants, and those of them that hold together (Houdini: C. Flanagan and K. R. M. Leino, 2001).
 
-use super::graph::Lit;
+use super::graph::{Lit, value};
 use super::netlist::{Netlist, Problem, after};
 use super::sat::{Budget, Encoding, Solver, Spent, Term};
+use super::simulate::unbroken;
 
-/// Those candidates that hold in every reachable state by induction with each other: the largest such set. A candidate is a
-/// condition on latches.
+/// Candidates, conditions on latches, some of which follow from others.
+#[derive(Clone, Debug, Default)]
+pub struct Candidates {
+    lits: Vec<Lit>,
+    /// By candidate those that it follows from.
+    stronger: Vec<Vec<usize>>,
+}
+
+impl Candidates {
+    /// One more, which follows from each of these; its number.
+    pub fn add(&mut self, lit: Lit, stronger: Vec<usize>) -> usize {
+        self.lits.push(lit);
+        self.stronger.push(stronger);
+        self.lits.len() - 1
+    }
+
+    /// The strongest ones of those that are left: from them the others follow.
+    fn strongest(&self, left: &[bool]) -> Vec<usize> {
+        let follows = |k: usize| self.stronger[k].iter().any(|s| left[*s]);
+        (0..left.len())
+            .filter(|k| left[*k] && !follows(*k))
+            .collect()
+    }
+}
+
+/// The candidates that hold in every reachable state by induction with each other, the largest such set, without those that follow from
+/// others of it: their numbers.
 ///
 /// # Errors
 /// The budget is spent.
 pub fn inductive(
     netlist: &Netlist,
-    candidates: &[Lit],
+    candidates: &Candidates,
     budget: &Budget,
-) -> Result<Vec<Lit>, Spent> {
+) -> Result<Vec<usize>, Spent> {
     let mut graph = netlist.graph.clone();
-    let all = graph.all(candidates.iter().copied());
+    let all = graph.all(candidates.lits.iter().copied());
     let mut widened = netlist.clone();
     widened.graph = graph;
     // Whatever one of them depends on.
     let problem = Problem::new(&widened, all);
-    let kept = at_start(&problem, candidates, budget)?;
-    kept_by_cycles(&problem, kept, budget)
+    let mut left = unbroken(&problem, &candidates.lits, budget)?;
+    at_start(&problem, candidates, &mut left, budget)?;
+    kept_by_cycles(&problem, candidates, left, budget)
 }
 
-/// Those that hold in every start state.
-fn at_start(problem: &Problem, candidates: &[Lit], budget: &Budget) -> Result<Vec<Lit>, Spent> {
+/// Leaves those that hold in every start state.
+fn at_start(
+    problem: &Problem,
+    candidates: &Candidates,
+    left: &mut [bool],
+    budget: &Budget,
+) -> Result<(), Spent> {
     let mut solver = Solver::new(budget);
     let mut encoding = Encoding::new(problem.graph());
     let fixed = problem
@@ -39,61 +71,66 @@ fn at_start(problem: &Problem, candidates: &[Lit], budget: &Budget) -> Result<Ve
         let term = encoding.term(&mut solver, problem.graph(), lit);
         solver.clause([term]);
     }
-    let mut kept = Vec::new();
-    for lit in candidates {
-        if budget.spent() {
-            return Err(Spent);
+    let mut asked = vec![false; left.len()];
+    loop {
+        let mut strongest = candidates.strongest(left);
+        strongest.retain(|k| !std::mem::replace(&mut asked[*k], true));
+        if strongest.is_empty() {
+            return Ok(());
         }
-        let term = encoding.term(&mut solver, problem.graph(), *lit);
-        if !solver.solve(&[!term])? {
-            kept.push(*lit);
+        for k in strongest {
+            if budget.spent() {
+                return Err(Spent);
+            }
+            let term = encoding.term(&mut solver, problem.graph(), candidates.lits[k]);
+            left[k] = !solver.solve(&[!term])?;
         }
     }
-    Ok(kept)
 }
 
 /// Those that a cycle from a state in which all of them hold keeps, left alone.
 fn kept_by_cycles(
     problem: &Problem,
-    mut kept: Vec<Lit>,
+    candidates: &Candidates,
+    mut left: Vec<bool>,
     budget: &Budget,
-) -> Result<Vec<Lit>, Spent> {
+) -> Result<Vec<usize>, Spent> {
     let netlist = problem.netlist();
     let mut graph = netlist.graph.clone();
-    let moved = after(&mut graph, netlist, &kept);
-    let mut next: Vec<Lit> = moved;
+    let moved = after(&mut graph, netlist, &candidates.lits);
     let mut solver = Solver::new(budget);
     let mut encoding = Encoding::new(&graph);
     for lit in problem.invariants.iter().chain(&problem.assumed) {
         let term = encoding.term(&mut solver, &graph, *lit);
         solver.clause([term]);
     }
-    while !kept.is_empty() {
+    loop {
         // The solvers of small questions hardly ever look at the time.
         if budget.spent() {
             return Err(Spent);
         }
-        let given: Vec<Term> = (kept.iter())
-            .map(|lit| encoding.term(&mut solver, &graph, *lit))
+        let strongest = candidates.strongest(&left);
+        let given: Vec<Term> = (strongest.iter())
+            .map(|k| encoding.term(&mut solver, &graph, candidates.lits[*k]))
             .collect();
-        let after: Vec<Term> = (next.iter())
-            .map(|lit| encoding.term(&mut solver, &graph, *lit))
+        let after: Vec<Term> = (strongest.iter())
+            .map(|k| encoding.term(&mut solver, &graph, moved[*k]))
             .collect();
         // One assumption for all of them: each by itself would be a level of the search, begun anew with every restart.
         let switch = solver.variable();
         for term in given {
             solver.clause([!switch, term]);
         }
-        solver.clause([!switch].into_iter().chain(after.iter().map(|t| !*t)));
+        solver.clause([!switch].into_iter().chain(after.into_iter().map(|t| !t)));
         if !solver.solve(&[switch])? {
-            break;
+            return Ok(strongest);
         }
-        let holds: Vec<bool> = after.iter().map(|t| solver.value(*t)).collect();
+        // Of all that are left those that this cycle does not keep, not only of the strongest.
+        let bit = |node| encoding.value(&solver, Lit::of(node)).unwrap_or(false);
+        let values = graph.values(bit);
+        for (left, moved) in left.iter_mut().zip(&moved) {
+            *left &= value(&values, *moved);
+        }
         solver.clause([!switch]);
-        let mut holds_kept = holds.iter();
-        kept.retain(|_| holds_kept.next().is_some_and(|h| *h));
-        let mut holds_next = holds.iter();
-        next.retain(|_| holds_next.next().is_some_and(|h| *h));
     }
-    Ok(kept)
 }

@@ -27,13 +27,14 @@ mod netlist;
 mod pdr;
 mod recovery;
 mod sat;
+mod simulate;
 mod unroll;
 mod word;
 
 pub use bdd::{Condition, Lasso, States};
 pub use bounded::{Bounded, Induction, induction};
 pub use graph::{Graph, Lit, Node, value};
-pub use houdini::inductive;
+pub use houdini::{Candidates, inductive};
 pub use invariant::{Defect, Invariant};
 pub use lemmas::lemmas;
 pub use netlist::{Input, Latch, Netlist, Problem, Run};

@@ -5,8 +5,8 @@ use std::collections::BTreeSet;
 use crate::aiger::Read;
 use crate::common::Random;
 use stillpoint_model::proof::{
-    Bounded, Budget, Defect, Induction, Invariant, Lit, Netlist, Problem, Reachability, aiger,
-    induction, inductive, reachability, value,
+    Bounded, Budget, Candidates, Defect, Induction, Invariant, Lit, Netlist, Problem, Reachability,
+    aiger, induction, inductive, reachability, value,
 };
 
 /// A netlist with something to look for; some have start values that are open, with a condition on them.
@@ -193,14 +193,39 @@ fn candidates_that_are_kept_hold_in_every_reachable_state() {
         }
         let latches: Vec<Lit> = netlist.latches.iter().map(|l| l.lit).collect();
         let mut candidates = Vec::new();
-        for a in &latches {
-            for b in &latches {
-                candidates.push(netlist.graph.or(*a, *b));
-                candidates.push(netlist.graph.or(*a, !*b));
-                candidates.push(netlist.graph.or(!*a, !*b));
+        let mut flat = Candidates::default();
+        let mut ordered = Candidates::default();
+        let mut follows: Vec<Vec<usize>> = Vec::new();
+        let mut add = |lit: Lit, stronger: Vec<usize>| {
+            candidates.push(lit);
+            flat.add(lit, Vec::new());
+            follows.push(stronger.clone());
+            ordered.add(lit, stronger)
+        };
+        let single: Vec<[usize; 2]> = (latches.iter())
+            .map(|a| [*a, !*a].map(|lit| add(lit, Vec::new())))
+            .collect();
+        for (a, of_a) in latches.iter().zip(&single) {
+            for (b, of_b) in latches.iter().zip(&single) {
+                for (not_a, not_b) in [(false, false), (false, true), (true, true)] {
+                    let either = netlist.graph.or(a.flipped(not_a), b.flipped(not_b));
+                    add(
+                        either,
+                        vec![of_a[usize::from(not_a)], of_b[usize::from(not_b)]],
+                    );
+                }
             }
         }
-        let kept = inductive(&netlist, &candidates, &Budget::default()).expect("time");
+        let kept = inductive(&netlist, &flat, &Budget::default()).expect("time");
+        // Those that follow from what is kept are the ones that are kept where nothing is known to follow.
+        let strongest = inductive(&netlist, &ordered, &Budget::default()).expect("time");
+        for (k, stronger) in follows.iter().enumerate() {
+            let known = |k: &usize| strongest.contains(k);
+            let follows = known(&k) || stronger.iter().any(known);
+            assert_eq!(kept.contains(&k), follows, "{seed}: {k}");
+            assert!(!known(&k) || !stronger.iter().any(known), "{seed}: {k}");
+        }
+        let kept: Vec<Lit> = kept.into_iter().map(|k| candidates[k]).collect();
         let (_, states) = explored(&netlist, Lit::FALSE);
         for lit in &candidates {
             let mut cycles = states.iter().map(|state| cycle(&netlist, *state, 0));
