@@ -46,6 +46,20 @@ impl Bitmap {
         }
     }
 
+    /// The bits that are set, in order.
+    pub(crate) fn each(&self, mut each: impl FnMut(u64)) {
+        for (number, page) in self.pages.iter().enumerate() {
+            let words = page.get().into_iter().flat_map(|page| page.iter());
+            for (word, bits) in (number * PAGE..).zip(words) {
+                let mut bits = bits.load(Ordering::Relaxed);
+                while bits != 0 {
+                    each((word as u64) << 6 | u64::from(bits.trailing_zeros()));
+                    bits &= bits - 1;
+                }
+            }
+        }
+    }
+
     /// Sets bits and gives the word as it was.
     #[inline]
     pub(crate) fn set(&self, word: usize, bits: u64, order: Ordering) -> u64 {

@@ -255,13 +255,15 @@ impl<C: Code> Store for Hashed<C> {
         }
     }
 
-    fn all(&self) -> Vec<C::Key> {
+    fn all(&self, states: usize) -> Vec<C::Key> {
         let shards: Vec<_> = (0..SHARDS).map(|shard| self.set.shard(shard)).collect();
         let most = shards.iter().map(|shard| shard.keys.len()).max();
         // The states of a level are spread over the shards, so that the same place was taken at about the same time in each.
         let codes =
             (0..most.unwrap_or(0)).flat_map(|at| shards.iter().filter_map(move |s| s.keys.get(at)));
-        codes.map(|code| self.code.decode(*code)).collect()
+        let mut all = Vec::with_capacity(states);
+        all.extend(codes.map(|code| self.code.decode(*code)));
+        all
     }
 
     fn bytes(&self) -> u64 {

@@ -43,14 +43,20 @@ pub(crate) fn recoverable<'a, T: Store>(
 ) -> Result<Vec<Option<Lost<'a, T::Key>>>, Error> {
     let open = || goals.iter().map(|_| None).collect();
     let bytes = Nodes::<T::Key>::bytes_for(states).saturating_add(SAVED * states);
-    let held = store.bytes().saturating_add(bytes);
-    if goals.is_empty() || model.watch.memory().is_some_and(|most| held > most) {
+    let all = store.bytes().saturating_add(bytes);
+    let (Ok(number), false) = (u32::try_from(states), goals.is_empty()) else {
+        return Ok(open());
+    };
+    if model.watch.memory().is_some_and(|most| all > most) || model.watch.ended() {
         return Ok(open());
     }
-    let all = store.all();
-    let seeds = match all.len() as u64 == states {
-        true => Nodes::of(all).map(Seeds::All),
-        false => initial(model, held)?.map(Seeds::Initial),
+    let list = store.all(number as usize);
+    let (seeds, held) = match list.len() as u64 == states {
+        true => (Nodes::of(list).map(Seeds::All), all),
+        false => {
+            let held = store.bytes();
+            (initial(model, held)?.map(Seeds::Initial), held)
+        }
     };
     let Some(seeds) = seeds else {
         return Ok(open());
@@ -149,6 +155,7 @@ fn together<'a, K: Key>(
         conditions,
         mark: &|marks, after| mark(label_of(marks), after),
     };
+    let held = held + size_of_val(left.as_slice()) as u64;
     let graph = Arc::new(Graph::build(model, &left, &rules, held)?);
     let lost = (0..number).map(|number| {
         let used = |edge: Edge| split(edge.label).0 >> number & 1 != 0;
@@ -206,9 +213,9 @@ impl<'s, K: Key> Sweeps<'s, K> {
             .map(|_| (model.cursor(), model.quicker(conditions)))
             .collect();
         let broken = AtomicBool::new(over());
-        // Often all states lead back to the first ones: it is known of these first whether they are saved.
+        // Often all states lead back to those found first: it is known of these first whether they are saved.
         let mut some = FIRST.min(states.len());
-        let (mut left, mut back) = (some, true);
+        let (mut left, mut back, mut looked) = (some, true, 0);
         while !broken.load(Ordering::Relaxed) {
             let pieces = some.div_ceil(PIECE);
             model.crew.share(&mut workers, pieces, |worker, piece| {
@@ -216,8 +223,10 @@ impl<'s, K: Key> Sweeps<'s, K> {
                 let (from, to) = (piece * PIECE, some.min((piece + 1) * PIECE));
                 for at in 0..to - from {
                     let state = if back { to - 1 - at } else { from + at };
+                    let again = state < looked;
+                    let state = (state, states[state]);
                     if broken.load(Ordering::Relaxed)
-                        || !sweeps.look(model, worker, (state, states[state]), label, label_of)
+                        || !sweeps.look(model, worker, state, again, label, label_of)
                     {
                         return broken.store(true, Ordering::Relaxed);
                     }
@@ -226,6 +235,7 @@ impl<'s, K: Key> Sweeps<'s, K> {
                     broken.store(true, Ordering::Relaxed);
                 }
             });
+            looked = some;
             let before = std::mem::replace(&mut left, sweeps.count(some));
             back = !back;
             if (before - left) * WORTH < before || left == 0 {
@@ -240,12 +250,14 @@ impl<'s, K: Key> Sweeps<'s, K> {
         (!broken.into_inner()).then_some(sweeps)
     }
 
-    /// Looks whether a state is saved; false if a limit is reached.
+    /// Looks whether a state is saved; false if a limit is reached. When it is looked at for the first time all its cycles are made, one
+    /// by one where there are no stages: a property may meet a fault in each of them.
     fn look<'a>(
         &self,
         model: &Model<'a, Any<'a>, K>,
         (cursor, staged): &mut (Cursor<<Any<'a> as Origin>::Process>, Option<Staged<K>>),
         (state, key): (usize, K),
+        again: bool,
         label: &(dyn Fn(&mut dyn Process, &mut Odometer) -> u32 + Sync),
         label_of: &(dyn Fn(u128) -> u32 + Sync),
     ) -> bool {
@@ -274,13 +286,13 @@ impl<'s, K: Key> Sweeps<'s, K> {
         });
         let whole = made.is_some()
             || cursor.leaves(&model.packer, key, |process, odometer, leaf| match leaf {
-                Leaf::To(after) if add(label(&mut **process, odometer), after) => {
+                Leaf::To(after) if add(label(&mut **process, odometer), after) && again => {
                     ControlFlow::Break(())
                 }
                 _ => ControlFlow::Continue(()),
             });
         self.saved[state].store(saved, Ordering::Relaxed);
-        whole || saved == self.all
+        whole || (again && saved == self.all)
     }
 
     /// For which goals a state is known to be saved.

@@ -29,8 +29,8 @@ pub(crate) trait Store: Sync {
     fn each(&self, piece: usize, visit: impl FnMut(Self::Key));
     /// The number of states in the frontier.
     fn size(&self) -> u64;
-    /// All states that are held; those found later stand behind those found before, as far as that is known.
-    fn all(&self) -> Vec<Self::Key>;
+    /// All states that are held, which should be so many; those found later stand behind those found before, as far as that is known.
+    fn all(&self, states: usize) -> Vec<Self::Key>;
     /// Bytes held.
     fn bytes(&self) -> u64;
     /// Empties the set.
@@ -243,17 +243,10 @@ impl Store for Dense {
         }
     }
 
-    fn all(&self) -> Vec<u64> {
-        let words = 0..self.visited.words();
-        let bits = |word: usize| {
-            let mut found = self.visited.load(word, Ordering::Relaxed);
-            std::iter::from_fn(move || {
-                let bit = (found != 0).then(|| found.trailing_zeros())?;
-                found &= found - 1;
-                Some((word as u64) << 6 | u64::from(bit))
-            })
-        };
-        words.flat_map(bits).collect()
+    fn all(&self, states: usize) -> Vec<u64> {
+        let mut all = Vec::with_capacity(states);
+        self.visited.each(|key| all.push(key));
+        all
     }
 
     fn bytes(&self) -> u64 {

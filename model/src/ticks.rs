@@ -279,8 +279,8 @@ impl Store for Ticked {
         }
     }
 
-    fn all(&self) -> Vec<u64> {
-        let mut all = Vec::new();
+    fn all(&self, states: usize) -> Vec<u64> {
+        let mut all = Vec::with_capacity(states);
         for shard in 0..SHARDS {
             let part = self.part(shard);
             let none = Vec::new();

@@ -3,6 +3,8 @@
 //! What depends on them becomes an expression over these variables: ranges, start values, bounds of responses. Which values may stand
 //! together is told by conditions, as further atoms of the system. The result is a system like any other.
 
+use std::collections::BTreeSet;
+
 use stillpoint_lang::bind::{Bound, Bounds};
 use stillpoint_lang::ir::{BinaryOp, Form, Node, Param, Property, Space, State, Stmt, Ty, Var};
 use stillpoint_lang::twice::twice;
@@ -349,12 +351,18 @@ impl<'a> Builder<'a> {
             if lo == hi {
                 continue;
             }
-            let about = &mut self.every.about[k];
-            within.visit(&mut |node| {
-                if let Node::Cell(Space::Before, parameter) = node {
-                    about.push(*parameter as usize);
-                }
+            let mut about = BTreeSet::new();
+            within.visit(&mut |node| match node {
+                Node::Cell(Space::Before, cell) => about.extend([*cell as usize]),
+                Node::Element {
+                    space: Space::Before,
+                    base,
+                    len,
+                    ..
+                } => about.extend((*base..base + len).map(|cell| cell as usize)),
+                _ => (),
             });
+            self.every.about[k] = about.into_iter().collect();
             let place = self.every.bound.states.len();
             let cell = Node::Cell(Space::Before, place as u32);
             let is = Node::Binary(BinaryOp::Eq, Box::new(cell), Box::new(within));

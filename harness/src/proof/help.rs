@@ -2,7 +2,7 @@
 //!
 //! An engine would learn "while the duty is open, the timer is at most the cycles left" value by value. Here such sentences are
 //! candidates, and those that hold by induction with each other are known beforehand. Where parameters are part of the state, so are
-//! "the timer is at most this parameter".
+//! "the timer is at most this parameter" and "this parameter is at most the cycles left".
 
 use std::collections::HashMap;
 use stillpoint_certify::proof::clause::{Clause, Literal};
@@ -17,7 +17,7 @@ const SHORT: usize = 3;
 /// A variable of at most so many values tells in which phase a duty is.
 const PHASE: i64 = 16;
 
-/// A variable of at least so many values may be a timer.
+/// A variable of at least so many values may be a timer, a parameter of more its start.
 const TIMER: i64 = 4;
 
 /// What the cycles left may be short of, or have over; the strongest first.
@@ -163,7 +163,10 @@ fn candidates(variables: &Variables) -> Vec<Candidate> {
             for phase in &phases {
                 let below = SHIFTS.map(|shift| Candidate::Below(*phase, Number::Timer(k), shift));
                 list.extend(below);
-                list.extend(parameters().map(|p| Candidate::Limited(*phase, k, p)));
+                // What a variable says of itself is nothing new.
+                if phase.is_none_or(|(own, _)| own != k) {
+                    list.extend(parameters().map(|p| Candidate::Limited(*phase, k, p)));
+                }
             }
         }
     }

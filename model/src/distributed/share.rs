@@ -112,8 +112,8 @@ impl<C: Code> Store for Share<C> {
         self.own.each(piece, visit);
     }
 
-    fn all(&self) -> Vec<C::Key> {
-        self.own.all()
+    fn all(&self, states: usize) -> Vec<C::Key> {
+        self.own.all(states)
     }
 
     fn bytes(&self) -> u64 {

@@ -40,12 +40,8 @@ pub fn inductive(
     candidates: &Candidates,
     budget: &Budget,
 ) -> Result<Vec<usize>, Spent> {
-    let mut graph = netlist.graph.clone();
-    let all = graph.all(candidates.lits.iter().copied());
-    let mut widened = netlist.clone();
-    widened.graph = graph;
     // Whatever one of them depends on.
-    let problem = Problem::new(&widened, all);
+    let problem = Problem::with(netlist, Lit::FALSE, &candidates.lits);
     let mut left = unbroken(&problem, &candidates.lits, budget)?;
     at_start(&problem, candidates, &mut left, budget)?;
     kept_by_cycles(&problem, candidates, left, budget)

@@ -3,7 +3,7 @@
 
 use super::graph::{Graph, Lit, Node};
 use super::netlist::Problem;
-use super::sat::{Budget, Encoding, Solver, Spent};
+use super::sat::{Budget, Encoding, Solver, Spent, Term};
 
 /// How often it begins anew, and the cycles of each time.
 const ROUNDS: usize = 12;
@@ -88,7 +88,7 @@ pub(super) fn unbroken(
 ) -> Result<Vec<bool>, Spent> {
     let netlist = problem.netlist();
     let mut draw = Draw(SEED);
-    let mut starts = Starts::new(problem, budget);
+    let mut starts = Starts::new(problem, budget)?;
     let mut left = vec![true; candidates.len()];
     let mut kept: Vec<(usize, Lit)> = candidates.iter().copied().enumerate().collect();
     let next = problem.cone().map(|latch| latch.next);
@@ -101,6 +101,9 @@ pub(super) fn unbroken(
     };
     let mut lanes = Lanes::new(&netlist.graph, roots(&kept));
     for round in 0..ROUNDS {
+        if kept.is_empty() {
+            break;
+        }
         let Some(mut state) = starts.draw(problem, &mut draw)? else {
             return Ok(left);
         };
@@ -124,7 +127,7 @@ pub(super) fn unbroken(
                 lanes.set(netlist.inputs[*place].lit, bits);
             }
             lanes.evaluate();
-            // What left a range on the way is no state: back to the one before.
+            // What breaks an invariant is no state: back to the one before.
             let right = lanes.all(&problem.invariants);
             let goes = right & lanes.all(&problem.assumed);
             kept.retain(|(k, lit)| {
@@ -146,10 +149,12 @@ pub(super) fn unbroken(
 struct Starts {
     solver: Solver,
     encoding: Encoding,
+    /// Bits that may be chosen.
+    free: Vec<Term>,
 }
 
 impl Starts {
-    fn new(problem: &Problem, budget: &Budget) -> Self {
+    fn new(problem: &Problem, budget: &Budget) -> Result<Self, Spent> {
         let mut solver = Solver::new(budget);
         let mut encoding = Encoding::new(problem.graph());
         let fixed = problem
@@ -160,10 +165,18 @@ impl Starts {
             let term = encoding.term(&mut solver, problem.graph(), lit);
             solver.clause([term]);
         }
+        let mut free = Vec::new();
         for latch in problem.cone() {
-            encoding.term(&mut solver, problem.graph(), latch.lit);
+            let term = encoding.term(&mut solver, problem.graph(), latch.lit);
+            if latch.init.is_none() && solver.solve(&[term])? && solver.solve(&[!term])? {
+                free.push(term);
+            }
         }
-        Starts { solver, encoding }
+        Ok(Starts {
+            solver,
+            encoding,
+            free,
+        })
     }
 
     /// The bits of each latch in 64 states; none if there is no state. Bits that may be chosen are seldom set in most states, so that
@@ -173,9 +186,8 @@ impl Starts {
         let mut state = vec![0u64; latches.len()];
         for lane in 0..64 {
             let rare = 1 + (draw.next() % 6) as u32;
-            let free = latches.iter().filter(|latch| latch.init.is_none());
-            let mut assumed: Vec<_> = free
-                .filter_map(|latch| self.encoding.made(latch.lit))
+            let free = self.free.iter();
+            let mut assumed: Vec<Term> = free
                 .map(|term| term.apply_sign(draw.bits(rare) & 1 == 1))
                 .collect();
             // Those that do not go together with what stands before them give way.

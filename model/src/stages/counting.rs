@@ -31,7 +31,7 @@ impl<K: Key> Staged<'_, K> {
 
     pub(super) fn drain(&mut self, each: &mut dyn FnMut(usize, u64)) {
         let stages = self.writes.len();
-        // What comes to a prefix comes to tables before it.
+        // What comes to a group comes to tables before its own.
         let groups = stages..self.tables.len();
         groups.rev().for_each(|table| self.count_places(table));
         for table in &mut self.tables[..stages] {
