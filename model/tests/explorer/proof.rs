@@ -82,9 +82,12 @@ pub fn naive(netlist: &Netlist, bad: Lit) -> Option<usize> {
     explored(netlist, bad).0
 }
 
-/// The same, and the states seen before it.
-pub fn explored(netlist: &Netlist, bad: Lit) -> (Option<usize>, BTreeSet<usize>) {
-    let holds = |values: &[bool], list: &[Lit]| list.iter().all(|lit| value(values, *lit));
+fn holds(values: &[bool], list: &[Lit]) -> bool {
+    list.iter().all(|lit| value(values, *lit))
+}
+
+/// The states at the start.
+fn starts(netlist: &Netlist) -> BTreeSet<usize> {
     let starts = (0..1 << netlist.latches.len()).filter(|state| {
         let right = netlist.latches.iter().zip(bits(*state, 32));
         let right = right
@@ -92,7 +95,39 @@ pub fn explored(netlist: &Netlist, bad: Lit) -> (Option<usize>, BTreeSet<usize>)
             .all(|(latch, bit)| latch.init.is_none_or(|init| init == bit));
         right && holds(&cycle(netlist, *state, 0), &netlist.start)
     });
-    let mut level: BTreeSet<usize> = starts.collect();
+    starts.collect()
+}
+
+/// Those candidates that are kept by every cycle from a state in which all of them hold, and hold at the start: by enumeration.
+fn kept_by_enumeration(netlist: &Netlist, candidates: &[Lit]) -> Vec<Lit> {
+    let starts: Vec<Vec<bool>> = (starts(netlist).iter())
+        .map(|state| cycle(netlist, *state, 0))
+        .collect();
+    let mut kept = candidates.to_vec();
+    kept.retain(|lit| starts.iter().all(|values| value(values, *lit)));
+    loop {
+        let before = kept.len();
+        for state in 0..1 << netlist.latches.len() {
+            for inputs in 0..1 << netlist.inputs.len() {
+                let values = cycle(netlist, state, inputs);
+                if !holds(&values, &netlist.assumed) || !holds(&values, &kept) {
+                    continue;
+                }
+                let next = netlist.latches.iter().enumerate();
+                let next = next.fold(0, |n, (k, l)| n | usize::from(value(&values, l.next)) << k);
+                let values = cycle(netlist, next, 0);
+                kept.retain(|lit| value(&values, *lit));
+            }
+        }
+        if kept.len() == before {
+            return kept;
+        }
+    }
+}
+
+/// The length of a shortest run to a bad cycle, and the states seen before it.
+pub fn explored(netlist: &Netlist, bad: Lit) -> (Option<usize>, BTreeSet<usize>) {
+    let mut level = starts(netlist);
     let mut seen = level.clone();
     for length in 1.. {
         let mut after = BTreeSet::new();
@@ -226,6 +261,8 @@ fn candidates_that_are_kept_hold_in_every_reachable_state() {
             assert!(!known(&k) || !stronger.iter().any(known), "{seed}: {k}");
         }
         let kept: Vec<Lit> = kept.into_iter().map(|k| candidates[k]).collect();
+        let expected = kept_by_enumeration(&netlist, &candidates);
+        assert_eq!(kept, expected, "{seed}");
         let (_, states) = explored(&netlist, Lit::FALSE);
         for lit in &candidates {
             let mut cycles = states.iter().map(|state| cycle(&netlist, *state, 0));
