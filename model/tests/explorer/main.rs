@@ -15,6 +15,7 @@ mod liveness;
 mod parts;
 mod proof;
 mod random;
+mod recoverable;
 mod scale;
 mod states;
 mod twin;
