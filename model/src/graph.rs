@@ -36,6 +36,19 @@ pub(crate) enum Mark {
     Outside,
 }
 
+impl Mark {
+    /// Adds what a cycle from one state to another is to the edges; whether it is a way out.
+    #[inline]
+    fn note<K: Key>(self, from: K, to: K, ends: &mut Distinct<(K, u32)>) -> bool {
+        match self {
+            Mark::Edge(label) => ends.push((to, label)),
+            Mark::Around(label) => ends.push((from, label)),
+            Mark::Exit | Mark::Outside => (),
+        }
+        self == Mark::Exit
+    }
+}
+
 /// An edge; there is one for each pair (target, label) that some choice vector makes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Edge {
@@ -118,12 +131,8 @@ impl<K: Key> Graph<K> {
                         let whole = match staged.as_mut().and_then(|s| s.made(*key)) {
                             Some(staged) => {
                                 for (after, marks) in staged.ends() {
-                                    match (rules.mark)(marks, after) {
-                                        Mark::Edge(label) => ends.push((after, label)),
-                                        Mark::Around(label) => ends.push((*key, label)),
-                                        Mark::Exit => exits = true,
-                                        Mark::Outside => (),
-                                    }
+                                    let mark = (rules.mark)(marks, after);
+                                    exits |= mark.note(*key, after, &mut ends);
                                 }
                                 let own = found.load(Ordering::Relaxed) + ends.bytes();
                                 !model.watch.too_much(before + own) && !model.watch.ended()
@@ -131,12 +140,8 @@ impl<K: Key> Graph<K> {
                             None => {
                                 cursor.leaves(&model.packer, *key, |process, odometer, leaf| {
                                     if let Leaf::To(after) = leaf {
-                                        match (rules.rule)(&mut **process, odometer, after) {
-                                            Mark::Edge(label) => ends.push((after, label)),
-                                            Mark::Around(label) => ends.push((*key, label)),
-                                            Mark::Exit => exits = true,
-                                            Mark::Outside => (),
-                                        }
+                                        let mark = (rules.rule)(&mut **process, odometer, after);
+                                        exits |= mark.note(*key, after, &mut ends);
                                     }
                                     let own = found.load(Ordering::Relaxed) + ends.bytes();
                                     match model.watch.too_much(before + own) {

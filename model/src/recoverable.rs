@@ -93,7 +93,7 @@ fn initial<K: Key>(model: &Model<Any, K>, held: u64) -> Result<Option<Vec<K>>, E
 
 /// The bits of cycles that may be used, and of those that show a goal.
 fn split(label: u32) -> (u32, u32) {
-    (label & 0xffff, label >> TOGETHER)
+    (label & ((1 << TOGETHER) - 1), label >> TOGETHER)
 }
 
 fn together<'a, K: Key>(
@@ -129,13 +129,14 @@ fn together<'a, K: Key>(
         }
         mask
     };
+    let none = Nodes::new();
     let (sweeps, left) = match seeds {
         Seeds::All(states) => {
             let sweeps = Sweeps::over(model, states, held, &conditions, &label, &label_of)?;
             let left = sweeps.left();
             (sweeps, left)
         }
-        Seeds::Initial(initial) => (Sweeps::new(None, number), initial.clone()),
+        Seeds::Initial(initial) => (Sweeps::new(&none, number), initial.clone()),
     };
     if left.is_empty() {
         return Some(goals.iter().map(|_| None).collect());
@@ -177,7 +178,7 @@ fn together<'a, K: Key>(
 
 /// All states, and for which goals each of them is known to be saved.
 struct Sweeps<'s, K> {
-    states: Option<&'s Nodes<K>>,
+    states: &'s Nodes<K>,
     saved: Vec<AtomicU32>,
     all: u32,
 }
@@ -187,10 +188,9 @@ const SAVED: u64 = size_of::<AtomicU32>() as u64;
 
 impl<'s, K: Key> Sweeps<'s, K> {
     /// Nothing is known of so many goals.
-    fn new(states: Option<&'s Nodes<K>>, goals: usize) -> Self {
-        let keys = states.map_or(&[][..], Nodes::keys);
+    fn new(states: &'s Nodes<K>, goals: usize) -> Self {
         Sweeps {
-            saved: keys.iter().map(|_| AtomicU32::new(0)).collect(),
+            saved: states.keys().iter().map(|_| AtomicU32::new(0)).collect(),
             states,
             all: (1 << goals) - 1,
         }
@@ -206,7 +206,7 @@ impl<'s, K: Key> Sweeps<'s, K> {
         label: &(dyn Fn(&mut dyn Process, &mut Odometer) -> u32 + Sync),
         label_of: &(dyn Fn(u128) -> u32 + Sync),
     ) -> Option<Self> {
-        let sweeps = Sweeps::new(Some(states), conditions.len() / 2);
+        let sweeps = Sweeps::new(states, conditions.len() / 2);
         let states = states.keys();
         let over = || model.watch.ended() || model.watch.too_much(held + model.known());
         let mut workers: Vec<_> = (0..model.crew.size())
@@ -297,7 +297,7 @@ impl<'s, K: Key> Sweeps<'s, K> {
 
     /// For which goals a state is known to be saved.
     fn saved(&self, key: K) -> u32 {
-        let number = self.states.and_then(|states| states.number(key));
+        let number = self.states.number(key);
         number.map_or(0, |number| {
             self.saved[number as usize].load(Ordering::Relaxed)
         })
@@ -311,9 +311,8 @@ impl<'s, K: Key> Sweeps<'s, K> {
 
     /// These states.
     fn left(&self) -> Vec<K> {
-        let keys = self.states.map_or(&[][..], Nodes::keys);
         let left = |(_, saved): &(&K, &AtomicU32)| saved.load(Ordering::Relaxed) != self.all;
-        let left = keys.iter().zip(&self.saved).filter(left);
+        let left = self.states.keys().iter().zip(&self.saved).filter(left);
         left.map(|(key, _)| *key).collect()
     }
 }

@@ -5,6 +5,7 @@
 //! "the timer is at most this parameter" and "this parameter is at most the cycles left".
 
 use std::collections::HashMap;
+
 use stillpoint_certify::proof::clause::{Clause, Literal};
 use stillpoint_model::proof::{Budget, Candidates, Graph, Lit, Netlist, Spent, Word, inductive};
 
@@ -82,15 +83,15 @@ pub(super) fn helped(asked: &Asked, duty: &Duty, budget: &Budget) -> Result<Opti
     };
     let all = candidates(&variables);
     let mut netlist = translated.netlist.clone();
-    let (mut asked, mut numbers) = (Candidates::default(), HashMap::new());
+    let (mut offered, mut numbers) = (Candidates::default(), HashMap::new());
     for candidate in &all {
         let lit = build(&mut netlist, &variables, duty, candidate);
         let stronger = stronger(candidate);
         let stronger = stronger.iter().filter_map(|s| numbers.get(s).copied());
-        let number = asked.add(lit, stronger.collect());
+        let number = offered.add(lit, stronger.collect());
         numbers.insert(*candidate, number);
     }
-    let kept = inductive(&netlist, &asked, budget)?;
+    let kept = inductive(&netlist, &offered, budget)?;
     // Without the functions of all the others.
     let mut helped = translated.netlist.clone();
     let mut sentences = Vec::new();

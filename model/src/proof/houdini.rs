@@ -56,14 +56,7 @@ fn at_start(
 ) -> Result<(), Spent> {
     let mut solver = Solver::new(budget);
     let mut encoding = Encoding::new(problem.graph());
-    let fixed = problem
-        .cone()
-        .filter_map(|latch| Some(latch.lit.flipped(!latch.init?)));
-    let given: Vec<Lit> = (problem.start.iter().copied())
-        .chain(problem.invariants.iter().copied())
-        .chain(fixed)
-        .collect();
-    for lit in given {
+    for lit in problem.begin().chain(problem.invariants.iter().copied()) {
         let term = encoding.term(&mut solver, problem.graph(), lit);
         solver.clause([term]);
     }

@@ -198,6 +198,13 @@ impl<'a> Problem<'a> {
         self.latches.iter().map(move |k| &netlist.latches[*k])
     }
 
+    /// What holds at the start, start values included, beside the invariants.
+    pub(super) fn begin(&self) -> impl Iterator<Item = Lit> + '_ {
+        let fixed = self.cone();
+        let fixed = fixed.filter_map(|latch| Some(latch.lit.flipped(!latch.init?)));
+        self.start.iter().copied().chain(fixed)
+    }
+
     /// Numbers of latches, inputs and conjunctions in the cone.
     pub fn size(&self) -> (usize, usize, usize) {
         let and = |node: &&usize| matches!(self.graph().node(**node), Node::And(..));

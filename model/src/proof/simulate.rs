@@ -92,9 +92,7 @@ pub(super) fn unbroken(
     let mut left = vec![true; candidates.len()];
     let mut kept: Vec<(usize, Lit)> = candidates.iter().copied().enumerate().collect();
     let next = problem.cone().map(|latch| latch.next);
-    let fixed: Vec<Lit> = (next.chain(problem.invariants.iter().copied()))
-        .chain(problem.assumed.iter().copied())
-        .collect();
+    let fixed: Vec<Lit> = next.chain(problem.assumed.iter().copied()).collect();
     let roots = |kept: &[(usize, Lit)]| -> Vec<Lit> {
         let kept = kept.iter().map(|(_, lit)| *lit);
         fixed.iter().copied().chain(kept).collect()
@@ -107,7 +105,6 @@ pub(super) fn unbroken(
         let Some(mut state) = starts.draw(problem, &mut draw)? else {
             return Ok(left);
         };
-        let mut before = state.clone();
         // Each input is seldom set, or often, or seldom not.
         let rare: Vec<(u32, bool)> = (problem.inputs.iter())
             .map(|_| (1 + (draw.next() % 5) as u32, draw.next() % 4 == 0))
@@ -127,17 +124,14 @@ pub(super) fn unbroken(
                 lanes.set(netlist.inputs[*place].lit, bits);
             }
             lanes.evaluate();
-            // What breaks an invariant is no state: back to the one before.
-            let right = lanes.all(&problem.invariants);
-            let goes = right & lanes.all(&problem.assumed);
             kept.retain(|(k, lit)| {
-                left[*k] = lanes.of(*lit) & right == right;
+                left[*k] = lanes.of(*lit) == u64::MAX;
                 left[*k]
             });
-            for ((latch, bits), before) in problem.cone().zip(&mut state).zip(&mut before) {
-                let now = *bits & right | *before & !right;
-                *bits = lanes.of(latch.next) & goes | now & !goes;
-                *before = now;
+            // Where these inputs are not possible the state stays, for others to be drawn.
+            let goes = lanes.all(&problem.assumed);
+            for (latch, bits) in problem.cone().zip(&mut state) {
+                *bits = lanes.of(latch.next) & goes | *bits & !goes;
             }
         }
         lanes.only(roots(&kept));
@@ -157,11 +151,7 @@ impl Starts {
     fn new(problem: &Problem, budget: &Budget) -> Result<Self, Spent> {
         let mut solver = Solver::new(budget);
         let mut encoding = Encoding::new(problem.graph());
-        let fixed = problem
-            .cone()
-            .filter_map(|latch| Some(latch.lit.flipped(!latch.init?)));
-        let given = problem.start.iter().chain(&problem.invariants).copied();
-        for lit in given.chain(fixed) {
+        for lit in problem.begin().chain(problem.invariants.iter().copied()) {
             let term = encoding.term(&mut solver, problem.graph(), lit);
             solver.clause([term]);
         }

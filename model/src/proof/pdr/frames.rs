@@ -39,11 +39,7 @@ impl Frame {
         }
         let mut conditions = [&problem.invariants[..], &problem.assumed[..]].concat();
         if first {
-            conditions.extend(&problem.start);
-            conditions.extend(problem.cone().filter_map(|latch| {
-                let init = latch.init?;
-                Some(latch.lit.flipped(!init))
-            }));
+            conditions.extend(problem.begin());
         }
         for lit in conditions {
             let term = frame.encoding.term(&mut frame.solver, graph, lit);
