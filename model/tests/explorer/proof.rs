@@ -58,6 +58,14 @@ pub fn random_netlist(seed: u64) -> (Netlist, Lit) {
         let some = netlist.graph.or(all[0], !all[1]);
         netlist.assumed.push(some);
     }
+    // As an input whose range depends on a parameter: there is always a value of it.
+    if inputs > 0 && random.below(3) == 0 {
+        let parameter = random.below(latches);
+        netlist.latches[parameter].next = states[parameter];
+        let at_most = states[parameter].flipped(random.below(2) == 0);
+        let keeps = netlist.graph.or(!netlist.inputs[0].lit, at_most);
+        netlist.assumed.push(keeps);
+    }
     (netlist, bad)
 }
 

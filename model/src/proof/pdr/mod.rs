@@ -12,6 +12,7 @@ mod lift;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
+use super::graph::Lit;
 use super::invariant::Invariant;
 use super::netlist::{Problem, Run};
 use super::sat::{Budget, Spent};
@@ -107,10 +108,7 @@ impl Engine<'_> {
 
     /// The obligation from values with which a state is bad.
     fn ending(&mut self, values: &mut [bool]) -> usize {
-        let bad = self.problem.bad;
-        let cube = self
-            .lift
-            .cube(self.problem.graph(), values, std::iter::once(bad));
+        let cube = self.lifted(&[self.problem.bad], values);
         self.oblige(cube, values, None)
     }
 
@@ -128,6 +126,13 @@ impl Engine<'_> {
     fn before(&mut self, cube: &Cube, values: &mut [bool]) -> Cube {
         let latches = &self.frames.latches;
         let roots = cube.list().iter().map(|fixed| next(latches, *fixed));
+        let roots: Vec<Lit> = roots.collect();
+        self.lifted(&roots, values)
+    }
+
+    /// States in which `roots` have the values that they have with these, and the inputs are allowed, which may depend on the state.
+    fn lifted(&mut self, roots: &[Lit], values: &mut [bool]) -> Cube {
+        let roots = roots.iter().chain(&self.problem.assumed).copied();
         self.lift.cube(self.problem.graph(), values, roots)
     }
 
