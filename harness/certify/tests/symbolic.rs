@@ -6,6 +6,7 @@ mod shipped;
 use std::collections::BTreeMap;
 
 use shipped::{Random, side_by_side, subjects};
+use stillpoint_certify::proof::format::Free;
 use stillpoint_certify::proof::gates::Bit;
 use stillpoint_certify::proof::rup::Clauses;
 use stillpoint_certify::proof::symbolic::Symbolic;
@@ -52,7 +53,11 @@ struct Compared<'a> {
 
 impl<'a> Compared<'a> {
     fn new(bound: &'a Bound, every: &[(String, (i64, i64))]) -> Result<Self, String> {
-        let mut symbolic = Symbolic::new(bound, every)?;
+        let free = Free {
+            every: every.to_vec(),
+            ..Free::default()
+        };
+        let mut symbolic = Symbolic::new(bound, &free)?;
         let (start, starts) = symbolic.start()?;
         let (before, ranges) = symbolic.any_state();
         let (mut cycle, inputs_given) = symbolic.cycle(before.clone())?;

@@ -112,11 +112,14 @@ fn text(confirmed: &Confirmed) -> String {
         let proved = confirmed.proved.as_ref().map(|all| &all[k]);
         let _ = writeln!(out, "\n{} ({})", task.title, task.system);
         for (name, value) in &task.parameters {
-            let every = proved.map_or(&[][..], |proved| &proved.every[..]);
+            let every = proved.map_or(&[][..], |proved| &proved.free.every[..]);
             let _ = match every.iter().find(|(free, _)| free == name) {
                 Some((_, (lo, hi))) => writeln!(out, "  {name} = {lo} .. {hi}, every value"),
                 None => writeln!(out, "  {name} = {value}"),
             };
+        }
+        for condition in proved.iter().flat_map(|proved| &proved.free.conditions) {
+            let _ = writeln!(out, "  where {condition}");
         }
         match task.states {
             _ if proved.is_some() => {}
@@ -178,7 +181,8 @@ fn to_json(confirmed: &Confirmed) -> serde_json::Value {
                 })
             });
             json!({
-                "every": proved.map(|proved| &proved.every),
+                "every": proved.map(|proved| &proved.free.every),
+                "where": proved.map(|proved| &proved.free.conditions),
                 "range": proved.and_then(|proved| proved.range.as_ref()).map(|(v, _)| verdict(*v)),
                 "system": task.system, "title": task.title, "parameters": task.parameters,
                 "states": task.states, "faults": task.faults,

@@ -113,8 +113,12 @@ fn checked(folder: &Path, known: &All, only: &[String]) -> Result<u8, Failure> {
                     0 => String::new(),
                     n => format!("; {n} not of these tables: prove them anew"),
                 };
+                let fails = match found.fails {
+                    0 => String::new(),
+                    n => format!(", {n} shown to fail for some values"),
+                };
                 format!(
-                    "{system}: {} confirmed, {}, {}{other}",
+                    "{system}: {} confirmed{fails}, {}, {}{other}",
                     found.confirmed,
                     counted(found.clauses as u64, "clause"),
                     counted(found.lemmas as u64, "lemma")

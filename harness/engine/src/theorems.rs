@@ -11,6 +11,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 use stillpoint_lang::bind::Bound;
+use stillpoint_lang::condition::Condition;
 use stillpoint_lang::diag::{Diagnostic, Result};
 use stillpoint_lang::ir::{Property, Stated, System};
 use stillpoint_lang::{files, toml_error};
@@ -44,7 +45,7 @@ pub struct OfSystem {
     /// The options of readings that were chosen.
     #[serde(default)]
     pub readings: BTreeMap<String, String>,
-    /// What holds, first over the widest ranges.
+    /// What was found, first over the widest ranges.
     #[serde(default)]
     pub proved: Vec<Proved>,
     /// By the label of a property the fingerprint of what decides it, where the engines have not proved it.
@@ -52,7 +53,7 @@ pub struct OfSystem {
     pub open: BTreeMap<String, String>,
 }
 
-/// What holds for every value of some ranges.
+/// What was found for every value of some ranges.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Proved {
@@ -61,22 +62,50 @@ pub struct Proved {
     /// Parameters of which not the whole documented range is meant: least and greatest value.
     #[serde(default)]
     pub within: BTreeMap<String, (i64, i64)>,
+    /// What the values satisfy that are meant.
+    #[serde(default, rename = "where")]
+    pub conditions: Vec<String>,
     /// Wall time of all proofs, in seconds.
     pub seconds: f64,
     /// By the label of a property the fingerprint of what decides it.
+    #[serde(default)]
     pub holds: BTreeMap<String, String>,
+    /// By the label of a property values for which it does not hold.
+    #[serde(default)]
+    pub fails: BTreeMap<String, Failing>,
+}
+
+/// A configuration in which a property does not hold.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Failing {
+    /// The length of a shortest run that breaks it.
+    pub cycles: u64,
+    /// The values of the parameters that it depends on, by their names.
+    pub with: BTreeMap<String, i64>,
 }
 
 impl Proved {
+    /// The labels of the properties of which something was found.
+    pub fn found(&self) -> impl Iterator<Item = &String> {
+        self.holds.keys().chain(self.fails.keys())
+    }
+
     /// Whether the values of a system are among these.
     fn covers(&self, bound: &Bound) -> bool {
         let params = bound.system.params.iter().zip(&bound.values);
         let mut named = params.filter(|(p, _)| p.reading.is_none());
-        named.all(|(param, value)| {
+        let inside = named.all(|(param, value)| {
             let name = param.var.array();
             let within = self.within.get(name);
             within.is_none_or(|(lo, hi)| (*lo..=*hi).contains(&i64::from(*value)))
-        })
+        });
+        let value = |k: usize| bound.values.get(k).copied().map_or(0, i64::from);
+        let mut conditions = self.conditions.iter();
+        inside
+            && conditions.all(|text| {
+                Condition::read(&bound.system, text).is_ok_and(|condition| condition.holds(value))
+            })
     }
 }
 

@@ -5,7 +5,9 @@ use std::path::Path;
 
 use stillpoint_certify::format::Verdict;
 use stillpoint_certify::proof::clause::written;
-use stillpoint_certify::proof::format::{Claim, File, Lemmas, Proof, RANGE, Run, System, text};
+use stillpoint_certify::proof::format::{
+    Claim, File, Free, Lemmas, Proof, RANGE, Run, System, text,
+};
 use stillpoint_certify::proof::question::Question;
 use stillpoint_certify::proof::symbolic::Symbolic;
 use stillpoint_certify::proof::target::Target;
@@ -19,7 +21,7 @@ use stillpoint_model::{self as model, Trace};
 
 use super::{Written, read_again};
 use crate::atomic::write_with;
-use crate::proof::{Engine, Every, Judged};
+use crate::proof::{Engine, Every, Judged, one_of};
 
 /// What was found about the systems of a file.
 pub struct Found<'a> {
@@ -100,11 +102,11 @@ impl<'a> Writer<'a> {
     ) -> Result<Self, String> {
         let system = System {
             name: bound.system.name.clone(),
-            every: every.map_or(Vec::new(), free),
+            free: every.map_or(Ok(Free::default()), free)?,
             ..System::default()
         };
         Ok(Writer {
-            symbolic: Symbolic::new(bound, &system.every)?,
+            symbolic: Symbolic::new(bound, &system.free)?,
             bound,
             every,
             budget,
@@ -244,14 +246,27 @@ impl<'a> Writer<'a> {
     }
 }
 
-/// The parameters that are free in a system, with their ranges.
-pub(crate) fn free(every: &Every) -> Vec<(String, (i64, i64))> {
+/// The configurations of a system that are judged at once.
+///
+/// # Errors
+/// One sentence: none satisfies the conditions.
+pub(crate) fn free(every: &Every) -> Result<Free, String> {
+    let system = &every.bound.system;
     let one = |k: &usize| {
         let (lo, hi) = every.bound.states[*k];
-        let name = every.bound.system.states[*k].var.name.clone();
+        let name = system.states[*k].var.name.clone();
         (name, (i64::from(lo), i64::from(hi)))
     };
-    every.parameters.iter().map(one).collect()
+    let named = |(k, value): (usize, i64)| (written(&system.states[k].var.name), value);
+    let such = match every.conditions[..] {
+        [] => Vec::new(),
+        _ => one_of(every)?.into_iter().map(named).collect(),
+    };
+    Ok(Free {
+        every: every.parameters.iter().map(one).collect(),
+        conditions: every.conditions.iter().map(|c| c.text(system)).collect(),
+        such,
+    })
 }
 
 /// Why there are no lemmas for a proof.

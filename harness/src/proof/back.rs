@@ -52,7 +52,7 @@ impl Judge<'_> {
                     return false;
                 };
                 entry.length = Some(run.cycles.len() as u64);
-                entry.trace = Some(asked.translated.trace(&run));
+                entry.trace = Some(asked.trace(&run));
                 entry.verdict = Verdict::Holds;
                 entry.engine = Some(Engine::Pdr);
                 let proof = Proof::Ways(ways);

@@ -6,8 +6,10 @@
 use std::collections::BTreeSet;
 
 use stillpoint_lang::bind::{Bound, Bounds};
+use stillpoint_lang::condition::Condition;
 use stillpoint_lang::ir::{BinaryOp, Form, Node, Param, Property, Space, State, Stmt, Ty, Var};
 use stillpoint_lang::twice::twice;
+use stillpoint_model::Trace;
 
 use crate::export::range_of;
 
@@ -35,6 +37,8 @@ pub struct Every {
     pub bound: Bound,
     /// The parameters: places of their state variables.
     pub parameters: Vec<usize>,
+    /// What these values satisfy.
+    pub conditions: Vec<Condition>,
     /// The number of the system's own state variables, which stand first.
     pub(super) own: usize,
     /// Atoms that hold at the start, and from then on.
@@ -55,9 +59,19 @@ impl Every {
     /// # Errors
     /// One sentence: values outside a parameter's range, a system that cannot be told so.
     pub fn new(bound: &Bound, which: &Which) -> Result<Self, String> {
+        Self::such(bound, which, &[])
+    }
+
+    /// The same for those values alone that satisfy some conditions.
+    ///
+    /// # Errors
+    /// As [`Every::new`].
+    pub fn such(bound: &Bound, which: &Which, conditions: &[Condition]) -> Result<Self, String> {
         let mut builder = Builder::new(bound, which)?;
+        builder.every.conditions = conditions.to_vec();
         builder.system();
         builder.parameters()?;
+        builder.conditions();
         builder.states()?;
         builder.inputs()?;
         builder.bounds()?;
@@ -74,6 +88,7 @@ impl Every {
         };
         let every = Every {
             parameters: self.parameters.clone(),
+            conditions: self.conditions.clone(),
             own: self.own,
             always: of_both(&self.always),
             start: of_both(&self.start),
@@ -83,6 +98,33 @@ impl Every {
             bound: both.bound,
         };
         Some((every, both.pairs))
+    }
+
+    /// The state variable that a parameter has become, by their places.
+    pub(super) fn place(&self, param: usize) -> Option<usize> {
+        let name = &self.bound.system.params.get(param)?.var.name;
+        let mut places = self.parameters.iter();
+        let own = places.find(|k| self.bound.system.states[**k].var.name == *name);
+        own.copied()
+    }
+
+    /// The values that a parameter has.
+    pub fn range_of(&self, param: usize) -> (i64, i64) {
+        let value = self.bound.values.get(param).copied().unwrap_or_default();
+        let (lo, hi) = (self.place(param)).map_or((value, value), |k| self.bound.states[k]);
+        (i64::from(lo), i64::from(hi))
+    }
+
+    /// The value of each parameter of the system in a run.
+    pub fn configuration(&self, trace: &Trace) -> Vec<i64> {
+        let value = |param: usize| {
+            let chosen = self.place(param).and_then(|place| {
+                let mut initial = trace.initial.iter();
+                initial.find(|(cell, _)| *cell as usize == place)
+            });
+            self.range_of(param).0 + chosen.map_or(0, |(_, offset)| i64::from(*offset))
+        };
+        (0..self.bound.system.params.len()).map(value).collect()
     }
 
     /// The parameters with their ranges, and how many configurations there are at most.
@@ -128,6 +170,7 @@ impl<'a> Builder<'a> {
             every: Every {
                 bound: old.clone(),
                 parameters: Vec::new(),
+                conditions: Vec::new(),
                 own: old.states.len(),
                 always: Vec::new(),
                 start: Vec::new(),
@@ -294,6 +337,14 @@ impl<'a> Builder<'a> {
             self.frozen(var, given);
         }
         Ok(())
+    }
+
+    fn conditions(&mut self) {
+        for condition in self.every.conditions.clone() {
+            let node = self.node(&condition.node());
+            let atom = self.atom(node);
+            self.every.always.push(atom);
+        }
     }
 
     /// Ranges and start values of the system's own state variables.

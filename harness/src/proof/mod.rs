@@ -18,7 +18,7 @@ mod states;
 mod text;
 
 use std::cell::RefCell;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::time::{Duration, Instant};
 
 use stillpoint_certify::proof::clause::Clause;
@@ -26,7 +26,7 @@ use stillpoint_engine::label;
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::ir::Property;
 use stillpoint_model::Verdict;
-use stillpoint_model::proof::{Budget, Lit, Netlist, Run, Spent, States};
+use stillpoint_model::proof::{Budget, Lit, Netlist, Problem, Run, Spent, States};
 
 use crate::export::Unsupported;
 use decide::{Decision, Depth, LIMITED, decide, until};
@@ -64,6 +64,51 @@ pub fn judge_every(every: &Every, settings: &Settings) -> Vec<Judged> {
         pairs::judge_every(every, property, settings)
     });
     judge.out
+}
+
+/// One of the configurations: the parameters, by the places of their state variables, with their values.
+///
+/// # Errors
+/// One sentence: there is none, or the system cannot be told.
+pub fn one_of(every: &Every) -> Result<Vec<(usize, i64)>, String> {
+    Ok(Asked::every(every).map_err(|why| why.0)?.configured())
+}
+
+/// Judges the first property of a system for all values of its parameters, or its ranges if it has none; nothing if no value can leave
+/// them.
+pub fn judge_one(every: &Every, settings: &Settings) -> Option<Judged> {
+    let mut judge = Judge::new(&every.bound, settings);
+    judge.leave_to_explorer = false;
+    judge.ranges = every.bound.system.properties.is_empty();
+    judge.prove(Asked::every(every), &|property, settings| {
+        pairs::judge_every(every, property, settings)
+    });
+    judge.out.into_iter().next()
+}
+
+/// The free parameters on which it depends whether the first property of a system is broken, or whether a value leaves its range if it
+/// has none: places in [`System::params`](stillpoint_lang::ir::System::params).
+pub fn deciding(every: &Every) -> Vec<usize> {
+    let free = (0..every.bound.system.params.len()).filter(|k| every.place(*k).is_some());
+    let Ok(asked) = Asked::every(every) else {
+        return free.collect();
+    };
+    let translated = &asked.translated;
+    let broken = match asked.questions.first() {
+        Some(Question::Never { broken, .. }) => *broken,
+        Some(_) => return free.collect(),
+        None => translated.fault,
+    };
+    let problem = Problem::new(&translated.netlist, broken);
+    let latches = problem.latches().iter();
+    let seen = latches.filter_map(|latch| Some(translated.place(*latch)?.0));
+    let seen: BTreeSet<Option<usize>> = seen.map(Some).collect();
+    free.filter(|k| seen.contains(&every.place(*k))).collect()
+}
+
+/// Why the engines cannot be asked of a system, if they cannot.
+pub fn untold(every: &Every) -> Option<String> {
+    Asked::every(every).err().map(|why| why.0)
 }
 
 struct Judge<'a> {
@@ -326,7 +371,7 @@ impl<'a> Judge<'a> {
             _ => Engine::Bmc,
         });
         entry.length = Some(run.cycles.len() as u64);
-        let trace = asked.translated.trace(run);
+        let trace = asked.trace(run);
         entry.reason = asked.configuration(&trace);
         entry.trace = Some(trace);
     }
@@ -353,7 +398,7 @@ impl<'a> Judge<'a> {
             Decision::Seen(run) => {
                 entry.verdict = Verdict::Holds;
                 entry.length = Some(run.cycles.len() as u64);
-                entry.trace = Some(asked.translated.trace(&run));
+                entry.trace = Some(asked.trace(&run));
             }
             Decision::Never(proof) => {
                 entry.verdict = Verdict::Vacuous;

@@ -5,7 +5,7 @@ use stillpoint_engine::label;
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::ir::{Form, Property, Ty};
 use stillpoint_model::Trace;
-use stillpoint_model::proof::Lit;
+use stillpoint_model::proof::{Bounded, Budget, Lit, Problem, Run};
 
 use super::every::Every;
 use super::monitor::{self, Cycles, Duty, Forever};
@@ -16,6 +16,10 @@ const LONGEST: i64 = 1 << 20;
 
 /// A number with a range of at least so many values may be a timer.
 const COUNTS: i64 = 4;
+
+fn nothing() -> Unsupported {
+    Unsupported("no values of its parameters go together".to_owned())
+}
 
 /// What is asked about one property.
 pub(super) enum Question {
@@ -63,6 +67,8 @@ pub(super) struct Asked<'a> {
     bounds: Vec<Option<usize>>,
     /// By property the parameters that its bound is about.
     about: Vec<Vec<usize>>,
+    /// With conditions on the parameters: by latch the start of a run in one of the configurations.
+    such: Vec<Option<bool>>,
 }
 
 impl<'a> Asked<'a> {
@@ -76,6 +82,7 @@ impl<'a> Asked<'a> {
             own: bound.states.len(),
             bounds: vec![None; bound.system.properties.len()],
             about: vec![Vec::new(); bound.system.properties.len()],
+            such: Vec::new(),
         };
         asked.ask();
         Ok(asked)
@@ -92,6 +99,7 @@ impl<'a> Asked<'a> {
             own: every.own,
             bounds: every.within.clone(),
             about: every.about.clone(),
+            such: Vec::new(),
         };
         let (always, start) = (
             asked.conditions(&every.always)?,
@@ -102,18 +110,49 @@ impl<'a> Asked<'a> {
         netlist.start.extend(always.iter().chain(&start));
         netlist.invariants.extend(always);
         netlist.assumed.extend(assumed);
+        if !every.conditions.is_empty() {
+            let begin = Problem::with(netlist, Lit::TRUE, &netlist.start);
+            let run = Bounded::new(&begin, &Budget::default()).within(1);
+            let run = run.ok().flatten();
+            asked.such = run.map(|run| run.start).ok_or_else(nothing)?;
+        }
         asked.ask();
         Ok(asked)
+    }
+
+    /// A run as one of the system. Parameters that it does not depend on have values that satisfy the conditions too.
+    pub(super) fn trace(&self, run: &Run) -> Trace {
+        let mut run = run.clone();
+        for (own, such) in run.start.iter_mut().zip(&self.such) {
+            *own = own.or(*such);
+        }
+        self.translated.trace(&run)
+    }
+
+    /// One of the configurations, by the places of the parameters' state variables.
+    pub(super) fn configured(&self) -> Vec<(usize, i64)> {
+        let run = Run {
+            start: vec![None; self.translated.netlist.latches.len()],
+            cycles: Vec::new(),
+        };
+        let trace = self.trace(&run);
+        let value = |k: &usize| (*k, self.value(&trace, *k));
+        self.parameters.iter().map(value).collect()
+    }
+
+    /// The value with which a state variable starts in a run.
+    fn value(&self, trace: &Trace, k: usize) -> i64 {
+        let chosen = trace.initial.iter().find(|(cell, _)| *cell as usize == k);
+        i64::from(self.translated.bound.states[k].0) + chosen.map_or(0, |(_, v)| i64::from(*v))
     }
 
     /// The configuration of a run, where parameters are part of the state.
     pub(super) fn configuration(&self, trace: &Trace) -> Option<String> {
         let bound = self.translated.bound;
         let value = |k: &usize| {
-            let chosen = trace.initial.iter().find(|(cell, _)| *cell as usize == *k);
-            let value = i64::from(bound.states[*k].0) + chosen.map_or(0, |(_, v)| i64::from(*v));
             let var = &bound.system.states[*k].var;
-            format!("{} = {}", var.name, bound.system.show(var.ty, value))
+            let value = bound.system.show(var.ty, self.value(trace, *k));
+            format!("{} = {value}", var.name)
         };
         let list: Vec<String> = self.parameters.iter().map(value).collect();
         (!list.is_empty()).then(|| format!("with {}", list.join(", ")))
@@ -122,7 +161,7 @@ impl<'a> Asked<'a> {
     fn conditions(&self, list: &[usize]) -> Result<Vec<Lit>, Unsupported> {
         let told = |k: &usize| {
             let lit = self.atom(*k).filter(|lit| *lit != Lit::FALSE);
-            lit.ok_or_else(|| Unsupported("no values of its parameters go together".to_owned()))
+            lit.ok_or_else(nothing)
         };
         list.iter().map(told).collect()
     }

@@ -178,7 +178,7 @@ impl Judge<'_> {
         entry.proof = Some(proof);
         if let Some(run) = shown {
             entry.length = Some(run.cycles.len() as u64);
-            entry.trace = Some(asked.translated.trace(&run));
+            entry.trace = Some(asked.trace(&run));
         }
         true
     }

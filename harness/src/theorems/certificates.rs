@@ -9,13 +9,15 @@ use std::path::Path;
 
 use stillpoint_certify::format::Verdict;
 use stillpoint_certify::proof::check::confirm;
-use stillpoint_certify::proof::format::{Claim, Proof, RANGE, System, theorems_text};
+use stillpoint_certify::proof::clause::written;
+use stillpoint_certify::proof::format::{Claim, Free, Proof, RANGE, System, theorems_text};
 use stillpoint_certify::proof::read::read_theorems;
 use stillpoint_certify::proof::symbolic::Symbolic;
 use stillpoint_certify::proof::target::Target;
 use stillpoint_engine::label;
 use stillpoint_engine::theorems::{OfSystem, Proved, fingerprint, tables};
 use stillpoint_lang::bind::Bound;
+use stillpoint_lang::condition::Condition;
 use stillpoint_lang::ir::{Form, Property};
 use stillpoint_lang::twice::twice;
 use stillpoint_model::proof::Budget;
@@ -97,6 +99,8 @@ pub(super) fn certified(
 pub struct Confirmed {
     /// Theorems that are confirmed.
     pub confirmed: usize,
+    /// Properties that are confirmed to fail for some values.
+    pub fails: usize,
     /// Theorems that belong to other tables, ranges or readings, and are none of today.
     pub other: usize,
     /// Clauses of all invariants.
@@ -128,27 +132,33 @@ pub fn check(
         ));
     }
     for (proved, certificate) in known.proved.iter().zip(certificates) {
-        one(bound, proved, certificate, budget, &mut all)?;
+        one(bound, (known, proved), certificate, budget, &mut all)?;
     }
     Ok(all)
 }
 
 fn one(
     bound: &Bound,
-    proved: &Proved,
+    (known, proved): (&OfSystem, &Proved),
     certificate: &System,
     budget: &Budget,
     all: &mut Confirmed,
 ) -> Result<(), String> {
-    let every = Every::new(bound, &ranges(bound, &proved.within));
+    let conditions = proved.conditions.iter();
+    let conditions: Result<Vec<Condition>, String> = conditions
+        .map(|text| Condition::read(&bound.system, text))
+        .collect();
+    let which = ranges(bound, &proved.within);
+    let every = conditions.and_then(|conditions| Every::such(bound, &which, &conditions));
     let Some(every) = every.ok().filter(|every| every.text() == proved.every) else {
         all.other += proved.holds.len();
         return Ok(());
     };
-    if certificate.every != free(&every) {
-        return Err("its certificate is about other ranges of the parameters".to_owned());
+    let free = free(&every)?;
+    if certificate.free.every != free.every || certificate.free.conditions != free.conditions {
+        return Err("its certificate is about other values of the parameters".to_owned());
     }
-    let symbolic = Symbolic::new(bound, &certificate.every)?;
+    let symbolic = Symbolic::new(bound, &certificate.free)?;
     let tables = tables(&bound.system);
     let mut whole = System {
         claims: Vec::new(),
@@ -166,7 +176,7 @@ fn one(
         let claim = claims.find(|claim| claim.id == *id && claim.verdict == Verdict::Holds);
         let claim = claim.ok_or_else(|| format!("{id}: its certificate is missing"))?;
         let bare = claim.proof.clone().unwrap_or_default();
-        let proof = lemmas_of(&symbolic, &certificate.every, property, bare, budget)
+        let proof = lemmas_of(&symbolic, &certificate.free, property, bare, budget)
             .map_err(|w| format!("{id}: {w}"))?;
         all.clauses += proof.invariant.len();
         all.lemmas += proof.lemmas.iter().map(|l| l.list.len()).sum::<usize>();
@@ -175,15 +185,44 @@ fn one(
             ..claim.clone()
         });
     }
+    for (id, failing) in &proved.fails {
+        let mut properties = bound.system.properties.iter();
+        let property = properties.find(|property| label(property) == *id);
+        let own = known
+            .proved
+            .iter()
+            .filter_map(|proved| proved.holds.get(id));
+        let print = fingerprint(&tables, &bound.system, property);
+        if !own.chain(known.open.get(id)).any(|own| *own == print) {
+            continue;
+        }
+        let mut claims = certificate.claims.iter();
+        let claim = claims.find(|claim| claim.id == *id && claim.verdict == Verdict::Violated);
+        let run = claim.and_then(|claim| claim.run.as_ref());
+        let told = run.is_some_and(|run| {
+            let value =
+                |(name, value): (&String, &i64)| run.with.contains(&(written(name), *value));
+            run.cycles.len() as u64 == failing.cycles && failing.with.iter().all(value)
+        });
+        whole.claims.extend(claim.filter(|_| told).cloned());
+        if !told {
+            return Err(format!(
+                "{id}: no run shows that it fails with these values"
+            ));
+        }
+    }
     confirm(bound, &whole)?;
-    all.confirmed += whole.claims.len();
+    let holds = |claim: &&Claim| claim.verdict == Verdict::Holds;
+    let confirmed = whole.claims.iter().filter(holds).count();
+    all.confirmed += confirmed;
+    all.fails += whole.claims.len() - confirmed;
     Ok(())
 }
 
 /// The proof that a property holds, or all assignments fit, with its lemmas.
 fn lemmas_of(
     symbolic: &Symbolic,
-    every: &[(String, (i64, i64))],
+    free: &Free,
     property: Option<&Property>,
     bare: Proof,
     budget: &Budget,
@@ -202,7 +241,7 @@ fn lemmas_of(
         None => whole(symbolic, property.map(|p| &p.form)),
         Some(property) => {
             let both = twice(symbolic.bound, property).ok_or("two runs of it are no system")?;
-            let symbolic = Symbolic::new(&both.bound, every)?;
+            let symbolic = Symbolic::new(&both.bound, free)?;
             whole(&symbolic, Some(&both.bound.system.properties[0].form))
         }
     }

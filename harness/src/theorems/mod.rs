@@ -1,33 +1,29 @@
 //! Proves the theorems of a family: every property of the systems that its machines are explored with, for every value of the parameters.
 
+mod attempt;
 pub mod certificates;
+mod conditions;
+mod text;
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fmt::Write;
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use stillpoint_certify::proof::format::System as Certificate;
 use stillpoint_engine::label;
 use stillpoint_engine::subject::{self, Readings, Subject};
-use stillpoint_engine::theorems::{OfSystem, Proved, RANGE, Theorems, fingerprint, tables};
-use stillpoint_lang::bind::Bound;
+use stillpoint_engine::theorems::{OfSystem, RANGE, Theorems, fingerprint, tables};
 use stillpoint_lang::diag::{Diagnostics, Result};
 use stillpoint_lang::files;
 use stillpoint_lang::ir::{Form, System};
+use stillpoint_model::Interrupt;
 use stillpoint_model::proof::Budget;
-use stillpoint_model::{Interrupt, Verdict};
 
-use crate::proof::{
-    Choice, Engine, Every, Judged, Proof, Settings, Shown, Span, Which, judge_every,
-};
-use crate::report::{counted, wrapped};
-use certificates::{Certificates, Confirmed, certified};
+use attempt::of_system;
+use certificates::{Certificates, Confirmed};
 
-/// What stands above the theorems.
-const HEAD: &str = "# Properties that hold for every value of the parameters. Written by `stillpoint theorems`; `check` of a machine cites them.
-# Behind each stands the fingerprint of what decides it: with other tables it is no theorem any more.
-";
+pub use attempt::ranges;
+pub use text::{count, text, told};
 
 /// How to prove.
 pub struct Proving {
@@ -108,8 +104,7 @@ fn whole(own: &OfSystem, certificates: &[Certificate]) -> bool {
     let claimed = |certificate: &Certificate| -> BTreeSet<String> {
         certificate.claims.iter().map(|c| c.id.clone()).collect()
     };
-    let mut same =
-        both.map(|(p, c)| p.holds.keys().cloned().collect::<BTreeSet<_>>() == claimed(c));
+    let mut same = both.map(|(p, c)| p.found().cloned().collect::<BTreeSet<_>>() == claimed(c));
     own.proved.len() == certificates.len() && same.all(|same| same)
 }
 
@@ -202,226 +197,6 @@ pub fn prints(system: &System) -> BTreeMap<String, String> {
         .collect();
     prints.insert(RANGE.to_owned(), fingerprint(&tables, system, None));
     prints
-}
-
-/// A parameter of more values than these is proved for the first few of them, where all of them are too many.
-const MANY: i64 = 1 << 20;
-const FEW: i64 = 15;
-
-/// The theorems about the one system of a subject.
-fn of_system(
-    subject: &Subject,
-    file: &Path,
-    known: Option<&(OfSystem, Vec<Certificate>)>,
-    proving: &Proving,
-    told: &mut dyn FnMut(&str),
-) -> std::result::Result<(OfSystem, Vec<Certificate>), Failed> {
-    let bound = &subject.tasks[0].bound;
-    let system = &bound.system;
-    let prints = prints(system);
-    let name = file.file_name().unwrap_or_default();
-    let own = OfSystem {
-        file: name.to_string_lossy().into_owned(),
-        readings: bound.readings().into_iter().collect(),
-        proved: Vec::new(),
-        open: prints,
-    };
-    let all = |of: &OfSystem| -> BTreeMap<String, String> {
-        let proved = of.proved.iter().flat_map(|proved| &proved.holds);
-        let all = proved.chain(&of.open);
-        all.map(|(key, value)| (key.clone(), value.clone()))
-            .collect()
-    };
-    let same = |known: &OfSystem| known.readings == own.readings && all(known) == own.open;
-    let known = known.filter(|known| same(&known.0)).cloned();
-    let mut own = match known {
-        Some(known) if !proving.open => return Ok(known),
-        known => known.unwrap_or((own, Vec::new())),
-    };
-    let few = system.params.iter().filter(|p| p.reading.is_none());
-    let few = few.filter_map(|param| {
-        let (lo, hi) = (bound.constant(&param.var.lo), bound.constant(&param.var.hi));
-        (hi - lo >= MANY).then(|| {
-            let name = param.var.array();
-            (name.to_owned(), (lo, lo + FEW))
-        })
-    });
-    let few: BTreeMap<String, (i64, i64)> = few.collect();
-    if !own.0.open.is_empty() {
-        proved(subject, &mut own, BTreeMap::new(), proving, told)?;
-    }
-    if !few.is_empty() && own.0.open.keys().any(|name| name != RANGE) {
-        proved(subject, &mut own, few, proving, told)?;
-    }
-    Ok(own)
-}
-
-/// All parameters of a system, each `within` its range there or over the whole documented one.
-pub fn ranges(bound: &Bound, within: &BTreeMap<String, (i64, i64)>) -> Which {
-    let params = bound.system.params.iter();
-    let params = params.filter(|param| param.reading.is_none());
-    let spans = params.map(|param| {
-        let name = param.var.array().to_owned();
-        let values = within.get(&name).copied();
-        Span { name, values }
-    });
-    Which::Named(spans.collect())
-}
-
-/// Tries what is open for every value of the parameters, some of them `within` these ranges.
-fn proved(
-    subject: &Subject,
-    (own, certificates): &mut (OfSystem, Vec<Certificate>),
-    within: BTreeMap<String, (i64, i64)>,
-    proving: &Proving,
-    told: &mut dyn FnMut(&str),
-) -> std::result::Result<(), Failed> {
-    let mut subject = subject.clone();
-    let task = &mut subject.tasks[0];
-    let open = |label: &String| own.open.contains_key(label);
-    task.bound.system.properties.retain(|p| open(&label(p)));
-    let system = task.bound.system.name.clone();
-    let which = ranges(&task.bound, &within);
-    let every = match Every::new(&task.bound, &which) {
-        Ok(every) => every,
-        Err(why) => {
-            told(&format!("{system}: {why}"));
-            return Ok(());
-        }
-    };
-    let start = Instant::now();
-    let settings = Settings {
-        choice: Choice::Pdr,
-        depth: 0,
-        time: None,
-        each: Some(proving.each),
-        memory: None,
-        threads: 1,
-        interrupt: proving.interrupt.clone(),
-    };
-    let judged = judge_every(&every, &settings);
-    if proving.interrupt.as_ref().is_some_and(Interrupt::is_raised) {
-        return Err(Failed::Ended);
-    }
-    let mut proved = Proved {
-        every: every.text(),
-        within,
-        seconds: (start.elapsed().as_secs_f64() * 10.0).round() / 10.0,
-        holds: BTreeMap::new(),
-    };
-    let tried = own.open.len();
-    let mut holding: Vec<&Judged> = judged.iter().collect();
-    holding.retain(|one| one.verdict == Verdict::Holds && own.open.contains_key(&one.id));
-    // A system whose assignments all fit has no such fault.
-    let fits = fits();
-    if own.open.contains_key(RANGE) && !judged.iter().any(|one| one.id == RANGE) {
-        holding.push(&fits);
-    }
-    let budget = Budget {
-        until: None,
-        interrupt: proving.interrupt.clone(),
-    };
-    let certificate = certified(&task.bound, &every, &holding, &budget).map_err(Failed::Other)?;
-    if budget.spent() {
-        return Err(Failed::Ended);
-    }
-    let claims = certificate.claims.iter();
-    let moved = claims.filter_map(|claim| own.open.remove_entry(&claim.id));
-    proved.holds.extend(moved);
-    told(&format!(
-        "{system}: {} of {tried} for {}; {:.1} s",
-        proved.holds.len(),
-        proved.every,
-        proved.seconds
-    ));
-    if proved.holds.is_empty() {
-        return Ok(());
-    }
-    own.proved.push(proved);
-    certificates.push(certificate);
-    Ok(())
-}
-
-/// That all assignments fit, whatever happens.
-fn fits() -> Judged {
-    Judged {
-        id: RANGE.to_owned(),
-        text: String::new(),
-        verdict: Verdict::Holds,
-        length: None,
-        engine: Some(Engine::Pdr),
-        proof: Some(Proof::Nothing),
-        shown: Some(Shown::default()),
-        trace: None,
-        reason: None,
-        seconds: 0.0,
-    }
-}
-
-/// The file of the theorems.
-pub fn text(theorems: &Theorems) -> String {
-    let mut out = HEAD.to_owned();
-    let quoted = |text: &str| toml::Value::String(text.to_owned()).to_string();
-    let table = |list: &BTreeMap<String, String>| {
-        let one = |(key, value): (&String, &String)| format!("{} = {}", quoted(key), quoted(value));
-        let all: Vec<String> = list.iter().map(one).collect();
-        format!("{{ {} }}", all.join(", "))
-    };
-    for (name, own) in &theorems.systems {
-        let name = quoted(name);
-        let _ = writeln!(out, "\n[system.{name}]\nfile     = {}", quoted(&own.file));
-        let _ = writeln!(out, "readings = {}", table(&own.readings));
-        let _ = writeln!(out, "open     = {}", table(&own.open));
-        for proved in &own.proved {
-            let within = proved.within.iter();
-            let within = within.map(|(key, (lo, hi))| format!("{} = [{lo}, {hi}]", quoted(key)));
-            let within: Vec<String> = within.collect();
-            let _ = writeln!(
-                out,
-                "\n[[system.{name}.proved]]\nevery   = {}",
-                quoted(&proved.every)
-            );
-            let _ = writeln!(out, "within  = {{ {} }}", within.join(", "));
-            let _ = writeln!(out, "seconds = {:?}", proved.seconds);
-            let _ = writeln!(out, "holds   = {}", table(&proved.holds));
-        }
-    }
-    out
-}
-
-/// A list for readers.
-pub fn told(theorems: &Theorems) -> String {
-    let mut out = String::new();
-    let names = |list: &BTreeMap<String, String>| {
-        let names: Vec<&str> = list.keys().map(String::as_str).collect();
-        names.join(", ")
-    };
-    for (name, own) in &theorems.systems {
-        let _ = writeln!(out, "{name}");
-        for proved in &own.proved {
-            wrapped(&mut out, "  for every ", &proved.every);
-            wrapped(&mut out, "    holds    ", &names(&proved.holds));
-            let _ = writeln!(out, "    {:.1} s", proved.seconds);
-        }
-        if !own.open.is_empty() {
-            wrapped(&mut out, "  not proved ", &names(&own.open));
-        }
-        out.push('\n');
-    }
-    let _ = writeln!(out, "{}", count(theorems));
-    out
-}
-
-/// How many theorems there are, and how many properties are not proved.
-pub fn count(theorems: &Theorems) -> String {
-    let systems = theorems.systems.values();
-    let proved = systems.clone().flat_map(|own| &own.proved);
-    format!(
-        "{} about {}; {} not proved",
-        counted(proved.map(|p| p.holds.len() as u64).sum(), "theorem"),
-        counted(theorems.systems.len() as u64, "system"),
-        systems.map(|own| own.open.len()).sum::<usize>()
-    )
 }
 
 /// Whether a folder is that of a family.

@@ -158,6 +158,11 @@ impl<'a> Problem<'a> {
         }
     }
 
+    /// The latches of the cone, by their places.
+    pub fn latches(&self) -> &[usize] {
+        &self.latches
+    }
+
     /// The netlist.
     pub fn netlist(&self) -> &'a Netlist {
         self.netlist

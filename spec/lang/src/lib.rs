@@ -11,6 +11,7 @@ pub mod bind;
 pub mod catalogue;
 pub mod codegen;
 pub mod compile;
+pub mod condition;
 pub mod diag;
 pub mod eval;
 mod excerpt;

@@ -3,11 +3,12 @@
 use std::collections::BTreeMap;
 
 use stillpoint_lang::bind::Bound;
+use stillpoint_lang::condition::Condition;
 use stillpoint_lang::ir::{Form, Property};
 use stillpoint_lang::twice::twice;
 
 use super::clause::written;
-use super::format::{Claim, Proof, RANGE, Run, System};
+use super::format::{Claim, Free, Proof, RANGE, Run, System};
 use super::question::{Obligation, Question, Unshown};
 use super::rup::Clauses;
 use super::symbolic::Symbolic;
@@ -20,8 +21,8 @@ use crate::subject::label;
 /// What was confirmed about a system.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Proved {
-    /// Parameters that have every value from the first to the second.
-    pub every: Vec<(String, (i64, i64))>,
+    /// The configurations that this is about.
+    pub free: Free,
     /// The verdict about ranges, if there is one, and what shows it.
     pub range: Option<(Verdict, String)>,
     /// For each property what shows its verdict.
@@ -46,12 +47,12 @@ pub fn check(bound: &Bound, task: &Task, system: &System) -> Result<Proved, Stri
             "the header speaks of states, of which there are none".to_owned(),
         ));
     }
-    let symbolic = Symbolic::new(bound, &system.every).map_err(here)?;
+    let symbolic = Symbolic::new(bound, &system.free).map_err(here)?;
     // Of no configuration everything is true.
-    configured(bound, &system.every, &default(bound, &system.every)).map_err(here)?;
+    some(bound, &system.free).map_err(here)?;
     let mut claims = system.claims.iter();
     let mut proved = Proved {
-        every: system.every.clone(),
+        free: system.free.clone(),
         ..Proved::default()
     };
     for (number, property) in task.property.iter().enumerate() {
@@ -102,8 +103,8 @@ pub fn check(bound: &Bound, task: &Task, system: &System) -> Result<Proved, Stri
 /// # Errors
 /// The first that is not shown: its name and one sentence.
 pub fn confirm(bound: &Bound, system: &System) -> Result<(), String> {
-    let symbolic = Symbolic::new(bound, &system.every)?;
-    configured(bound, &system.every, &default(bound, &system.every))?;
+    let symbolic = Symbolic::new(bound, &system.free)?;
+    some(bound, &system.free)?;
     for claim in &system.claims {
         let checker = Checker {
             symbolic: &symbolic,
@@ -121,8 +122,15 @@ pub fn confirm(bound: &Bound, system: &System) -> Result<(), String> {
     Ok(())
 }
 
-/// For each free parameter the value nearest to its own.
-pub fn default(bound: &Bound, every: &[(String, (i64, i64))]) -> Vec<(String, i64)> {
+/// One of the configurations: where no other is named, that in which each free parameter has the value nearest to its own.
+fn some(bound: &Bound, free: &Free) -> Result<Bound, String> {
+    if !free.conditions.is_empty() || !free.such.is_empty() {
+        return configured(bound, free, &free.such);
+    }
+    configured(bound, free, &nearest(bound, &free.every))
+}
+
+fn nearest(bound: &Bound, every: &[(String, (i64, i64))]) -> Vec<(String, i64)> {
     let params = bound.system.params.iter().zip(&bound.values);
     let own: BTreeMap<&String, i32> = params.map(|(p, v)| (&p.var.name, *v)).collect();
     let near = |(name, (lo, hi)): &(String, (i64, i64))| {
@@ -132,15 +140,27 @@ pub fn default(bound: &Bound, every: &[(String, (i64, i64))]) -> Vec<(String, i6
     every.iter().map(near).collect()
 }
 
-/// The system with values for the free parameters, each of which must have one.
-fn configured(
+/// The system with values for the free parameters, each of which must have one; and all conditions hold.
+fn configured(bound: &Bound, free: &Free, with: &[(String, i64)]) -> Result<Bound, String> {
+    let every = &free.every[..];
+    let own = match (every, with) {
+        ([], []) => bound.clone(),
+        _ => with_values(bound, every, with)?,
+    };
+    for condition in &free.conditions {
+        let read = Condition::read(&own.system, condition)?;
+        if own.constant(&read.node()) == 0 {
+            return Err(format!("`{condition}` does not hold in a configuration"));
+        }
+    }
+    Ok(own)
+}
+
+fn with_values(
     bound: &Bound,
     every: &[(String, (i64, i64))],
     with: &[(String, i64)],
 ) -> Result<Bound, String> {
-    if every.is_empty() && with.is_empty() {
-        return Ok(bound.clone());
-    }
     let mut given: BTreeMap<&str, i64> = with.iter().map(|(n, v)| (n.as_str(), *v)).collect();
     let mut values: BTreeMap<String, Vec<i64>> = BTreeMap::new();
     for (param, value) in bound.system.params.iter().zip(&bound.values) {
@@ -191,7 +211,7 @@ impl Checker<'_> {
         let Some(both) = both else {
             return self.none();
         };
-        let symbolic = Symbolic::new(&both.bound, &self.system.every);
+        let symbolic = Symbolic::new(&both.bound, &self.system.free);
         let checker = Checker {
             symbolic: &self.here(symbolic)?,
             ..*self
@@ -270,7 +290,7 @@ impl Checker<'_> {
         run: &Run,
         shown: impl FnOnce(&Bound, Player) -> Result<(), String>,
     ) -> Result<(), String> {
-        let bound = &configured(self.symbolic.bound, &self.system.every, &run.with)?;
+        let bound = &configured(self.symbolic.bound, &self.system.free, &run.with)?;
         let mut start: BTreeMap<&str, i64> =
             run.start.iter().map(|(n, v)| (n.as_str(), *v)).collect();
         let mut state = Vec::new();

@@ -5,6 +5,8 @@
 //! <header: TOML, as that of the other certificates>
 //! system <specification/system>
 //! every <parameter> <least> <greatest>
+//! where <condition on parameters>
+//! such <parameter> <value>
 //! claim <property, or range> <verdict>
 //! run
 //! with <parameter> <value>
@@ -66,10 +68,21 @@ pub struct System {
     pub name: String,
     /// The line on which it begins.
     pub line: usize,
-    /// Parameters that have every value from the first to the second; all others have that of the header.
-    pub every: Vec<(String, (i64, i64))>,
+    /// The configurations that the claims are about.
+    pub free: Free,
     /// What is claimed.
     pub claims: Vec<Claim>,
+}
+
+/// Configurations: values of parameters.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Free {
+    /// Parameters that have every value from the first to the second; all others have that of the header.
+    pub every: Vec<(String, (i64, i64))>,
+    /// Conditions that they satisfy ([`stillpoint_lang::condition`]).
+    pub conditions: Vec<String>,
+    /// With conditions: one of the configurations, so that there are some.
+    pub such: Vec<(String, i64)>,
 }
 
 /// A claim and what shows it.
@@ -176,9 +189,13 @@ pub fn theorems_text(theorems: &[System]) -> String {
 fn systems(out: &mut String, systems: &[System]) {
     for system in systems {
         line(out, "system", [&system.name]);
-        for (name, (lo, hi)) in &system.every {
+        for (name, (lo, hi)) in &system.free.every {
             line(out, "every", [name, &lo.to_string(), &hi.to_string()]);
         }
+        for condition in &system.free.conditions {
+            line(out, "where", [condition]);
+        }
+        values(out, "such", &system.free.such);
         for claim in &system.claims {
             self::claim(out, claim);
         }
@@ -193,6 +210,12 @@ fn line<'a>(out: &mut String, word: &str, rest: impl IntoIterator<Item = &'a Str
         let _ = write!(out, " {part}");
     }
     out.push('\n');
+}
+
+fn values(out: &mut String, word: &str, list: &[(String, i64)]) {
+    for (name, value) in list {
+        line(out, word, [name, &value.to_string()]);
+    }
 }
 
 fn words<T: ToString>(list: &[T]) -> Vec<String> {
@@ -217,11 +240,8 @@ fn claim(out: &mut String, claim: &Claim) {
     line(out, "claim", [&claim.id, &verdict]);
     if let Some(run) = &claim.run {
         line(out, "run", []);
-        for (word, list) in [("with", &run.with), ("start", &run.start)] {
-            for (name, value) in list {
-                line(out, word, [name, &value.to_string()]);
-            }
-        }
+        values(out, "with", &run.with);
+        values(out, "start", &run.start);
         for inputs in &run.cycles {
             line(out, "cycle", &pairs(inputs));
         }

@@ -136,8 +136,12 @@ impl<'a> Reader<'a> {
                     _ => None,
                 };
                 let (name, range) = self.wrong(every)?;
-                system.every.push((name.to_owned(), range));
+                system.free.every.push((name.to_owned(), range));
             }
+            while let Some(words) = self.words("where") {
+                system.free.conditions.push(words.join(" "));
+            }
+            system.free.such = self.values("such")?;
             while let Some(words) = self.words("claim") {
                 let known = match words[..] {
                     [id, verdict] => {
@@ -160,20 +164,28 @@ impl<'a> Reader<'a> {
         (self.at == self.lines.len()).then_some(systems)
     }
 
+    /// Names with their values, a line each.
+    fn values(&mut self, word: &str) -> Option<Vec<(String, i64)>> {
+        let mut list = Vec::new();
+        while let Some(words) = self.words(word) {
+            let pair = match words[..] {
+                [name, value] => value.parse().ok().map(|v| (name.to_owned(), v)),
+                _ => None,
+            };
+            list.push(self.wrong(pair)?);
+        }
+        Some(list)
+    }
+
     fn run(&mut self) -> Option<Option<Run>> {
         if self.words("run").is_none() {
             return Some(None);
         }
-        let mut run = Run::default();
-        for (word, list) in [("with", &mut run.with), ("start", &mut run.start)] {
-            while let Some(words) = self.words(word) {
-                let pair = match words[..] {
-                    [name, value] => value.parse().ok().map(|v| (name.to_owned(), v)),
-                    _ => None,
-                };
-                list.push(self.wrong(pair)?);
-            }
-        }
+        let mut run = Run {
+            with: self.values("with")?,
+            start: self.values("start")?,
+            cycles: Vec::new(),
+        };
         while let Some(words) = self.words("cycle") {
             run.cycles.push(self.wrong(inputs(&words))?);
         }

@@ -6,8 +6,10 @@
 use std::collections::BTreeMap;
 
 use stillpoint_lang::bind::Bound;
+use stillpoint_lang::condition::Condition;
 use stillpoint_lang::ir::{BinaryOp, Node, Space, Stmt, Var};
 
+use super::format::Free;
 use super::gates::{Bit, Gates};
 use super::word::Word;
 
@@ -20,7 +22,7 @@ pub struct Symbolic<'a> {
     pub gates: Gates,
     /// The parameters.
     pub params: Vec<Word>,
-    /// What the ranges of the free parameters say.
+    /// What the ranges of the free parameters and the conditions say.
     pub given: Vec<Bit>,
     /// Least and greatest value of each state variable.
     ranges: Vec<(Word, Word)>,
@@ -44,11 +46,12 @@ pub struct Cycle {
 }
 
 impl<'a> Symbolic<'a> {
-    /// A system; `every` has parameters by name with the values that they are to have, all others have theirs.
+    /// A system in some configurations; parameters that are not free there have their values.
     ///
     /// # Errors
-    /// One sentence: a name or a range that makes no sense.
-    pub fn new(bound: &'a Bound, every: &[(String, (i64, i64))]) -> Result<Self, String> {
+    /// One sentence: a name, a range or a condition that makes no sense.
+    pub fn new(bound: &'a Bound, free: &Free) -> Result<Self, String> {
+        let every = &free.every[..];
         let mut own = Symbolic {
             bound,
             gates: Gates::default(),
@@ -95,6 +98,11 @@ impl<'a> Symbolic<'a> {
                 _ => own.range(&state.var)?,
             };
             own.ranges.push(range);
+        }
+        for condition in &free.conditions {
+            let node = Condition::read(&bound.system, condition)?.node();
+            let holds = own.constant(&node)?.is_true(&mut own.gates);
+            own.given.push(holds);
         }
         Ok(own)
     }
