@@ -15,6 +15,7 @@ pub mod matrix;
 pub mod pages;
 pub mod params;
 pub mod plant;
+pub mod product;
 pub mod proof;
 pub mod reaction;
 pub mod recording;

@@ -71,11 +71,14 @@ pub fn copied(name: &str, machine: &str, family: &str, replace: &[(&str, &str, &
     if root().join(&program).is_file() {
         copy(&program);
     }
-    for entry in std::fs::read_dir(root().join(family)).expect("the family") {
-        let entry = entry.expect("an entry");
-        // A product of a whole machine is explored by no command that reads the copy.
-        if entry.path().is_file() {
-            copy(&Path::new(family).join(entry.file_name()));
+    let mut folders = vec![PathBuf::from(family)];
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(root().join(&folder)).expect("the family") {
+            let path = folder.join(entry.expect("an entry").file_name());
+            match root().join(&path).is_file() {
+                true => copy(&path),
+                false => folders.push(path),
+            }
         }
     }
     for (file, from, to) in replace {

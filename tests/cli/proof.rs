@@ -1,6 +1,6 @@
 //! `check --engine`: what it prints and its exit status.
 
-use crate::common::{Folder, messages, status, stderr, stdout, stillpoint};
+use crate::common::{Folder, copied, messages, status, stderr, stdout, stillpoint};
 
 const BROKEN: &str = "tests/must-fail/stop-b-without-timer.toml";
 const GOOD: &str = "spec/families/sinumerik-840d/axis.toml";
@@ -91,6 +91,91 @@ fn sets_of_states_are_counted_and_have_no_certificate() {
     let output = stillpoint(&["check", GOOD, "--engine", "bdd", "--certificate", "x.cert"]);
     assert_eq!(status(&output), 2);
     assert!(messages(&output).contains("a set of states has none"));
+}
+
+/// For all values a property fails, for those that satisfy a condition it holds; and so says its certificate.
+#[test]
+fn a_condition_leaves_some_configurations() {
+    const FORMS: &str = "tests/certified/forms.toml";
+    let folder = Folder::new("conditions");
+    let file = folder.file("forms.cert");
+    let every = ["check", FORMS, "--engine", "pdr", "--every", "all"];
+    let text = stdout(&stillpoint(&every));
+    assert_eq!(
+        lines_with(&text, "violated     bmc        NEVER"),
+        1,
+        "{text}"
+    );
+    let such = [
+        "--where",
+        "burn < 4",
+        "--where",
+        "burn <> 2",
+        "--certificate",
+        &file,
+    ];
+    let text = stdout(&stillpoint(&[&every[..], &such].concat()));
+    assert!(
+        text.contains(
+            "  for every burn = 1 .. 4: 4 configurations\n  where burn < 4\n  where burn <> 2\n"
+        ),
+        "{text}"
+    );
+    assert_eq!(
+        lines_with(&text, "holds        pdr        NEVER"),
+        1,
+        "{text}"
+    );
+
+    let output = stillpoint(&["certify", &file]);
+    let text = stdout(&output);
+    assert_eq!(status(&output), 0, "{text}");
+    assert!(
+        text.contains("  burn = 1 .. 4, every value\n  where burn < 4\n  where burn <> 2\n"),
+        "{text}"
+    );
+
+    for (condition, why) in [
+        ("burn<4", "space around its operator"),
+        ("bern < 4", "`bern` in `bern < 4` is no parameter of"),
+        ("burn < long", "neither a parameter of"),
+        ("burn > 4", "no values of its parameters go together"),
+    ] {
+        let output = stillpoint(&[&every[..], &["--where", condition]].concat());
+        let told = format!("{}{}", messages(&output), stdout(&output));
+        assert!(told.contains(why), "{condition}: {told}");
+        assert!([2, 3].contains(&status(&output)), "{condition}: {told}");
+    }
+}
+
+/// A check of the machine asks its product as well: an error of the kernel between the groups, which no part of it has.
+#[test]
+fn a_check_asks_the_whole_machine_too() {
+    let from = "\"i <> 2 OR NOT drive[1].moving\"";
+    let spindle = (
+        "spec/families/heidenhain-fs/products/machine.toml",
+        from,
+        "\"TRUE\"",
+    );
+    let machine = copied(
+        "checked-whole",
+        "spec/machines/machining-centre-heidenhain.toml",
+        "spec/families/heidenhain-fs",
+        &[spindle],
+    );
+    let folder = Folder::new("checked-whole-page");
+    let page = folder.file("page.html");
+    let output = stillpoint(&["check", &machine, "--html", &page]);
+    let text = stdout(&output);
+    assert_eq!(status(&output), 1, "{text}{}", stderr(&output));
+    assert_eq!(lines_with(&text, "VIOLATED  HFS-SS1D-001"), 1, "{text}");
+    assert!(text.contains("  in: the whole machine: program"), "{text}");
+    assert!(
+        text.contains("  not explored: 26 properties decided by "),
+        "{text}"
+    );
+    let page = std::fs::read_to_string(page).expect("written");
+    assert!(page.contains("since its states were not enumerated"));
 }
 
 /// A machine of three groups as one product, with its own program: an error in it is found there too.

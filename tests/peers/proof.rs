@@ -2,7 +2,7 @@
 //!
 //! The systems are those whose reductions are compared, so that the explorer is asked once for all tests.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::time::{Duration, Instant};
 
 use stillpoint_engine::Outcome;
@@ -10,6 +10,7 @@ use stillpoint_harness::proof::{
     Choice, Engine, Every, Judged, Proof, Settings, Span, Which, judge, judge_every,
 };
 use stillpoint_lang::bind::Bound;
+use stillpoint_lang::condition::Condition;
 use stillpoint_lang::ir::Form;
 use stillpoint_model::Verdict;
 use stillpoint_tests::daily;
@@ -191,35 +192,52 @@ fn all_configurations_at_once_are_each_by_itself() {
         name: "t".to_owned(),
         values: None,
     }]);
-    let every = Every::new(&bound, &which).expect("its parameter can be free");
-    let judged = judge_every(&every, &settings(Choice::Pdr));
-    let mut broken = vec![false; bound.system.properties.len()];
-    for t in 0..=6 {
-        let values = [("t".to_owned(), vec![t])].into();
-        let one = Bound::new(bound.system.clone(), &values, &BTreeMap::new());
-        let whole = full(&one.expect("in its range"), true);
-        for (broken, judged) in broken.iter_mut().zip(&whole.report.properties) {
-            *broken |= judged.verdict == Verdict::Violated;
+    let each: Vec<Vec<Verdict>> = (0..=6)
+        .map(|t| {
+            let values = [("t".to_owned(), vec![t])].into();
+            let one = Bound::new(bound.system.clone(), &values, &BTreeMap::new());
+            let report = full(&one.expect("in its range"), true).report;
+            assert_eq!(report.faults.is_empty(), t < 6);
+            report.properties.iter().map(|one| one.verdict).collect()
+        })
+        .collect();
+    let mut seen = BTreeSet::new();
+    for text in ["", "t < 6", "t = 6", "t <> 6", "t <= 3", "t > 3", "t >= 1"] {
+        let conditions =
+            (!text.is_empty()).then(|| Condition::read(&bound.system, text).expect(text));
+        let conditions: Vec<Condition> = conditions.into_iter().collect();
+        let such = |t: &i64| conditions.iter().all(|c| c.holds(|_| *t));
+        let all: Vec<usize> = (0..=6).filter(such).map(|t| t as usize).collect();
+        let every = Every::such(&bound, &which, &conditions).expect("its parameter can be free");
+        let judged = judge_every(&every, &settings(Choice::Pdr));
+        for (k, judged) in judged
+            .iter()
+            .take(bound.system.properties.len())
+            .enumerate()
+        {
+            let any = |verdict: Verdict| all.iter().any(|t| each[*t][k] == verdict);
+            let verdict = match (any(Verdict::Violated), any(Verdict::Holds)) {
+                (true, _) => Verdict::Violated,
+                (false, true) => Verdict::Holds,
+                (false, false) => Verdict::Vacuous,
+            };
+            let context = format!("{} {text}: {:?}", judged.id, judged.reason);
+            assert_eq!(judged.verdict, verdict, "{context}");
+            seen.insert((k, verdict == Verdict::Violated));
         }
-        assert_eq!(whole.report.faults.is_empty(), t < 6);
-    }
-    assert_eq!(broken, [false, false, true, true]);
-    for (broken, judged) in broken.iter().zip(&judged) {
-        let verdict = match broken {
+        let range = judged.last().expect("the ranges");
+        let verdict = match all.contains(&6) {
             true => Verdict::Violated,
             false => Verdict::Holds,
         };
         assert_eq!(
-            judged.verdict, verdict,
-            "{}: {:?}",
-            judged.id, judged.reason
+            (range.id.as_str(), range.verdict),
+            ("range", verdict),
+            "{text}"
         );
     }
-    let range = judged.last().expect("the ranges");
-    assert_eq!(
-        (range.id.as_str(), range.verdict),
-        ("range", Verdict::Violated)
-    );
+    // Two of its properties hold for some values alone.
+    assert_eq!(seen.len(), bound.system.properties.len() + 2);
 }
 
 /// A timer whose range, start and bound depend on a parameter. With 6 it leaves its range.

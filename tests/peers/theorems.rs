@@ -17,6 +17,7 @@ use stillpoint_harness::theorems::certificates::{Certificates, check as check_ce
 use stillpoint_harness::theorems::{prints, ranges, systems};
 use stillpoint_lang::Spec;
 use stillpoint_lang::bind::Bound;
+use stillpoint_lang::condition::Condition;
 use stillpoint_lang::ir::{Form, Node, System};
 use stillpoint_model::Verdict;
 use stillpoint_model::proof::Budget;
@@ -80,6 +81,12 @@ fn every_theorem_belongs_to_its_tables() {
     }
 }
 
+fn conditions(bound: &Bound, proved: &Proved) -> Vec<Condition> {
+    let read = |text: &String| Condition::read(&bound.system, text);
+    let list = proved.conditions.iter().map(read).collect::<Result<_, _>>();
+    list.unwrap_or_else(|why| panic!("{}: {why}", bound.system.name))
+}
+
 /// Proves the theorems of some systems again; the answer is how many there were.
 fn prove_again(wanted: impl Fn(&Proved) -> bool + Sync, time: Duration) -> usize {
     let mut work = Vec::new();
@@ -96,7 +103,8 @@ fn prove_again(wanted: impl Fn(&Proved) -> bool + Sync, time: Duration) -> usize
         let asked = |id: &String| proved.holds.contains_key(id);
         bound.system.properties.retain(|p| asked(&label(p)));
         let which = ranges(&bound, &proved.within);
-        let every = Every::new(&bound, &which).unwrap_or_else(|e| panic!("{e}"));
+        let such = conditions(&bound, proved);
+        let every = Every::such(&bound, &which, &such).unwrap_or_else(|e| panic!("{e}"));
         assert_eq!(every.text(), proved.every, "{}", bound.system.name);
         let settings = Settings {
             choice: Choice::Pdr,
@@ -166,6 +174,8 @@ fn confirmed(work: &[Shown]) -> usize {
         assert_eq!(found.other, 0, "{}", bound.system.name);
         let all = own.proved.iter().map(|proved| proved.holds.len());
         assert_eq!(found.confirmed, all.sum::<usize>(), "{}", bound.system.name);
+        let fails = own.proved.iter().map(|proved| proved.fails.len());
+        assert_eq!(found.fails, fails.sum::<usize>(), "{}", bound.system.name);
         found.confirmed
     });
     counts.into_iter().sum()
@@ -199,8 +209,8 @@ fn another_certificate_confirms_nothing() {
     let changes: [Altered; 5] = [
         ("certificates for", &|list| list.clear()),
         ("is missing", &|list| drop(list[0].claims.pop())),
-        ("other ranges", &|list| {
-            list[0].every.push(("t".to_owned(), (0, 1)))
+        ("other values", &|list| {
+            list[0].free.every.push(("t".to_owned(), (0, 1)))
         }),
         ("does not show it", &|list| drop(proof(list))),
         ("is missing", &|list| {
@@ -230,6 +240,77 @@ fn another_certificate_confirms_nothing() {
     let cut = text.rsplit_once("claim").expect("claims").0;
     assert!(read_theorems(cut.as_bytes()).is_err());
     assert!(read_theorems(text.replacen("holds", "vacuous", 1).as_bytes()).is_err());
+}
+
+/// A theorem under a condition, and a configuration in which it fails: neither is confirmed as anything else.
+#[test]
+fn a_condition_is_part_of_what_is_shown() {
+    let (known, family) = (theorems("sinamics-s120"), folder("sinamics-s120"));
+    let all = Certificates::load(&family).unwrap_or_else(|e| panic!("{e}"));
+    let bound = bound(&family.join("sbc.toml"), "sbc");
+    let own = &known.systems[&bound.system.name];
+    let shown = &all.systems[&bound.system.name];
+    let (fails, such) = (0..own.proved.len()).fold((None, None), |(fails, such), k| {
+        let proved = &own.proved[k];
+        (
+            fails.or((!proved.fails.is_empty()).then_some(k)),
+            such.or((proved.conditions == ["enabled = TRUE"]).then_some(k)),
+        )
+    });
+    let (fails, such) = (fails.expect("one that fails"), such.expect("a condition"));
+    type Altered<'a> = (&'a str, &'a dyn Fn(&mut OfSystem, &mut Vec<Certificate>));
+    let changes: [Altered; 7] = [
+        // For all values nothing of it holds.
+        ("does not show it", &|own, list| {
+            own.proved[such].conditions.clear();
+            list[such].free.conditions.clear();
+        }),
+        ("other values", &|own, _| {
+            own.proved[such].conditions.clear()
+        }),
+        ("other values", &|_, list| {
+            list[such].free.conditions.clear()
+        }),
+        // Of nothing everything holds.
+        ("does not hold in a configuration", &|own, list| {
+            let never = "enabled <> TRUE".to_owned();
+            own.proved[such].conditions.push(never.clone());
+            list[such].free.conditions.push(never);
+        }),
+        ("has no value of its range", &|_, list| {
+            list[such].free.such.clear()
+        }),
+        // The run is another one, or none.
+        ("no run shows", &|own, _| {
+            let mut fails = own.proved[fails].fails.values_mut();
+            fails.next().expect("one").cycles += 1;
+        }),
+        ("no run shows", &|own, _| {
+            let mut fails = own.proved[fails].fails.values_mut();
+            let with = &mut fails.next().expect("one").with;
+            with.insert("enabled".to_owned(), "TRUE".to_owned());
+        }),
+    ];
+    for (words, change) in changes {
+        let (mut own, mut list) = (own.clone(), shown.clone());
+        change(&mut own, &mut list);
+        let found = check_certificates(&bound, &own, &list, &Budget::default());
+        let why = found.err().unwrap_or_default();
+        assert!(why.contains(words), "`{why}` does not say `{words}`");
+    }
+    // It is cited where its condition holds.
+    for (value, wanted) in [(0, false), (1, true)] {
+        let mut machine = bound.clone();
+        let mut params = machine.system.params.iter();
+        let place = params.position(|p| p.var.name == "enabled");
+        machine.values[place.expect("a parameter")] = value;
+        let (cited, _) = known.of(&machine);
+        let cited = cited.iter().any(|k| {
+            let id = label(&machine.system.properties[*k]);
+            own.proved[such].holds.contains_key(&id)
+        });
+        assert_eq!(cited, wanted, "enabled = {value}");
+    }
 }
 
 /// A measure whose number is to move the other way, or either way, shows nothing.
@@ -376,7 +457,7 @@ fn compare(path: &Path) -> usize {
                 (a, b) => assert_eq!(a, b, "{context}"),
             }
         }
-        assert!(one.explored || other.outcome.report.faults.is_empty());
+        assert!(one.explored() || other.outcome.report.faults.is_empty());
     }
     let verdicts = |checked: &[stillpoint_engine::check::Checked]| -> Vec<_> {
         let all = summarise(&subject, checked).into_iter();

@@ -13,6 +13,7 @@ use stillpoint_engine::readings::compare;
 use stillpoint_engine::subject::{self, Subject};
 use stillpoint_engine::theorems::Theorems;
 use stillpoint_harness::certificate;
+use stillpoint_harness::product;
 use stillpoint_harness::proof::Which;
 use stillpoint_harness::report::{self, About};
 use stillpoint_harness::sweep::{Failed, sweep};
@@ -97,6 +98,10 @@ pub struct Arguments {
     /// Judge for every value of these parameters at once: NAME over its whole range or NAME=LO..HI, several with commas, or `all`
     #[arg(long, value_name = "all|NAME[=LO..HI],...", value_parser = prove::every, requires = "engine")]
     every: Option<Which>,
+    /// Of these values only those that satisfy a condition: a comparison of one parameter with a value or another one, as "t_c <= t_d"; may
+    /// be given several times
+    #[arg(long = "where", value_name = "CONDITION", requires = "every")]
+    conditions: Vec<String>,
     /// Judge the whole machine as one product, which is too large to be explored, in place of its parts: of families that describe one
     #[arg(long, requires = "engine", conflicts_with = "certificate")]
     whole: bool,
@@ -110,21 +115,13 @@ pub struct Arguments {
 }
 
 /// The products of a machine in place of its parts.
-fn whole(subject: Subject, readings: &subject::Readings) -> Result<Subject, Failure> {
-    let products = subject.machine.as_ref().map(|machine| machine.products());
-    let products = products.transpose()?.unwrap_or_default();
-    match subject.machine {
-        Some(machine) if !products.is_empty() => Ok(subject::of_runs(
-            &subject.path,
-            machine,
-            &products,
-            readings,
-        )?),
-        _ => Err(Failure::Other(format!(
+fn whole(subject: &Subject, readings: &subject::Readings) -> Result<Subject, Failure> {
+    product::products(subject, readings)?.ok_or_else(|| {
+        Failure::Other(format!(
             "--whole: {} is described by its parts alone; leave it out",
             subject.name
-        ))),
-    }
+        ))
+    })
 }
 
 pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
@@ -142,11 +139,12 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
             ));
         }
         if arguments.whole {
-            subject = whole(subject, &choice.chosen)?;
+            subject = whole(&subject, &choice.chosen)?;
         }
         let asked = prove::Asked {
             engine,
             every: arguments.every.as_ref(),
+            conditions: &arguments.conditions,
             depth: arguments.depth,
             each: arguments.each,
             certificate: arguments.certificate.as_deref(),
@@ -202,12 +200,22 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let start = Instant::now();
     let fail =
         |(title, e): (String, stillpoint_model::Error)| Failure::Other(format!("{title}: {e}"));
-    let checked = check(&mut subject, &settings, &mut |task| {
+    let mut checked = check(&mut subject, &settings, &mut |task| {
         Box::new(Line::new(&task.title).within(settings.memory))
     })
     .map_err(fail)?;
     if place.is_helper() {
         return Ok(0);
+    }
+    if !(choice.all || only_explored(arguments)) {
+        let settings = settings.after(start);
+        let products = product::judged(&subject, &choice.chosen, &settings, &mut |task| {
+            Box::new(Line::new(&task.title))
+        })?;
+        for (task, done) in products {
+            subject.tasks.push(task);
+            checked.push(done);
+        }
     }
     if let Some(cluster) = &place.cluster {
         eprintln!(
@@ -282,15 +290,20 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     Ok(arguments.warnings.status(subject.machine.as_ref(), status))
 }
 
-/// The theorems of the machine's family, where a check may cite them.
-fn theorems(arguments: &Arguments, subject: &Subject) -> Result<Option<Arc<Theorems>>, Failure> {
-    // A certificate, a checkpoint and other processes are about whole explorations; what a reading changes is told of two of them.
-    let whole = arguments.all
-        || values::readings(&arguments.readings).is_ok_and(|choice| choice.all)
-        || arguments.certificate.is_some()
+/// A certificate, a checkpoint and other processes are about whole explorations.
+fn only_explored(arguments: &Arguments) -> bool {
+    arguments.certificate.is_some()
         || arguments.checkpoint.is_some()
         || arguments.resume.is_some()
-        || arguments.cluster.is_asked();
+        || arguments.cluster.is_asked()
+}
+
+/// The theorems of the machine's family, where a check may cite them.
+fn theorems(arguments: &Arguments, subject: &Subject) -> Result<Option<Arc<Theorems>>, Failure> {
+    // What a reading changes is told of two explorations.
+    let whole = arguments.all
+        || values::readings(&arguments.readings).is_ok_and(|choice| choice.all)
+        || only_explored(arguments);
     match subject.machine.as_ref().filter(|_| !whole) {
         Some(machine) => Ok(Some(Arc::new(Theorems::load(machine.family_folder())?))),
         None => Ok(None),

@@ -11,6 +11,7 @@ use stillpoint_harness::proof::{
 };
 
 use stillpoint_lang::bind::Bound;
+use stillpoint_lang::condition::{Condition, Unread};
 use stillpoint_model::proof::Budget;
 
 use super::interrupt::Interruptible;
@@ -53,6 +54,8 @@ pub struct Asked<'a> {
     pub engine: Engine,
     /// Parameters that are to have every value.
     pub every: Option<&'a Which>,
+    /// What these values satisfy.
+    pub conditions: &'a [String],
     pub depth: usize,
     /// The most wall time for a property.
     pub each: Option<Duration>,
@@ -86,8 +89,22 @@ pub fn every(text: &str) -> Result<Which, String> {
     list.collect::<Result<_, _>>().map(Which::Named)
 }
 
+/// Those of the conditions that are about parameters of a system.
+fn conditions(task: &Task, texts: &[String]) -> Result<Vec<Condition>, Failure> {
+    let system = &task.bound.system;
+    let mut list = Vec::new();
+    for text in texts {
+        match Condition::read(system, text) {
+            Ok(condition) => list.push(condition),
+            Err(Unread::Unknown(_)) => {}
+            Err(Unread::Wrong(why)) => return Err(Failure::Other(format!("--where: {why}"))),
+        }
+    }
+    Ok(list)
+}
+
 /// All values of some parameters in place of those of the file.
-fn set_free(subject: &mut Subject, which: &Which) -> Result<Vec<Every>, Failure> {
+fn set_free(subject: &mut Subject, which: &Which, texts: &[String]) -> Result<Vec<Every>, Failure> {
     if let Which::Named(list) = which {
         for span in list {
             let has = |task: &Task| {
@@ -102,10 +119,29 @@ fn set_free(subject: &mut Subject, which: &Which) -> Result<Vec<Every>, Failure>
             }
         }
     }
+    for text in texts {
+        let tasks = subject.tasks.iter();
+        let mut read = tasks.map(|task| Condition::read(&task.bound.system, text));
+        if read
+            .clone()
+            .all(|read| matches!(read, Err(Unread::Unknown(_))))
+        {
+            let why = read.find_map(Result::err).map(|why| why.to_string());
+            return Err(Failure::Other(format!(
+                "--where: {}",
+                why.unwrap_or_default()
+            )));
+        }
+    }
     let mut all = Vec::new();
     for task in &mut subject.tasks {
-        let every = Every::new(&task.bound, which).map_err(Failure::Other)?;
+        let conditions = conditions(task, texts)?;
+        let every = Every::such(&task.bound, which, &conditions).map_err(Failure::Other)?;
         task.title = format!("{}\n  for every {}", task.title, every.text());
+        let system = &task.bound.system;
+        for condition in &conditions {
+            task.title = format!("{}\n  where {}", task.title, condition.text(system));
+        }
         task.bound = every.bound.clone();
         all.push(every);
     }
@@ -127,7 +163,7 @@ pub fn run(subject: &mut Subject, asked: &Asked) -> Result<u8, Failure> {
     }
     let bounds: Vec<Bound> = subject.tasks.iter().map(|t| t.bound.clone()).collect();
     let every = match asked.every {
-        Some(which) => Some(set_free(subject, which)?),
+        Some(which) => Some(set_free(subject, which, asked.conditions)?),
         None => None,
     };
     let interrupt = Interruptible::begin()?;

@@ -5,7 +5,7 @@ use indexmap::map::Entry;
 use stillpoint_lang::ir::Property;
 use stillpoint_model::{Error, Progress, Trace, Verdict};
 
-pub use crate::checked::{Checked, Unfired};
+pub use crate::checked::{By, Checked, Unfired};
 use crate::excluded::Decisive;
 use crate::outcome::label;
 pub use crate::settings::Settings;

@@ -31,8 +31,8 @@ pub struct Checked {
     pub again: bool,
     /// Seconds from the begin of the check until its outcome was there; 0 where all is cited.
     pub ended: f64,
-    /// Whether anything was explored: else all is known from theorems.
-    pub explored: bool,
+    /// What its verdicts rest on.
+    pub by: By,
     /// Properties that are theorems of the family, by number: their verdict is no exploration's.
     pub cited: Vec<usize>,
     /// Rules that never fired: (name, why).
@@ -41,6 +41,38 @@ pub struct Checked {
     pub excluded: BTreeMap<usize, Exclusion>,
     /// Parameters that alone decide that a guarantee is broken, by property number.
     pub decisive: BTreeMap<usize, Vec<Decisive>>,
+}
+
+/// What the verdicts about a task rest on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum By {
+    /// All its states were enumerated; some properties may be theorems.
+    Exploration,
+    /// Theorems of the family alone.
+    Theorems,
+    /// Proof engines, which enumerate nothing.
+    Proofs,
+}
+
+impl Checked {
+    /// Whether states were enumerated.
+    pub fn explored(&self) -> bool {
+        self.by == By::Exploration
+    }
+
+    /// What is known of a task that nobody has explored.
+    pub fn without(outcome: Outcome, by: By) -> Self {
+        Checked {
+            outcome,
+            again: false,
+            ended: 0.0,
+            by,
+            cited: Vec::new(),
+            unfired: Vec::new(),
+            excluded: BTreeMap::new(),
+            decisive: BTreeMap::new(),
+        }
+    }
 }
 
 /// Beyond this many states of a broken guarantee it is not asked which parameter decides.
@@ -94,7 +126,10 @@ pub(crate) fn told(
         unfired,
         excluded,
         decisive: decided,
-        explored: !answer.cited.all,
+        by: match answer.cited.all {
+            true => By::Theorems,
+            false => By::Exploration,
+        },
         cited: answer.cited.properties,
     })
 }

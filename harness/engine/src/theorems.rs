@@ -82,7 +82,7 @@ pub struct Failing {
     /// The length of a shortest run that breaks it.
     pub cycles: u64,
     /// The values of the parameters that it depends on, by their names.
-    pub with: BTreeMap<String, i64>,
+    pub with: BTreeMap<String, String>,
 }
 
 impl Proved {

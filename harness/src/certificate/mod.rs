@@ -17,7 +17,7 @@ use stillpoint_certify::format::{Body, Kind, Proof, Run, Task, Verdict};
 use stillpoint_certify::states::Radix;
 use stillpoint_certify::{subject, write};
 use stillpoint_engine::check::Checked;
-use stillpoint_engine::subject::Subject;
+use stillpoint_engine::subject::{Subject, Task as Explored};
 use stillpoint_engine::table::{Generated, Interpreted};
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::ir::Form;
@@ -50,7 +50,7 @@ pub fn certify(
     if subject.tasks.iter().any(|task| task.loosely) {
         return Err("a certificate is about the systems themselves: check them exactly".to_owned());
     }
-    let subject::Subject { mut header, bounds } = read_again(subject)?;
+    let subject::Subject { mut header, bounds } = read_again(subject, &subject.tasks)?;
     let threads = match threads {
         0 => std::thread::available_parallelism().map_or(1, usize::from),
         given => given,
@@ -97,20 +97,23 @@ pub fn certify(
     })
 }
 
-/// The file of a subject, read again as whoever checks a certificate or a report reads it.
+/// The file of a subject, read again as whoever checks a certificate or a report reads it; `tasks` are its own.
 ///
 /// # Errors
 /// It cannot be read any more, or its systems are not those that were checked.
-pub(crate) fn read_again(subject: &Subject) -> Result<subject::Subject, String> {
+pub(crate) fn read_again(
+    subject: &Subject,
+    tasks: &[Explored],
+) -> Result<subject::Subject, String> {
     let kind = match subject.machine {
         Some(_) => Kind::Machine,
         None => Kind::Specification,
     };
-    let tasks = || subject.tasks.iter();
-    let readings: BTreeMap<String, String> = tasks().flat_map(|t| t.bound.readings()).collect();
+    let all = || tasks.iter();
+    let readings: BTreeMap<String, String> = all().flat_map(|t| t.bound.readings()).collect();
     let read = subject::Subject::load(&subject.path, kind, &readings).map_err(|e| e.to_string())?;
-    let mut pairs = read.bounds.iter().zip(tasks().map(|task| task.own()));
-    let same = read.bounds.len() == subject.tasks.len()
+    let mut pairs = read.bounds.iter().zip(all().map(|task| task.own()));
+    let same = read.bounds.len() == tasks.len()
         && pairs.all(|(a, b)| a.system == b.system && a.values == b.values);
     match same {
         true => Ok(read),

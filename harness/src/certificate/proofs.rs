@@ -44,7 +44,7 @@ pub fn certify(
     progress: &dyn Fn(usize, usize),
 ) -> Result<Written, String> {
     let tasks = &found.subject.tasks;
-    let subject::Subject { mut header, bounds } = read_again(found.subject)?;
+    let subject::Subject { mut header, bounds } = read_again(found.subject, tasks)?;
     let mut written = Written { claims: 0, open: 0 };
     let mut systems = Vec::new();
     for (k, (bound, task)) in bounds.iter().zip(&mut header.task).enumerate() {

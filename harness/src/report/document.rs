@@ -4,7 +4,9 @@ use std::collections::BTreeMap;
 use std::time::Instant;
 
 use stillpoint_certify::format::Source;
-use stillpoint_engine::check::{Checked, Settings, Summary, Violation, exit_status, violations};
+use stillpoint_engine::check::{
+    By, Checked, Settings, Summary, Violation, exit_status, violations,
+};
 use stillpoint_engine::lines;
 use stillpoint_engine::readings::Compared;
 use stillpoint_engine::subject::{Subject, Task};
@@ -58,8 +60,10 @@ impl About {
         settings: &Settings,
         begin: &mut dyn FnMut(&Task),
     ) -> Result<Self, String> {
+        // A product of a machine is no task of its file.
+        let own = checked.iter().filter(|done| done.by != By::Proofs).count();
         let mut out = Self {
-            sources: read_again(subject)?.header.file,
+            sources: read_again(subject, &subject.tasks[..own])?.header.file,
             ..Self::default()
         };
         let start = Instant::now();
@@ -78,6 +82,10 @@ fn drawn(
     start: Instant,
 ) -> Result<Control, String> {
     let report = &done.outcome.report;
+    if done.by == By::Proofs {
+        let why = "not drawn, since its states were not enumerated";
+        return Ok(Control::Omitted(why.to_owned()));
+    }
     if !report.complete {
         let why = "not drawn, since a limit ended the exploration";
         return Ok(Control::Omitted(why.to_owned()));

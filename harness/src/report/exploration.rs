@@ -1,7 +1,7 @@
 //! What was explored: sizes, abstractions, control states, rules.
 
 use stillpoint_engine::Evaluator;
-use stillpoint_engine::check::{Checked, Unfired};
+use stillpoint_engine::check::{By, Checked, Unfired};
 use stillpoint_engine::subject::{Subject, Task};
 use stillpoint_show::document::{Block, Inline, Tone};
 use stillpoint_show::graph::Graph;
@@ -20,7 +20,7 @@ pub(super) fn blocks(subject: &Subject, checked: &[Checked]) -> Vec<Block> {
             Evaluator::Interpreter => "interpreter",
         };
         let told = |text: String| {
-            words(match reduced(done) || !done.explored {
+            words(match reduced(done) || !done.explored() {
                 true => "not told".to_owned(),
                 false => text,
             })
@@ -33,9 +33,10 @@ pub(super) fn blocks(subject: &Subject, checked: &[Checked]) -> Vec<Block> {
             words(grouped(report.transitions)),
             words(report.depth.to_string()),
             told(grouped(u128::from(report.absorbing))),
-            words(match done.explored {
-                true => format!("{evaluator}, {}", storage_name(report.storage)),
-                false => "theorems of the family".to_owned(),
+            words(match done.by {
+                By::Exploration => format!("{evaluator}, {}", storage_name(report.storage)),
+                By::Theorems => "theorems of the family".to_owned(),
+                By::Proofs => "proof engines".to_owned(),
             }),
             vec![match report.complete {
                 true => Inline::Badge(Tone::Good, "complete".to_owned()),
@@ -78,7 +79,7 @@ fn about(n: usize, task: &Task, done: &Checked) -> Block {
         ("Warning: ", &task.bound.system.warnings),
     ];
     // A theorem is about the tables as they are.
-    for (kind, items) in kinds.into_iter().filter(|_| done.explored) {
+    for (kind, items) in kinds.into_iter().filter(|_| done.explored()) {
         points.extend(
             items
                 .iter()

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde_json::{Value, json};
 use stillpoint_engine::Evaluator;
-use stillpoint_engine::check::{Checked, Summary, Unfired};
+use stillpoint_engine::check::{By, Checked, Summary, Unfired};
 use stillpoint_engine::excluded::{Decisive, Exclusion};
 use stillpoint_engine::lines;
 use stillpoint_engine::subject::Subject;
@@ -74,7 +74,10 @@ pub fn to_json(subject: &Subject, checked: &[Checked], summaries: &[Summary]) ->
                 "readings": task.bound.readings().into_iter().collect::<BTreeMap<_, _>>(),
                 "states": report.states, "transitions": number(report.transitions),
                 "depth": report.depth, "seconds": report.seconds, "again": done.again,
-                "explored": done.explored,
+                "explored": done.explored(),
+                "by": match done.by {
+                    By::Exploration => "exploration", By::Theorems => "theorems", By::Proofs => "proofs",
+                },
                 "complete": report.complete,
                 "resumable": report.resumable,
                 "absorbing": (!reduced(done)).then_some(report.absorbing), "memory": report.memory,

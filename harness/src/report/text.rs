@@ -242,7 +242,7 @@ fn run(out: &mut String, n: usize, task: &Task, done: &Checked, all: bool) {
         wrapped(out, "  with ", &params.join(", "));
     }
     // A theorem is about the tables as they are.
-    for item in task.abstractions.iter().filter(|_| done.explored) {
+    for item in task.abstractions.iter().filter(|_| done.explored()) {
         wrapped(out, "  abstraction: ", item);
     }
     let storage = storage_name(report.storage);
@@ -257,7 +257,7 @@ fn run(out: &mut String, n: usize, task: &Task, done: &Checked, all: bool) {
     if !cited.is_empty() {
         wrapped(out, "  ", &cited);
     }
-    if done.explored && !reduced(done) {
+    if done.explored() && !reduced(done) {
         let _ = writeln!(
             out,
             "  {} states of {} ({storage}, {evaluator}), {} transitions, depth {}, {} absorbing, {}",

@@ -211,7 +211,10 @@ impl Attempt<'_> {
         let bound = self.only(|name| *name == one.id);
         let every = Every::new(&bound, &ranges(&bound, within)).ok()?;
         let values = every.configuration(one.trace.as_ref()?);
-        let named = |k: usize| (bound.system.params[k].var.name.clone(), values[k]);
+        let named = |k: usize| {
+            let var = &bound.system.params[k].var;
+            (var.name.clone(), bound.system.show(var.ty, values[k]))
+        };
         Some(Failing {
             cycles: one.length?,
             with: deciding(&every).into_iter().map(named).collect(),

@@ -15,7 +15,7 @@ use stillpoint_certify::proof::read::read_theorems;
 use stillpoint_certify::proof::symbolic::Symbolic;
 use stillpoint_certify::proof::target::Target;
 use stillpoint_engine::label;
-use stillpoint_engine::theorems::{OfSystem, Proved, fingerprint, tables};
+use stillpoint_engine::theorems::{Failing, OfSystem, Proved, fingerprint, tables};
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::condition::Condition;
 use stillpoint_lang::ir::{Form, Property};
@@ -145,12 +145,12 @@ fn one(
     all: &mut Confirmed,
 ) -> Result<(), String> {
     let conditions = proved.conditions.iter();
-    let conditions: Result<Vec<Condition>, String> = conditions
-        .map(|text| Condition::read(&bound.system, text))
+    let conditions: Option<Vec<Condition>> = conditions
+        .map(|text| Condition::read(&bound.system, text).ok())
         .collect();
     let which = ranges(bound, &proved.within);
-    let every = conditions.and_then(|conditions| Every::such(bound, &which, &conditions));
-    let Some(every) = every.ok().filter(|every| every.text() == proved.every) else {
+    let every = conditions.and_then(|list| Every::such(bound, &which, &list).ok());
+    let Some(every) = every.filter(|every| every.text() == proved.every) else {
         all.other += proved.holds.len();
         return Ok(());
     };
@@ -186,29 +186,16 @@ fn one(
         });
     }
     for (id, failing) in &proved.fails {
-        let mut properties = bound.system.properties.iter();
-        let property = properties.find(|property| label(property) == *id);
-        let own = known
-            .proved
-            .iter()
-            .filter_map(|proved| proved.holds.get(id));
+        let property = bound.system.properties.iter().find(|p| label(p) == *id);
+        let others = known.proved.iter().filter_map(|other| other.holds.get(id));
         let print = fingerprint(&tables, &bound.system, property);
-        if !own.chain(known.open.get(id)).any(|own| *own == print) {
-            continue;
-        }
-        let mut claims = certificate.claims.iter();
-        let claim = claims.find(|claim| claim.id == *id && claim.verdict == Verdict::Violated);
-        let run = claim.and_then(|claim| claim.run.as_ref());
-        let told = run.is_some_and(|run| {
-            let value =
-                |(name, value): (&String, &i64)| run.with.contains(&(written(name), *value));
-            run.cycles.len() as u64 == failing.cycles && failing.with.iter().all(value)
-        });
-        whole.claims.extend(claim.filter(|_| told).cloned());
-        if !told {
-            return Err(format!(
-                "{id}: no run shows that it fails with these values"
-            ));
+        if others.chain(known.open.get(id)).any(|own| *own == print) {
+            let claim = failure(bound, certificate, id, failing);
+            whole
+                .claims
+                .push(claim.ok_or_else(|| {
+                    format!("{id}: no run shows that it fails with these values")
+                })?);
         }
     }
     confirm(bound, &whole)?;
@@ -217,6 +204,22 @@ fn one(
     all.confirmed += confirmed;
     all.fails += whole.claims.len() - confirmed;
     Ok(())
+}
+
+/// The claim that a property fails, if its run is that which is told.
+fn failure(bound: &Bound, certificate: &System, id: &String, told: &Failing) -> Option<Claim> {
+    let mut claims = certificate.claims.iter();
+    let claim = claims.find(|claim| claim.id == *id && claim.verdict == Verdict::Violated)?;
+    let run = claim.run.as_ref()?;
+    let value = |(name, value): (&String, &String)| {
+        let mut params = bound.system.params.iter().map(|param| &param.var);
+        let var = params.find(|var| var.name == *name);
+        let own = run.with.iter().find(|(own, _)| *own == written(name));
+        own.zip(var)
+            .is_some_and(|((_, own), var)| bound.system.show(var.ty, *own) == *value)
+    };
+    let same = run.cycles.len() as u64 == told.cycles && told.with.iter().all(value);
+    same.then(|| claim.clone())
 }
 
 /// The proof that a property holds, or all assignments fit, with its lemmas.

@@ -18,7 +18,7 @@ use crate::proof::{Choice, Every, Judged, Settings, Which, deciding, judge_one};
 
 /// Conditions are tried that often for a property, within so many times the time for one question.
 const TRIES: usize = 60;
-const TIMES: u32 = 8;
+const TIMES: u32 = 3;
 
 /// A parameter of at most so many values is compared with each of them.
 const VALUES: i64 = 16;

@@ -57,7 +57,7 @@ fn found(out: &mut String, proved: &Proved) {
     }
     if !proved.fails.is_empty() {
         let failing = |f: &Failing| {
-            let with = table(&f.with, i64::to_string);
+            let with = table(&f.with, |v| quoted(v));
             format!("{{ cycles = {}, with = {with} }}", f.cycles)
         };
         let _ = writeln!(out, "fails   = {}", table(&proved.fails, failing));

@@ -15,6 +15,22 @@ pub struct Condition {
     pub right: Right,
 }
 
+/// Why a condition cannot be read: one sentence that says what could stand there.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Unread {
+    /// The system has no such parameter.
+    Unknown(String),
+    /// It makes no sense.
+    Wrong(String),
+}
+
+impl fmt::Display for Unread {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (Unread::Unknown(why) | Unread::Wrong(why)) = self;
+        f.write_str(why)
+    }
+}
+
 /// What must hold between two values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Relation {
@@ -67,46 +83,49 @@ impl Condition {
     /// Reads a condition on the parameters of a system; between its parts stands space.
     ///
     /// # Errors
-    /// One sentence: what of it makes no sense, and what could stand there.
-    pub fn read(system: &System, text: &str) -> Result<Self, String> {
+    /// What of it makes no sense, and what could stand there.
+    pub fn read(system: &System, text: &str) -> Result<Self, Unread> {
         let [left, relation, right] = text.split_whitespace().collect::<Vec<_>>()[..] else {
-            return Err(format!(
+            return Err(Unread::Wrong(format!(
                 "`{text}` is no condition: write one comparison with space around its operator, as `t_c <= t_d`"
-            ));
+            )));
         };
         let row = RELATIONS.iter().find(|row| row.1 == relation);
         let relation = row.map(|row| row.0).ok_or_else(|| {
-            format!(
+            Unread::Wrong(format!(
                 "`{relation}` in `{text}` compares nothing: it is one of = <> < <= > >=, with space around it"
-            )
+            ))
         })?;
         let place = |name: &str| {
             let mut params = system.params.iter();
             params.position(|p| p.reading.is_none() && written(&p.var.name) == name)
         };
         let left = place(left).ok_or_else(|| {
-            format!(
+            Unread::Unknown(format!(
                 "`{left}` in `{text}` is no parameter of {}: `check -v` lists them",
                 system.name
-            )
+            ))
         })?;
         let ty = system.params[left].var.ty;
         let right = match place(right) {
             Some(other) if system.params[other].var.ty == ty => Right::Parameter(other),
-            Some(_) => return Err(format!("`{text}` compares values of different types")),
+            Some(_) => {
+                let why = format!("`{text}` compares values of different types");
+                return Err(Unread::Wrong(why));
+            }
             None => Right::Value(value(system, ty, right).ok_or_else(|| {
-                format!(
+                Unread::Wrong(format!(
                     "`{right}` in `{text}` is neither a parameter of {} nor {}",
                     system.name,
                     values(system, ty)
-                )
+                ))
             })?),
         };
         let ordered = !matches!(relation, Relation::Equal | Relation::Unequal);
         if ordered && ty != Ty::Int {
-            return Err(format!(
+            return Err(Unread::Wrong(format!(
                 "`{text}` orders values without an order: use = or <>"
-            ));
+            )));
         }
         Ok(Condition {
             left,
@@ -294,7 +313,7 @@ mod tests {
             ("kind = DOOR", "one of AXES, SPINDLE"),
             ("kind < SPINDLE", "use = or <>"),
         ] {
-            let told = Condition::read(&system, text).expect_err(text);
+            let told = Condition::read(&system, text).expect_err(text).to_string();
             assert!(told.contains(part), "{told}");
         }
     }

@@ -148,7 +148,7 @@ fn configured(bound: &Bound, free: &Free, with: &[(String, i64)]) -> Result<Boun
         _ => with_values(bound, every, with)?,
     };
     for condition in &free.conditions {
-        let read = Condition::read(&own.system, condition)?;
+        let read = Condition::read(&own.system, condition).map_err(|why| why.to_string())?;
         if own.constant(&read.node()) == 0 {
             return Err(format!("`{condition}` does not hold in a configuration"));
         }

@@ -100,8 +100,8 @@ impl<'a> Symbolic<'a> {
             own.ranges.push(range);
         }
         for condition in &free.conditions {
-            let node = Condition::read(&bound.system, condition)?.node();
-            let holds = own.constant(&node)?.is_true(&mut own.gates);
+            let read = Condition::read(&bound.system, condition).map_err(|why| why.to_string())?;
+            let holds = own.constant(&read.node())?.is_true(&mut own.gates);
             own.given.push(holds);
         }
         Ok(own)

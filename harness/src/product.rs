@@ -1,0 +1,100 @@
+//! A machine as one product, which is too large to be enumerated: judged by the proof engines beside the exploration of its parts.
+
+use std::collections::BTreeMap;
+use std::time::{Duration, Instant};
+
+use stillpoint_engine::check::{By, Checked, Settings};
+use stillpoint_engine::subject::{Readings, Subject, Task, of_runs};
+use stillpoint_engine::{Evaluator, Outcome};
+use stillpoint_lang::diag::Result;
+use stillpoint_model::{FaultReport, Judgement, Progress, Report, Verdict};
+
+use crate::proof::{self, Choice, Judged, judge};
+
+/// The most wall time for a property: what takes longer is told as open, and `check --whole` asks it for as long as is wanted.
+const EACH: Duration = Duration::from_secs(60);
+
+/// The products of a machine; none where its family describes none.
+///
+/// # Errors
+/// The family's description of them is wrong.
+pub fn products(subject: &Subject, readings: &Readings) -> Result<Option<Subject>> {
+    let products = subject.machine.as_ref().map(|machine| machine.products());
+    let products = products.transpose()?.unwrap_or_default();
+    match &subject.machine {
+        Some(machine) if !products.is_empty() => {
+            of_runs(&subject.path, machine.clone(), &products, readings).map(Some)
+        }
+        _ => Ok(None),
+    }
+}
+
+/// Judges the products of a machine, each a further task of it; `begin` is told of each.
+///
+/// # Errors
+/// As [`products`].
+pub fn judged(
+    subject: &Subject,
+    readings: &Readings,
+    settings: &Settings,
+    begin: &mut dyn FnMut(&Task) -> Box<dyn Progress>,
+) -> Result<Vec<(Task, Checked)>> {
+    let start = Instant::now();
+    let tasks = products(subject, readings)?.map_or(Vec::new(), |subject| subject.tasks);
+    let one = |task: Task| {
+        let shown = begin(&task);
+        let settings = proof::Settings {
+            choice: Choice::Pdr,
+            depth: 0,
+            time: (settings.time).map(|time| time.saturating_sub(start.elapsed())),
+            each: Some(EACH),
+            memory: settings.memory,
+            threads: 1,
+            interrupt: settings.interrupt.clone(),
+        };
+        let judged = judge(&task.bound, &settings);
+        drop(shown);
+        let outcome = outcome(&task, judged);
+        (task, Checked::without(outcome, By::Proofs))
+    };
+    Ok(tasks.into_iter().map(one).collect())
+}
+
+/// What the engines found, as the outcome of an exploration of nothing.
+fn outcome(task: &Task, judged: Vec<Judged>) -> Outcome {
+    let system = &task.bound.system;
+    let mut report = Report {
+        coverage: vec![0; system.rule_count()],
+        seconds: judged.iter().map(|one| one.seconds).sum(),
+        ..Report::nothing()
+    };
+    let mut judged = judged.into_iter();
+    for one in judged.by_ref().take(system.properties.len()) {
+        report.properties.push(Judgement {
+            id: one.id,
+            verdict: one.verdict,
+            length: one.length,
+            bound: None,
+            fastest: None,
+            trace: one.trace,
+        });
+    }
+    for one in judged {
+        match one.verdict {
+            Verdict::Violated => report.faults.push(FaultReport {
+                code: u32::MAX,
+                length: one.length,
+                trace: one.trace,
+            }),
+            Verdict::Inconclusive => report.complete = false,
+            _ => {}
+        }
+    }
+    Outcome {
+        report,
+        evaluator: Evaluator::Interpreter,
+        pairs: BTreeMap::new(),
+        refuted: BTreeMap::new(),
+        reduction: None,
+    }
+}
