@@ -9,7 +9,7 @@ use stillpoint_engine::{Evaluator, Outcome};
 use stillpoint_lang::diag::Result;
 use stillpoint_model::{FaultReport, Judgement, Progress, Report, Verdict};
 
-use crate::proof::{self, Choice, Judged, judge};
+use crate::proof::{self, Judged, judge};
 
 /// The most wall time for a property: what takes longer is told as open, and `check --whole` asks it for as long as is wanted.
 const EACH: Duration = Duration::from_secs(60);
@@ -44,13 +44,11 @@ pub fn judged(
     let one = |task: Task| {
         let shown = begin(&task);
         let settings = proof::Settings {
-            choice: Choice::Pdr,
-            depth: 0,
             time: (settings.time).map(|time| time.saturating_sub(start.elapsed())),
             each: Some(EACH),
             memory: settings.memory,
-            threads: 1,
             interrupt: settings.interrupt.clone(),
+            ..proof::Settings::default()
         };
         let judged = judge(&task.bound, &settings);
         drop(shown);

@@ -102,7 +102,7 @@ fn a_condition_leaves_some_configurations() {
     let every = ["check", FORMS, "--engine", "pdr", "--every", "all"];
     let text = stdout(&stillpoint(&every));
     assert_eq!(
-        lines_with(&text, "violated     bmc        NEVER"),
+        lines_with(&text, "VIOLATED  NEVER  the last two values"),
         1,
         "{text}"
     );
@@ -122,7 +122,7 @@ fn a_condition_leaves_some_configurations() {
         "{text}"
     );
     assert_eq!(
-        lines_with(&text, "holds        pdr        NEVER"),
+        lines_with(&text, "holds        pdr        NEVER "),
         1,
         "{text}"
     );

@@ -154,11 +154,7 @@ fn prove(file: &Path, choice: Choice, every: bool) -> (String, Vec<Vec<Judged>>)
     let settings = proof::Settings {
         choice,
         depth: 30,
-        time: None,
-        each: None,
-        memory: None,
-        threads: 1,
-        interrupt: None,
+        ..proof::Settings::default()
     };
     let bounds = subject.tasks.iter().map(|task| &task.bound);
     let free: Option<Vec<Every>> = every.then(|| {

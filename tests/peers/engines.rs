@@ -84,8 +84,7 @@ fn settings() -> Settings {
         time: Some(LIMIT),
         each: None,
         memory: None,
-        threads: 1,
-        interrupt: None,
+        ..Settings::default()
     }
 }
 

@@ -61,8 +61,7 @@ fn settings() -> Settings {
         time: None,
         each: Some(Duration::from_secs(120)),
         memory: None,
-        threads: 1,
-        interrupt: None,
+        ..Settings::default()
     }
 }
 

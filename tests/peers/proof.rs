@@ -32,8 +32,7 @@ fn settings(choice: Choice) -> Settings {
         time: Some(LIMIT),
         each: None,
         memory: None,
-        threads: 1,
-        interrupt: None,
+        ..Settings::default()
     }
 }
 

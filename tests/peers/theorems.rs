@@ -11,8 +11,8 @@ use stillpoint_certify::proof::read::read_theorems;
 use stillpoint_engine::check::{Settings as CheckSettings, check, summarise};
 use stillpoint_engine::label;
 use stillpoint_engine::subject::{self, Readings};
-use stillpoint_engine::theorems::{OfSystem, Proved, Theorems};
-use stillpoint_harness::proof::{Choice, Every, Settings, judge_every};
+use stillpoint_engine::theorems::{OfSystem, Proved, RANGE, Theorems};
+use stillpoint_harness::proof::{Every, Settings, judge_every};
 use stillpoint_harness::theorems::certificates::{Certificates, check as check_certificates};
 use stillpoint_harness::theorems::{prints, ranges, systems};
 use stillpoint_lang::Spec;
@@ -107,13 +107,9 @@ fn prove_again(wanted: impl Fn(&Proved) -> bool + Sync, time: Duration) -> usize
         let every = Every::such(&bound, &which, &such).unwrap_or_else(|e| panic!("{e}"));
         assert_eq!(every.text(), proved.every, "{}", bound.system.name);
         let settings = Settings {
-            choice: Choice::Pdr,
-            depth: 0,
-            time: None,
             each: Some(time),
-            memory: None,
-            threads: 1,
-            interrupt: None,
+            ranges: asked(&RANGE.to_owned()),
+            ..Settings::default()
         };
         let judged = judge_every(&every, &settings);
         for one in &judged {
@@ -259,7 +255,7 @@ fn a_condition_is_part_of_what_is_shown() {
     });
     let (fails, such) = (fails.expect("one that fails"), such.expect("a condition"));
     type Altered<'a> = (&'a str, &'a dyn Fn(&mut OfSystem, &mut Vec<Certificate>));
-    let changes: [Altered; 7] = [
+    let changes: [Altered; 8] = [
         // For all values nothing of it holds.
         ("does not show it", &|own, list| {
             own.proved[such].conditions.clear();
@@ -272,10 +268,13 @@ fn a_condition_is_part_of_what_is_shown() {
             list[such].free.conditions.clear()
         }),
         // Of nothing everything holds.
-        ("does not hold in a configuration", &|own, list| {
+        ("no values of its parameters go together", &|own, list| {
             let never = "enabled <> TRUE".to_owned();
             own.proved[such].conditions.push(never.clone());
             list[such].free.conditions.push(never);
+        }),
+        ("does not hold in a configuration", &|_, list| {
+            list[such].free.such = vec![("enabled".to_owned(), 0)]
         }),
         ("has no value of its range", &|_, list| {
             list[such].free.such.clear()

@@ -265,20 +265,32 @@ fn another_subject_is_refused() {
     });
     rejected("speaks of states", pdr, |f| f.header.task[0].states = 15);
     // A wider range, in which the lamp burns too long; an empty one; one that the file does not document.
-    let range = |range: (i64, i64)| move |f: &mut File| f.systems[0].every[0].1 = range;
+    let range = |range: (i64, i64)| move |f: &mut File| f.systems[0].free.every[0].1 = range;
     rejected("says nothing", every, range((4, 1)));
     rejected("there is no such configuration", every, range((7, 9)));
     rejected("there is no parameter", every, |f| {
-        f.systems[0].every[0].0 = "left".into()
+        f.systems[0].free.every[0].0 = "left".into()
     });
     let again = |f: &mut File| {
-        let twice = f.systems[0].every[0].clone();
-        f.systems[0].every.push(twice);
+        let twice = f.systems[0].free.every[0].clone();
+        f.systems[0].free.every.push(twice);
     };
     rejected("not the only one", every, again);
+    // Conditions: none of the lamp's; that no configuration is said to satisfy; that the one named does not, nor one of a run.
+    let such = |condition: &'static str, burn: &[i64]| {
+        let such: Vec<(String, i64)> = burn.iter().map(|v| ("burn".into(), *v)).collect();
+        move |f: &mut File| {
+            f.systems[0].free.conditions = vec![condition.into()];
+            f.systems[0].free.such = such.clone();
+        }
+    };
+    rejected("is no parameter", every, such("left < 4", &[3]));
+    rejected("has no value of its range", every, such("burn < 4", &[]));
+    rejected("`burn < 4` does not hold", every, such("burn < 4", &[4]));
+    rejected("`burn < 4` does not hold", every, such("burn < 4", &[3]));
     // What holds for one value is not shown for all.
     rejected("line ", pdr, |f| {
-        f.systems[0].every.push(("burn".into(), (1, 4)))
+        f.systems[0].free.every.push(("burn".into(), (1, 4)))
     });
     rejected("more than 1000 cycles", induction, |f| {
         let known = f.systems[0]

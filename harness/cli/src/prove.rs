@@ -178,6 +178,7 @@ pub fn run(subject: &mut Subject, asked: &Asked) -> Result<u8, Failure> {
             each: asked.each,
             memory: asked.limits.memory,
             threads: asked.limits.threads,
+            ranges: true,
             interrupt: Some(interrupt.handle()),
         };
         judged.push(match every.as_ref().and_then(|all| all.get(k)) {

@@ -40,8 +40,26 @@ pub struct Settings {
     pub memory: Option<u64>,
     /// Threads of the explorer.
     pub threads: usize,
+    /// Whether it is asked too if a value leaves its range.
+    pub ranges: bool,
     /// Ends everything from outside.
     pub interrupt: Option<Interrupt>,
+}
+
+impl Default for Settings {
+    /// Reachability for as long as it takes, in one thread.
+    fn default() -> Self {
+        Settings {
+            choice: Choice::Pdr,
+            depth: 0,
+            time: None,
+            each: None,
+            memory: None,
+            threads: 1,
+            ranges: true,
+            interrupt: None,
+        }
+    }
 }
 
 /// What shows that something is never seen.

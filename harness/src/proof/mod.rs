@@ -74,18 +74,6 @@ pub fn one_of(every: &Every) -> Result<Vec<(usize, i64)>, String> {
     Ok(Asked::every(every).map_err(|why| why.0)?.configured())
 }
 
-/// Judges the first property of a system for all values of its parameters, or its ranges if it has none; nothing if no value can leave
-/// them.
-pub fn judge_one(every: &Every, settings: &Settings) -> Option<Judged> {
-    let mut judge = Judge::new(&every.bound, settings);
-    judge.leave_to_explorer = false;
-    judge.ranges = every.bound.system.properties.is_empty();
-    judge.prove(Asked::every(every), &|property, settings| {
-        pairs::judge_every(every, property, settings)
-    });
-    judge.out.into_iter().next()
-}
-
 /// The free parameters on which it depends whether the first property of a system is broken, or whether a value leaves its range if it
 /// has none: places in [`System::params`](stillpoint_lang::ir::System::params).
 pub fn deciding(every: &Every) -> Vec<usize> {
@@ -140,7 +128,7 @@ impl<'a> Judge<'a> {
             until: budget.until,
             budget,
             leave_to_explorer: settings.choice == Choice::Auto,
-            ranges: true,
+            ranges: settings.ranges,
             known: Vec::new(),
             states: RefCell::new(None),
             out: Vec::new(),

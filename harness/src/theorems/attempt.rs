@@ -18,8 +18,7 @@ use super::certificates::certified;
 use super::conditions::Search;
 use super::{Failed, Proving, prints};
 use crate::proof::{
-    Choice, Engine, Every, Judged, Proof, Settings, Shown, Span, Which, deciding, judge_every,
-    untold,
+    Engine, Every, Judged, Proof, Settings, Shown, Span, Which, deciding, judge_every, untold,
 };
 
 /// Where the numbers of a system grow too large to be told, its parameters have at most so many values.
@@ -148,18 +147,15 @@ impl Attempt<'_> {
         }
         let start = Instant::now();
         let settings = Settings {
-            choice: Choice::Pdr,
-            depth: 0,
-            time: None,
             each: Some(self.proving.each),
-            memory: None,
-            threads: 1,
+            ranges: self.own.0.open.contains_key(RANGE),
             interrupt: self.proving.interrupt.clone(),
+            ..Settings::default()
         };
         let mut judged = judge_every(&every, &settings);
         self.ended()?;
         // A system whose assignments all fit has no such fault.
-        if !judged.iter().any(|one| one.id == RANGE) {
+        if settings.ranges && !judged.iter().any(|one| one.id == RANGE) {
             judged.push(fits());
         }
         judged.retain(|one| self.own.0.open.contains_key(&one.id));

@@ -14,7 +14,7 @@ use stillpoint_model::{Interrupt, Verdict};
 
 use super::Failed;
 use super::attempt::fits;
-use crate::proof::{Choice, Every, Judged, Settings, Which, deciding, judge_one};
+use crate::proof::{Every, Judged, Settings, Which, deciding, judge_every};
 
 /// Conditions are tried that often for a property, within so many times the time for one question.
 const TRIES: usize = 60;
@@ -86,15 +86,13 @@ impl Search<'_> {
         };
         let left = until.saturating_duration_since(Instant::now());
         let settings = Settings {
-            choice: Choice::Pdr,
-            depth: 0,
-            time: None,
             each: Some(self.each.min(left)),
-            memory: None,
-            threads: 1,
+            ranges: self.bound.system.properties.is_empty(),
             interrupt: self.interrupt.clone(),
+            ..Settings::default()
         };
-        let judged = judge_one(&every, &settings).unwrap_or_else(fits);
+        let judged = judge_every(&every, &settings).into_iter().next();
+        let judged = judged.unwrap_or_else(fits);
         if self.interrupt.as_ref().is_some_and(Interrupt::is_raised) {
             return Err(Failed::Ended);
         }
