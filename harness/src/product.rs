@@ -29,18 +29,13 @@ pub fn products(subject: &Subject, readings: &Readings) -> Result<Option<Subject
     }
 }
 
-/// Judges the products of a machine, each a further task of it; `begin` is told of each.
-///
-/// # Errors
-/// As [`products`].
+/// Judges products of a machine; `begin` is told of each.
 pub fn judged(
-    subject: &Subject,
-    readings: &Readings,
+    tasks: Vec<Task>,
     settings: &Settings,
     begin: &mut dyn FnMut(&Task) -> Box<dyn Progress>,
-) -> Result<Vec<(Task, Checked)>> {
+) -> Vec<(Task, Checked)> {
     let start = Instant::now();
-    let tasks = products(subject, readings)?.map_or(Vec::new(), |subject| subject.tasks);
     let one = |task: Task| {
         let shown = begin(&task);
         let settings = proof::Settings {
@@ -55,7 +50,7 @@ pub fn judged(
         let outcome = outcome(&task, judged);
         (task, Checked::without(outcome, By::Proofs))
     };
-    Ok(tasks.into_iter().map(one).collect())
+    tasks.into_iter().map(one).collect()
 }
 
 /// What the engines found, as the outcome of an exploration of nothing.
@@ -66,33 +61,33 @@ fn outcome(task: &Task, judged: Vec<Judged>) -> Outcome {
         seconds: judged.iter().map(|one| one.seconds).sum(),
         ..Report::nothing()
     };
-    let mut judged = judged.into_iter();
-    for one in judged.by_ref().take(system.properties.len()) {
-        report.properties.push(Judgement {
-            id: one.id,
-            verdict: one.verdict,
-            length: one.length,
-            bound: None,
-            fastest: None,
-            trace: one.trace,
-        });
-    }
-    for one in judged {
-        match one.verdict {
-            Verdict::Violated => report.faults.push(FaultReport {
+    let mut refuted = BTreeMap::new();
+    for (k, one) in judged.into_iter().enumerate() {
+        report.complete &= one.verdict != Verdict::Inconclusive;
+        if k < system.properties.len() {
+            let reason = one.reason.filter(|_| one.verdict == Verdict::Violated);
+            refuted.extend(reason.map(|reason| (k, reason)));
+            report.properties.push(Judgement {
+                id: one.id,
+                verdict: one.verdict,
+                length: one.length,
+                bound: None,
+                fastest: None,
+                trace: one.trace,
+            });
+        } else if one.verdict == Verdict::Violated {
+            report.faults.push(FaultReport {
                 code: u32::MAX,
                 length: one.length,
                 trace: one.trace,
-            }),
-            Verdict::Inconclusive => report.complete = false,
-            _ => {}
+            });
         }
     }
     Outcome {
         report,
         evaluator: Evaluator::Interpreter,
         pairs: BTreeMap::new(),
-        refuted: BTreeMap::new(),
+        refuted,
         reduction: None,
     }
 }

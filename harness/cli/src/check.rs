@@ -173,6 +173,11 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         }
         (None, None) => None,
     };
+    let products = match choice.all || only_explored(arguments) {
+        true => None,
+        false => product::products(&subject, &choice.chosen)?,
+    };
+    let products = products.map_or(Vec::new(), |whole| whole.tasks);
     let place = arguments.cluster.meet(
         &arguments.file,
         &subject,
@@ -207,15 +212,13 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     if place.is_helper() {
         return Ok(0);
     }
-    if !(choice.all || only_explored(arguments)) {
-        let settings = settings.after(start);
-        let products = product::judged(&subject, &choice.chosen, &settings, &mut |task| {
-            Box::new(Line::new(&task.title))
-        })?;
-        for (task, done) in products {
-            subject.tasks.push(task);
-            checked.push(done);
-        }
+    let judged = product::judged(products, &settings.after(start), &mut |task| {
+        Box::new(Line::new(&task.title))
+    });
+    for (task, mut done) in judged {
+        done.ended = start.elapsed().as_secs_f64();
+        subject.tasks.push(task);
+        checked.push(done);
     }
     if let Some(cluster) = &place.cluster {
         eprintln!(

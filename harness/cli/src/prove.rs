@@ -7,7 +7,7 @@ use clap::ValueEnum;
 use stillpoint_engine::subject::{Subject, Task};
 use stillpoint_harness::certificate::proofs;
 use stillpoint_harness::proof::{
-    Choice, Every, Settings, Span, Told, Which, exit_status, judge, judge_every, to_json,
+    Choice, Every, Settings, Span, Told, Which, exit_status, is_empty, judge, judge_every, to_json,
 };
 
 use stillpoint_lang::bind::Bound;
@@ -134,9 +134,11 @@ fn set_free(subject: &mut Subject, which: &Which, texts: &[String]) -> Result<Ve
         }
     }
     let mut all = Vec::new();
+    let mut empty = !texts.is_empty();
     for task in &mut subject.tasks {
         let conditions = conditions(task, texts)?;
         let every = Every::such(&task.bound, which, &conditions).map_err(Failure::Other)?;
+        empty &= !conditions.is_empty() && is_empty(&every);
         task.title = format!("{}\n  for every {}", task.title, every.text());
         let system = &task.bound.system;
         for condition in &conditions {
@@ -145,7 +147,13 @@ fn set_free(subject: &mut Subject, which: &Which, texts: &[String]) -> Result<Ve
         task.bound = every.bound.clone();
         all.push(every);
     }
-    Ok(all)
+    match empty {
+        true => Err(Failure::Other(format!(
+            "--where: no values of the parameters of {} satisfy all conditions",
+            subject.name
+        ))),
+        false => Ok(all),
+    }
 }
 
 /// Judges every property and tells by what.

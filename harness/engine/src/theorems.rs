@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::condition::Condition;
 use stillpoint_lang::diag::{Diagnostic, Result};
-use stillpoint_lang::ir::{Property, Stated, System};
+use stillpoint_lang::ir::{Property, Stated, System, Ty};
 use stillpoint_lang::{files, toml_error};
 use stillpoint_model::{Judgement, Report, Verdict};
 
@@ -252,6 +252,10 @@ pub fn tables(system: &System) -> Tables {
             &param.reading,
         )
             .hash(&mut all);
+        // Conditions name their values.
+        if let Ty::Enum(e) = param.var.ty {
+            (system.enums.get(e).map(|e| &e.values)).hash(&mut all);
+        }
     }
     for state in &system.states {
         (

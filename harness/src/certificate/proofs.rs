@@ -252,21 +252,26 @@ impl<'a> Writer<'a> {
 /// One sentence: none satisfies the conditions.
 pub(crate) fn free(every: &Every) -> Result<Free, String> {
     let system = &every.bound.system;
-    let one = |k: &usize| {
-        let (lo, hi) = every.bound.states[*k];
-        let name = system.states[*k].var.name.clone();
-        (name, (i64::from(lo), i64::from(hi)))
-    };
     let named = |(k, value): (usize, i64)| (written(&system.states[k].var.name), value);
     let such = match every.conditions[..] {
         [] => Vec::new(),
         _ => one_of(every)?.into_iter().map(named).collect(),
     };
     Ok(Free {
-        every: every.parameters.iter().map(one).collect(),
+        every: spans(every),
         conditions: every.conditions.iter().map(|c| c.text(system)).collect(),
         such,
     })
+}
+
+/// The free parameters with their ranges.
+pub(crate) fn spans(every: &Every) -> Vec<(String, (i64, i64))> {
+    let one = |k: &usize| {
+        let (lo, hi) = every.bound.states[*k];
+        let name = every.bound.system.states[*k].var.name.clone();
+        (name, (i64::from(lo), i64::from(hi)))
+    };
+    every.parameters.iter().map(one).collect()
 }
 
 /// Why there are no lemmas for a proof.

@@ -94,6 +94,11 @@ pub fn deciding(every: &Every) -> Vec<usize> {
     free.filter(|k| seen.contains(&every.place(*k))).collect()
 }
 
+/// Whether no values of the parameters go together.
+pub fn is_empty(every: &Every) -> bool {
+    Asked::every(every).is_err_and(|why| why.0 == question::NOTHING)
+}
+
 /// Why the engines cannot be asked of a system, if they cannot.
 pub fn untold(every: &Every) -> Option<String> {
     Asked::every(every).err().map(|why| why.0)

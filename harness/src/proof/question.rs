@@ -17,8 +17,11 @@ const LONGEST: i64 = 1 << 20;
 /// A number with a range of at least so many values may be a timer.
 const COUNTS: i64 = 4;
 
+/// What is told of a system without a configuration.
+pub(super) const NOTHING: &str = "no values of its parameters go together";
+
 fn nothing() -> Unsupported {
-    Unsupported("no values of its parameters go together".to_owned())
+    Unsupported(NOTHING.to_owned())
 }
 
 /// What is asked about one property.

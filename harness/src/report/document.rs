@@ -244,10 +244,14 @@ fn verdict(subject: &Subject, checked: &[Checked], summaries: &[Summary]) -> Blo
         let properties = counted(summaries.len() as u64, "property");
         text = format!("{properties}: {counts}. ");
     }
-    text.push_str(if checked.iter().all(|c| c.outcome.report.complete) {
-        "Every reachable state was explored."
-    } else {
-        "Not every reachable state was explored: a limit was reached first."
+    let complete = checked.iter().all(|c| c.outcome.report.complete);
+    let proofs = checked.iter().any(|c| c.by == By::Proofs);
+    text.push_str(match (complete, proofs) {
+        (true, false) => "Every reachable state was explored.",
+        (true, true) => {
+            "Every reachable state of the parts was explored; the machine as a whole was judged by proof engines."
+        }
+        (false, _) => "Not every reachable state was explored: a limit was reached first.",
     });
     let findings = findings(subject, checked);
     if findings > 0 {
@@ -271,9 +275,10 @@ fn verdict(subject: &Subject, checked: &[Checked], summaries: &[Summary]) -> Blo
 fn figures(checked: &[Checked], summaries: &[Summary]) -> Block {
     let reports = || checked.iter().map(|c| &c.outcome.report);
     let figure = |n: u128, name: &str| (grouped(n), name.to_owned());
+    let explored = checked.iter().filter(|done| done.by != By::Proofs).count();
     Block::Figures(vec![
         figure(summaries.len() as u128, "properties"),
-        figure(checked.len() as u128, "explorations"),
+        figure(explored as u128, "explorations"),
         figure(reports().map(|r| u128::from(r.states)).sum(), "states"),
         figure(reports().map(|r| r.transitions).sum(), "transitions"),
         figure(

@@ -79,7 +79,7 @@ fn about(n: usize, task: &Task, done: &Checked) -> Block {
         ("Warning: ", &task.bound.system.warnings),
     ];
     // A theorem is about the tables as they are.
-    for (kind, items) in kinds.into_iter().filter(|_| done.explored()) {
+    for (kind, items) in kinds.into_iter().filter(|_| done.by != By::Theorems) {
         points.extend(
             items
                 .iter()
@@ -190,10 +190,12 @@ pub(super) fn coverage(subject: &Subject, checked: &[Checked]) -> Vec<Block> {
     let mut out = Vec::new();
     for (n, (task, done)) in subject.tasks.iter().zip(checked).enumerate() {
         let title = format!("Run {}: {}", n + 1, task.title);
-        if reduced(done) {
-            out.push(paragraph(format!(
-                "{title}: not told by a reduced exploration."
-            )));
+        let untold = match reduced(done) {
+            true => Some("by a reduced exploration"),
+            false => (!done.explored()).then_some("where nothing is explored"),
+        };
+        if let Some(why) = untold {
+            out.push(paragraph(format!("{title}: not told {why}.")));
             continue;
         }
         let system = &task.bound.system;

@@ -52,6 +52,7 @@ pub fn to_json(subject: &Subject, checked: &[Checked], summaries: &[Summary]) ->
             let rules: Vec<Value> = system
                 .rules()
                 .zip(&report.coverage)
+                .filter(|_| done.explored())
                 .map(|(r, n)| json!({ "rule": r.name, "requirements": r.ids, "fired": n }))
                 .collect();
             let unfired: Vec<Value> = done

@@ -80,11 +80,19 @@ fn cited(subject: &Subject, checked: &[Checked]) -> usize {
 fn theorems(done: &Checked) -> String {
     let all = done.outcome.report.properties.len();
     match (done.by, done.cited.len()) {
-        (By::Proofs, _) => format!(
-            "not explored: {} decided by property-directed reachability for all reachable states, with the times of the machine, in {:.2} s",
-            counted(all as u64, "property"),
-            done.outcome.report.seconds
-        ),
+        (By::Proofs, _) => {
+            let judged = done.outcome.report.properties.iter();
+            let open = judged.filter(|one| one.verdict == Verdict::Inconclusive);
+            let open = match open.count() {
+                0 => String::new(),
+                n => format!("; {n} not decided, for which --engine pdr --whole has more time"),
+            };
+            format!(
+                "not explored: {} asked of property-directed reachability, for all reachable states, in {:.2} s{open}",
+                counted(all as u64, "property"),
+                done.outcome.report.seconds
+            )
+        }
         (_, 0) => String::new(),
         (By::Theorems, _) => {
             "not explored: all its properties are theorems of the family".to_owned()

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-use stillpoint_engine::check::{Checked, Settings, Summary, Unfired, violations};
+use stillpoint_engine::check::{By, Checked, Settings, Summary, Unfired, violations};
 use stillpoint_engine::excluded::Decisive;
 use stillpoint_engine::lines::{self, Line};
 use stillpoint_engine::subject::{Subject, Task};
@@ -242,7 +242,7 @@ fn run(out: &mut String, n: usize, task: &Task, done: &Checked, all: bool) {
         wrapped(out, "  with ", &params.join(", "));
     }
     // A theorem is about the tables as they are.
-    for item in task.abstractions.iter().filter(|_| done.explored()) {
+    for item in task.abstractions.iter().filter(|_| done.by != By::Theorems) {
         wrapped(out, "  abstraction: ", item);
     }
     let storage = storage_name(report.storage);
@@ -331,8 +331,8 @@ fn unfired(out: &mut String, done: &Checked) {
 
 /// What would help where a limit was reached; nothing if none was.
 pub fn further(checked: &[Checked], settings: &Settings) -> String {
-    let short: Vec<_> = checked
-        .iter()
+    let explored = || checked.iter().filter(|done| done.by != By::Proofs);
+    let short: Vec<_> = explored()
         .map(|c| &c.outcome.report)
         .filter(|r| !r.complete)
         .collect();
@@ -348,7 +348,7 @@ pub fn further(checked: &[Checked], settings: &Settings) -> String {
             "A limit"
         },
         short.len(),
-        checked.len(),
+        explored().count(),
         grouped(u128::from(covered))
     );
     let hashed = short.iter().filter(|r| r.storage != Storage::Bitmap);

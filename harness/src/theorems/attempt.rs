@@ -24,9 +24,8 @@ use crate::proof::{
 /// Where the numbers of a system grow too large to be told, its parameters have at most so many values.
 const NARROWER: [i64; 3] = [1 << 16, 1 << 12, 1 << 8];
 
-/// What is open for all values is tried for at most so many of each parameter that has more than [`MANY`].
-const FEW: i64 = 16;
-const MANY: i64 = 1 << 20;
+/// What is open for all values is tried for fewer of them, one after the other: of each parameter with at least so many values so many.
+const FEWER: [(i64, i64); 3] = [(1 << 20, 16), (256, 256), (16, 16)];
 
 /// What is known of a system, with its certificates.
 pub(super) type Own = (OfSystem, Vec<Certificate>);
@@ -67,9 +66,9 @@ pub(super) fn of_system(
         told,
     };
     attempt.widest()?;
-    if attempt.own.0.open.keys().any(|name| name != RANGE) {
-        let few = windows(bound, MANY, FEW);
-        if !few.is_empty() {
+    for (many, few) in FEWER {
+        let few = windows(bound, many, few);
+        if !few.is_empty() && attempt.own.0.open.keys().any(|name| name != RANGE) {
             attempt.of(&few)?;
         }
     }

@@ -23,8 +23,8 @@ use stillpoint_lang::twice::twice;
 use stillpoint_model::proof::Budget;
 
 use super::ranges;
-use crate::certificate::proofs::{Unwritten, Writer, free, with_lemmas};
-use crate::proof::{Every, Judged};
+use crate::certificate::proofs::{Unwritten, Writer, spans, with_lemmas};
+use crate::proof::{Every, Judged, deciding};
 
 /// The file in a family's folder.
 pub const FILE: &str = "theorems.cert";
@@ -154,8 +154,7 @@ fn one(
         all.other += proved.holds.len();
         return Ok(());
     };
-    let free = free(&every)?;
-    if certificate.free.every != free.every || certificate.free.conditions != free.conditions {
+    if certificate.free.every != spans(&every) || certificate.free.conditions != proved.conditions {
         return Err("its certificate is about other values of the parameters".to_owned());
     }
     let symbolic = Symbolic::new(bound, &certificate.free)?;
@@ -189,14 +188,13 @@ fn one(
         let property = bound.system.properties.iter().find(|p| label(p) == *id);
         let others = known.proved.iter().filter_map(|other| other.holds.get(id));
         let print = fingerprint(&tables, &bound.system, property);
-        if others.chain(known.open.get(id)).any(|own| *own == print) {
-            let claim = failure(bound, certificate, id, failing);
-            whole
-                .claims
-                .push(claim.ok_or_else(|| {
-                    format!("{id}: no run shows that it fails with these values")
-                })?);
+        if !others.chain(known.open.get(id)).any(|own| *own == print) {
+            all.other += 1;
+            continue;
         }
+        let claim = failure((bound, proved), certificate, id, failing);
+        let none = || format!("{id}: no run shows that it fails with these values");
+        whole.claims.push(claim.ok_or_else(none)?);
     }
     confirm(bound, &whole)?;
     let holds = |claim: &&Claim| claim.verdict == Verdict::Holds;
@@ -206,8 +204,23 @@ fn one(
     Ok(())
 }
 
-/// The claim that a property fails, if its run is that which is told.
-fn failure(bound: &Bound, certificate: &System, id: &String, told: &Failing) -> Option<Claim> {
+/// The claim that a property fails, if its run is that which is told, with all values that matter.
+fn failure(
+    (bound, proved): (&Bound, &Proved),
+    certificate: &System,
+    id: &String,
+    told: &Failing,
+) -> Option<Claim> {
+    let mut only = bound.clone();
+    only.system.properties.retain(|p| label(p) == *id);
+    let every = Every::new(&only, &ranges(&only, &proved.within)).ok()?;
+    let name = |k: usize| &bound.system.params[k].var.name;
+    if !deciding(&every)
+        .into_iter()
+        .all(|k| told.with.contains_key(name(k)))
+    {
+        return None;
+    }
     let mut claims = certificate.claims.iter();
     let claim = claims.find(|claim| claim.id == *id && claim.verdict == Verdict::Violated)?;
     let run = claim.run.as_ref()?;

@@ -99,10 +99,7 @@ fn broken(failing: &Failing) -> String {
         .map(|(name, value)| format!("{name} = {value}"))
         .collect();
     let cycles = counted(failing.cycles, "cycle");
-    match with[..] {
-        [] => format!("broken after {cycles} with any values"),
-        _ => format!("broken after {cycles} with {}", with.join(", ")),
-    }
+    format!("broken after {cycles} with {}", with.join(", "))
 }
 
 /// The properties of a system that are no theorem: those that do not hold for all values, and those of which nothing is known.

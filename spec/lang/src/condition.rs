@@ -18,7 +18,7 @@ pub struct Condition {
 /// Why a condition cannot be read: one sentence that says what could stand there.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Unread {
-    /// The system has no such parameter.
+    /// The system has no such parameter or value.
     Unknown(String),
     /// It makes no sense.
     Wrong(String),
@@ -113,8 +113,9 @@ impl Condition {
                 let why = format!("`{text}` compares values of different types");
                 return Err(Unread::Wrong(why));
             }
+            // Another system may have it.
             None => Right::Value(value(system, ty, right).ok_or_else(|| {
-                Unread::Wrong(format!(
+                Unread::Unknown(format!(
                     "`{right}` in `{text}` is neither a parameter of {} nor {}",
                     system.name,
                     values(system, ty)

@@ -19,6 +19,9 @@ use super::sat::{Budget, Spent};
 use super::word::Word;
 use search::Search;
 
+/// States that are looked at for the sake of one before it is asked whether it is reached at all.
+const FEW: usize = 20;
+
 /// A proof of more regions is none that anybody wants to read.
 const REGIONS: usize = 2000;
 
@@ -84,9 +87,11 @@ pub fn ways(recovery: &Recovery, budget: &Budget) -> Result<Option<Ways>, Spent>
         if search.ways.steps.len() > REGIONS {
             return Ok(None);
         }
-        // A state that is not reached needs no way. Whatever its numbers are, that is told soonest, and before long runs are looked for.
-        if search.reach(&state, 0)?
+        // A state that is not reached needs no way. Whatever its numbers are, that is told soonest, and before ways are looked for that take
+        // long.
+        if search.within(&state, Some(FEW))?
             || excluded(&netlist, &mut search, (&state, false), budget)?
+            || search.within(&state, None)?
             || search.far(&state)?
             || excluded(&netlist, &mut search, (&state, true), budget)?
         {

@@ -10,7 +10,7 @@ use super::{Rank, Recovery, Step, Values, Ways};
 const CYCLES: usize = 6;
 const MORE: usize = 40;
 
-/// How many states are looked at for the sake of one, and in all.
+/// How many states are looked at for the sake of one: behind each other, and in all.
 const DEPTH: usize = 40;
 const LOOKS: usize = 20_000;
 
@@ -39,7 +39,9 @@ pub(super) struct Search<'a> {
     covered: Lit,
     /// By place in the cone: latches that stay as they are while a number falls.
     phase: Vec<bool>,
+    /// States looked at for the sake of one, and how many these may be.
     looks: usize,
+    most: usize,
     pub(super) ways: Ways,
 }
 
@@ -71,6 +73,7 @@ impl<'a> Search<'a> {
             covered: Lit::FALSE,
             phase,
             looks: 0,
+            most: LOOKS,
             ways: Ways::default(),
         };
         search.frame();
@@ -211,15 +214,22 @@ impl<'a> Search<'a> {
         pairs.map(|(lit, value)| lit.flipped(!value)).collect()
     }
 
+    /// Whether there are regions now that lead from this state to the goal, where at most so many states are looked at; without a number as
+    /// many as ever.
+    pub(super) fn within(&mut self, state: &[bool], looks: Option<usize>) -> Result<bool, Spent> {
+        (self.looks, self.most) = (0, looks.unwrap_or(LOOKS));
+        self.reach(state, 0)
+    }
+
     /// Whether there are regions now that lead from this state to the goal.
-    pub(super) fn reach(&mut self, state: &[bool], depth: usize) -> Result<bool, Spent> {
+    fn reach(&mut self, state: &[bool], depth: usize) -> Result<bool, Spent> {
         let here = Self::fixed(&self.frames[0].state, state);
         let known = [&here[..], &[self.covered]].concat();
         if self.solve(&known)? {
             return Ok(true);
         }
         self.looks += 1;
-        if depth > DEPTH || self.looks > LOOKS {
+        if depth > DEPTH || self.looks > self.most {
             return Ok(false);
         }
         for cycles in 1..=CYCLES {
