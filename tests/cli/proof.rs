@@ -141,7 +141,7 @@ fn a_condition_leaves_some_configurations() {
         ("burn < long", "neither a parameter of"),
         (
             "burn > 4",
-            "no values of the parameters of certified/forms/lamp",
+            "no values of the parameters of certified/forms satisfy",
         ),
     ] {
         let output = stillpoint(&[&every[..], &["--where", condition]].concat());
@@ -174,7 +174,7 @@ fn a_check_asks_the_whole_machine_too() {
     assert_eq!(lines_with(&text, "VIOLATED  HFS-SS1D-001"), 1, "{text}");
     assert!(text.contains("  in: the whole machine: program"), "{text}");
     assert!(
-        text.contains("  not explored: 26 properties decided by "),
+        text.contains("  not explored: 26 properties asked of "),
         "{text}"
     );
     let page = std::fs::read_to_string(page).expect("written");

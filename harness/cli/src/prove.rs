@@ -134,11 +134,14 @@ fn set_free(subject: &mut Subject, which: &Which, texts: &[String]) -> Result<Ve
         }
     }
     let mut all = Vec::new();
-    let mut empty = !texts.is_empty();
+    let (mut asked, mut empty) = (false, true);
     for task in &mut subject.tasks {
         let conditions = conditions(task, texts)?;
         let every = Every::such(&task.bound, which, &conditions).map_err(Failure::Other)?;
-        empty &= !conditions.is_empty() && is_empty(&every);
+        if !conditions.is_empty() {
+            asked = true;
+            empty &= is_empty(&every);
+        }
         task.title = format!("{}\n  for every {}", task.title, every.text());
         let system = &task.bound.system;
         for condition in &conditions {
@@ -147,7 +150,7 @@ fn set_free(subject: &mut Subject, which: &Which, texts: &[String]) -> Result<Ve
         task.bound = every.bound.clone();
         all.push(every);
     }
-    match empty {
+    match asked && empty {
         true => Err(Failure::Other(format!(
             "--where: no values of the parameters of {} satisfy all conditions",
             subject.name
