@@ -268,7 +268,7 @@ fn a_condition_is_part_of_what_is_shown() {
             list[such].free.conditions.clear()
         }),
         // Of nothing everything holds.
-        ("no values of its parameters go together", &|own, list| {
+        ("`enabled <> TRUE` does not hold", &|own, list| {
             let never = "enabled <> TRUE".to_owned();
             own.proved[such].conditions.push(never.clone());
             list[such].free.conditions.push(never);
