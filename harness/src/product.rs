@@ -64,16 +64,18 @@ fn outcome(task: &Task, judged: Vec<Judged>) -> Outcome {
     let mut refuted = BTreeMap::new();
     for (k, one) in judged.into_iter().enumerate() {
         report.complete &= one.verdict != Verdict::Inconclusive;
+        // What holds has neither: they would be of a run that puts it to the test.
+        let shown = matches!(one.verdict, Verdict::Violated | Verdict::Reached);
         if k < system.properties.len() {
             let reason = one.reason.filter(|_| one.verdict == Verdict::Violated);
             refuted.extend(reason.map(|reason| (k, reason)));
             report.properties.push(Judgement {
                 id: one.id,
                 verdict: one.verdict,
-                length: one.length,
+                length: one.length.filter(|_| shown),
                 bound: None,
                 fastest: None,
-                trace: one.trace,
+                trace: one.trace.filter(|_| shown),
             });
         } else if one.verdict == Verdict::Violated {
             report.faults.push(FaultReport {

@@ -1,5 +1,5 @@
-//! Theorems of a family: properties of its tables that hold for every value of their parameters. They are shown once, by the proof
-//! engines, and stand in the family's `theorems.toml`; a check of a machine cites them.
+//! Theorems of a family: properties of its tables that hold for every value of their parameters, of the ranges and under the conditions
+//! that stand beside them. They are shown once, by the proof engines, and stand in the family's `theorems.toml`; a check of a machine cites them.
 //!
 //! A theorem belongs to its tables: a fingerprint of all that decides it stands beside it. Where one rule, range or expression is another
 //! one, the theorem is none, and the property is explored.

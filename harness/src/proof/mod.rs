@@ -96,7 +96,7 @@ pub fn deciding(every: &Every) -> Vec<usize> {
 
 /// Whether no values of the parameters go together.
 pub fn is_empty(every: &Every) -> bool {
-    Asked::every(every).is_err_and(|why| why.0 == question::NOTHING)
+    untold(every).as_deref() == Some(question::NOTHING)
 }
 
 /// Why the engines cannot be asked of a system, if they cannot.

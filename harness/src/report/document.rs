@@ -244,12 +244,15 @@ fn verdict(subject: &Subject, checked: &[Checked], summaries: &[Summary]) -> Blo
         let properties = counted(summaries.len() as u64, "property");
         text = format!("{properties}: {counts}. ");
     }
-    let complete = checked.iter().all(|c| c.outcome.report.complete);
-    let proofs = checked.iter().any(|c| c.by == By::Proofs);
-    text.push_str(match (complete, proofs) {
-        (true, false) => "Every reachable state was explored.",
+    let (whole, parts): (Vec<_>, Vec<_>) = checked.iter().partition(|c| c.by == By::Proofs);
+    let complete = |all: &[&Checked]| all.iter().all(|c| c.outcome.report.complete);
+    text.push_str(match (complete(&parts), complete(&whole)) {
+        (true, _) if whole.is_empty() => "Every reachable state was explored.",
         (true, true) => {
             "Every reachable state of the parts was explored; the machine as a whole was judged by proof engines."
+        }
+        (true, false) => {
+            "Every reachable state of the parts was explored; about the machine as a whole not all was decided in time."
         }
         (false, _) => "Not every reachable state was explored: a limit was reached first.",
     });

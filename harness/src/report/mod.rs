@@ -83,9 +83,11 @@ fn theorems(done: &Checked) -> String {
         (By::Proofs, _) => {
             let judged = done.outcome.report.properties.iter();
             let open = judged.filter(|one| one.verdict == Verdict::Inconclusive);
+            let more = "--engine pdr --whole has more time";
             let open = match open.count() {
-                0 => String::new(),
-                n => format!("; {n} not decided, for which --engine pdr --whole has more time"),
+                0 if done.outcome.report.complete => String::new(),
+                0 => format!("; whether a value leaves its range is not decided: {more}"),
+                n => format!("; {n} not decided: {more}"),
             };
             format!(
                 "not explored: {} asked of property-directed reachability, for all reachable states, in {:.2} s{open}",

@@ -24,7 +24,7 @@ use crate::proof::{
 /// Where the numbers of a system grow too large to be told, its parameters have at most so many values.
 const NARROWER: [i64; 3] = [1 << 16, 1 << 12, 1 << 8];
 
-/// What is open for all values is tried for fewer of them, one after the other: of each parameter with at least so many values so many.
+/// What is open for all values is tried for fewer of them, one after the other: of each parameter with more than so many values so many.
 const FEWER: [(i64, i64); 3] = [(1 << 20, 16), (256, 256), (16, 16)];
 
 /// What is known of a system, with its certificates.
@@ -75,7 +75,7 @@ pub(super) fn of_system(
     Ok(attempt.own)
 }
 
-/// Parameters with at least `many` values, and `few` of these: the nearest to zero.
+/// Parameters with more than `many` values, and `few` of these: the nearest to zero.
 fn windows(bound: &Bound, many: i64, few: i64) -> BTreeMap<String, (i64, i64)> {
     let params = bound.system.params.iter();
     let params = params.filter(|p| p.reading.is_none());
@@ -194,7 +194,8 @@ impl Attempt<'_> {
             }
         }
         for (conditions, judged) in found {
-            let every = Every::such(self.bound, &which, &conditions).map_err(Failed::Other)?;
+            let bound = self.only(|name| judged.iter().any(|one| one.id == *name));
+            let every = Every::such(&bound, &which, &conditions).map_err(Failed::Other)?;
             let seconds = judged.iter().map(|one| one.seconds).sum();
             self.keep(&every, within, &judged.iter().collect::<Vec<_>>(), seconds)?;
         }

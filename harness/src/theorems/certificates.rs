@@ -101,7 +101,7 @@ pub struct Confirmed {
     pub confirmed: usize,
     /// Properties that are confirmed to fail for some values.
     pub fails: usize,
-    /// Theorems that belong to other tables, ranges or readings, and are none of today.
+    /// Theorems and failures that belong to other tables, ranges or readings, and are none of today.
     pub other: usize,
     /// Clauses of all invariants.
     pub clauses: usize,
@@ -121,7 +121,11 @@ pub fn check(
 ) -> Result<Confirmed, String> {
     let mut all = Confirmed::default();
     if bound.readings().into_iter().collect::<BTreeMap<_, _>>() != known.readings {
-        all.other = known.proved.iter().map(|proved| proved.holds.len()).sum();
+        all.other = known
+            .proved
+            .iter()
+            .map(|proved| proved.found().count())
+            .sum();
         return Ok(all);
     }
     if known.proved.len() != certificates.len() {
@@ -151,7 +155,7 @@ fn one(
     let which = ranges(bound, &proved.within);
     let every = conditions.and_then(|list| Every::such(bound, &which, &list).ok());
     let Some(every) = every.filter(|every| every.text() == proved.every) else {
-        all.other += proved.holds.len();
+        all.other += proved.found().count();
         return Ok(());
     };
     if certificate.free.every != spans(&every) || certificate.free.conditions != proved.conditions {

@@ -61,17 +61,20 @@ impl Search<'_> {
         let default = |k: usize| self.bound.values.get(k).copied().map_or(0, i64::from);
         all.retain(|(condition, _)| condition.holds(default));
         let until = Instant::now() + self.each * TIMES;
-        let (mut known, mut tried) = (vec![broken], Vec::new());
+        let mut known = vec![broken];
+        let (mut nothing, mut open) = (Vec::new(), Vec::new());
         for _ in 0..TRIES {
             let candidates = excluding(&all, &known);
-            let Some(chosen) = weakest(&candidates, known.len(), &tried) else {
+            let tried = (&nothing[..], &open[..]);
+            let Some(chosen) = weakest(&candidates, known.len(), tried) else {
                 return Ok(None);
             };
             match self.ask(&chosen, until)? {
                 Answer::Holds(judged) => return Ok(Some((chosen, *judged))),
                 Answer::Fails(configuration) if known.len() < 64 => known.push(configuration),
                 Answer::Fails(_) => return Ok(None),
-                Answer::None => tried.push(chosen),
+                Answer::Nothing => nothing.push(chosen),
+                Answer::Open => open.push(chosen),
             }
             if Instant::now() >= until {
                 return Ok(None);
@@ -82,7 +85,7 @@ impl Search<'_> {
 
     fn ask(&self, conditions: &[Condition], until: Instant) -> Result<Answer, Failed> {
         let Ok(every) = Every::such(self.bound, self.which, conditions) else {
-            return Ok(Answer::None);
+            return Ok(Answer::Nothing);
         };
         let left = until.saturating_duration_since(Instant::now());
         let settings = Settings {
@@ -99,17 +102,24 @@ impl Search<'_> {
         Ok(match (judged.verdict, &judged.trace) {
             (Verdict::Holds, _) => Answer::Holds(Box::new(judged)),
             (Verdict::Violated, Some(trace)) => Answer::Fails(every.configuration(trace)),
-            // Undecided, or true of nothing.
-            _ => Answer::None,
+            (Verdict::Vacuous, _) => Answer::Nothing,
+            _ => Answer::Open,
         })
     }
 }
 
 enum Answer {
     Holds(Box<Judged>),
+    /// In this configuration.
     Fails(Vec<i64>),
-    None,
+    /// It is true of nothing.
+    Nothing,
+    /// It is not decided.
+    Open,
 }
+
+/// Sets of conditions that were tried: those under which a property is true of nothing, and those under which it is not decided.
+type Tried<'a> = (&'a [Vec<Condition>], &'a [Vec<Condition>]);
 
 /// All conditions of one comparison that are tried, with their shares.
 fn conditions(every: &Every, params: &[usize]) -> Vec<(Condition, f64)> {
@@ -185,7 +195,7 @@ fn excluding(all: &[(Condition, f64)], known: &[Vec<i64>]) -> Vec<Candidate> {
 struct Best<'a> {
     /// Their numbers, as a set.
     known: u64,
-    tried: &'a [Vec<Condition>],
+    tried: Tried<'a>,
     share: f64,
     set: Option<Vec<Condition>>,
 }
@@ -197,21 +207,20 @@ impl Best<'_> {
         if excluded != self.known || share <= self.share {
             return;
         }
-        // What is true of nothing is so with a further condition as well.
         let has = |condition| set.iter().any(|c| c.condition == condition);
-        if !(self.tried.iter()).any(|other| other.iter().all(|c| has(*c))) {
+        let around = |other: &Vec<Condition>| other.iter().all(|c| has(*c));
+        // What is true of nothing is so with a further condition as well.
+        let (nothing, open) = self.tried;
+        let same = |other: &Vec<Condition>| other.len() == set.len() && around(other);
+        if !nothing.iter().any(around) && !open.iter().any(same) {
             self.share = share;
             self.set = Some(set.iter().map(|c| c.condition).collect());
         }
     }
 }
 
-/// The weakest set that excludes all that are known, of as few conditions as there must be; a set around one of `tried` is none.
-fn weakest(
-    candidates: &[Candidate],
-    known: usize,
-    tried: &[Vec<Condition>],
-) -> Option<Vec<Condition>> {
+/// The weakest set that excludes all that are known, of as few conditions as there must be, and was not tried.
+fn weakest(candidates: &[Candidate], known: usize, tried: Tried) -> Option<Vec<Condition>> {
     let mut best = Best {
         known: u64::MAX >> (64 - known),
         tried,

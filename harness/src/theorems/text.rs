@@ -8,7 +8,8 @@ use stillpoint_engine::theorems::{Failing, OfSystem, Proved, Theorems};
 use crate::report::{counted, wrapped};
 
 /// What stands above the theorems.
-const HEAD: &str = "# Properties that hold for every value of the parameters. Written by `stillpoint theorems`; `check` of a machine cites them.
+const HEAD: &str = "# Properties that hold for every value of the parameters, of the ranges and under the conditions beside them. Written by `stillpoint theorems`;
+# `check` of a machine cites them.
 # Behind each stands the fingerprint of what decides it: with other tables it is no theorem any more. `fails` has values for which a property
 # does not hold.
 ";
@@ -99,7 +100,10 @@ fn broken(failing: &Failing) -> String {
         .map(|(name, value)| format!("{name} = {value}"))
         .collect();
     let cycles = counted(failing.cycles, "cycle");
-    format!("broken after {cycles} with {}", with.join(", "))
+    match with[..] {
+        [] => format!("broken after {cycles}, whatever the values are"),
+        _ => format!("broken after {cycles} with {}", with.join(", ")),
+    }
 }
 
 /// The properties of a system that are no theorem: those that do not hold for all values, and those of which nothing is known.
@@ -119,8 +123,8 @@ fn open(own: &OfSystem) -> (Vec<(&str, &Failing)>, Vec<&str>) {
 pub fn count(theorems: &Theorems) -> String {
     let systems = theorems.systems.values();
     let proved = systems.clone().flat_map(|own| &own.proved);
-    let holding = |under: bool| {
-        let these = proved.clone().filter(|p| p.conditions.is_empty() != under);
+    let holding = |wanted: fn(&Proved) -> bool| {
+        let these = proved.clone().filter(|p| wanted(p));
         these.map(|p| p.holds.len() as u64).sum::<u64>()
     };
     let (mut failing, mut undecided) = (0, 0);
@@ -129,9 +133,10 @@ pub fn count(theorems: &Theorems) -> String {
         (failing, undecided) = (failing + open.0.len(), undecided + open.1.len());
     }
     format!(
-        "{} about {}, {} of them under conditions; {failing} more fail for some values, {undecided} are not decided",
-        counted(holding(false) + holding(true), "theorem"),
+        "{} about {}, {} of them under conditions, {} over fewer values than are documented; {failing} more fail for some values, {undecided} are not decided",
+        counted(holding(|_| true), "theorem"),
         counted(theorems.systems.len() as u64, "system"),
-        holding(true),
+        holding(|p| !p.conditions.is_empty()),
+        holding(|p| !p.within.is_empty()),
     )
 }

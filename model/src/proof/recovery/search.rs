@@ -10,7 +10,7 @@ use super::{Rank, Recovery, Step, Values, Ways};
 const CYCLES: usize = 6;
 const MORE: usize = 40;
 
-/// How many states are looked at for the sake of one: behind each other, and in all.
+/// How many states are looked at for the sake of one: one behind the other, and in all.
 const DEPTH: usize = 40;
 const LOOKS: usize = 20_000;
 
