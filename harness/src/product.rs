@@ -1,13 +1,12 @@
 //! A machine as one product, which is too large to be enumerated: judged by the proof engines beside the exploration of its parts.
 
-use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
 use stillpoint_engine::check::{By, Checked, Settings};
 use stillpoint_engine::subject::{Readings, Subject, Task, of_runs};
 use stillpoint_engine::{Evaluator, Outcome};
 use stillpoint_lang::diag::Result;
-use stillpoint_model::{FaultReport, Judgement, Progress, Report, Verdict};
+use stillpoint_model::{FaultReport, Judgement, Progress, Verdict};
 
 use crate::proof::{self, Judged, judge};
 
@@ -56,19 +55,19 @@ pub fn judged(
 /// What the engines found, as the outcome of an exploration of nothing.
 fn outcome(task: &Task, judged: Vec<Judged>) -> Outcome {
     let system = &task.bound.system;
-    let mut report = Report {
-        coverage: vec![0; system.rule_count()],
-        seconds: judged.iter().map(|one| one.seconds).sum(),
-        ..Report::nothing()
+    let mut outcome = Outcome {
+        evaluator: Evaluator::Interpreter,
+        ..Outcome::nothing(system)
     };
-    let mut refuted = BTreeMap::new();
+    let report = &mut outcome.report;
+    report.seconds = judged.iter().map(|one| one.seconds).sum();
     for (k, one) in judged.into_iter().enumerate() {
         report.complete &= one.verdict != Verdict::Inconclusive;
         // What holds has neither: they would be of a run that puts it to the test.
         let shown = matches!(one.verdict, Verdict::Violated | Verdict::Reached);
         if k < system.properties.len() {
             let reason = one.reason.filter(|_| one.verdict == Verdict::Violated);
-            refuted.extend(reason.map(|reason| (k, reason)));
+            outcome.refuted.extend(reason.map(|reason| (k, reason)));
             report.properties.push(Judgement {
                 id: one.id,
                 verdict: one.verdict,
@@ -85,11 +84,5 @@ fn outcome(task: &Task, judged: Vec<Judged>) -> Outcome {
             });
         }
     }
-    Outcome {
-        report,
-        evaluator: Evaluator::Interpreter,
-        pairs: BTreeMap::new(),
-        refuted,
-        reduction: None,
-    }
+    outcome
 }

@@ -173,7 +173,9 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         }
         (None, None) => None,
     };
-    let products = match choice.all || only_explored(arguments) {
+    // What a reading changes is told of two explorations.
+    let only = choice.all || only_explored(arguments);
+    let products = match only {
         true => None,
         false => product::products(&subject, &choice.chosen)?,
     };
@@ -199,7 +201,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         interrupt: Some(interrupt.handle()),
         // A certificate is about the system that whoever checks it makes of the file.
         exact: arguments.certificate.is_some(),
-        theorems: theorems(arguments, &subject)?,
+        theorems: theorems(arguments.all || only, &subject)?,
         ..Settings::default()
     };
     let start = Instant::now();
@@ -301,12 +303,8 @@ fn only_explored(arguments: &Arguments) -> bool {
         || arguments.cluster.is_asked()
 }
 
-/// The theorems of the machine's family, where a check may cite them.
-fn theorems(arguments: &Arguments, subject: &Subject) -> Result<Option<Arc<Theorems>>, Failure> {
-    // What a reading changes is told of two explorations.
-    let whole = arguments.all
-        || values::readings(&arguments.readings).is_ok_and(|choice| choice.all)
-        || only_explored(arguments);
+/// The theorems of the machine's family, unless the whole of it is explored.
+fn theorems(whole: bool, subject: &Subject) -> Result<Option<Arc<Theorems>>, Failure> {
     match subject.machine.as_ref().filter(|_| !whole) {
         Some(machine) => Ok(Some(Arc::new(Theorems::load(machine.family_folder())?))),
         None => Ok(None),

@@ -89,18 +89,27 @@ pub fn every(text: &str) -> Result<Which, String> {
     list.collect::<Result<_, _>>().map(Which::Named)
 }
 
-/// Those of the conditions that are about parameters of a system.
-fn conditions(task: &Task, texts: &[String]) -> Result<Vec<Condition>, Failure> {
-    let system = &task.bound.system;
-    let mut list = Vec::new();
+/// By task those of the conditions that are about parameters of its system.
+fn conditions(subject: &Subject, texts: &[String]) -> Result<Vec<Vec<Condition>>, Failure> {
+    let mut all = vec![Vec::new(); subject.tasks.len()];
     for text in texts {
-        match Condition::read(system, text) {
-            Ok(condition) => list.push(condition),
-            Err(Unread::Unknown(_)) => {}
-            Err(Unread::Wrong(why)) => return Err(Failure::Other(format!("--where: {why}"))),
+        let refused = |why: String| Failure::Other(format!("--where: {why}"));
+        let (mut read, mut unknown) = (false, None);
+        for (task, list) in subject.tasks.iter().zip(&mut all) {
+            match Condition::read(&task.bound.system, text) {
+                Ok(condition) => {
+                    list.push(condition);
+                    read = true;
+                }
+                Err(Unread::Unknown(why)) => unknown = unknown.or(Some(why)),
+                Err(Unread::Wrong(why)) => return Err(refused(why)),
+            }
+        }
+        if let Some(why) = unknown.filter(|_| !read) {
+            return Err(refused(why));
         }
     }
-    Ok(list)
+    Ok(all)
 }
 
 /// All values of some parameters in place of those of the file.
@@ -119,24 +128,10 @@ fn set_free(subject: &mut Subject, which: &Which, texts: &[String]) -> Result<Ve
             }
         }
     }
-    for text in texts {
-        let tasks = subject.tasks.iter();
-        let mut read = tasks.map(|task| Condition::read(&task.bound.system, text));
-        if read
-            .clone()
-            .all(|read| matches!(read, Err(Unread::Unknown(_))))
-        {
-            let why = read.find_map(Result::err).map(|why| why.to_string());
-            return Err(Failure::Other(format!(
-                "--where: {}",
-                why.unwrap_or_default()
-            )));
-        }
-    }
+    let conditions = conditions(subject, texts)?;
     let mut all = Vec::new();
     let (mut asked, mut empty) = (false, true);
-    for task in &mut subject.tasks {
-        let conditions = conditions(task, texts)?;
+    for (task, conditions) in subject.tasks.iter_mut().zip(conditions) {
         let every = Every::such(&task.bound, which, &conditions).map_err(Failure::Other)?;
         if !conditions.is_empty() {
             asked = true;

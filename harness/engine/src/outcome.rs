@@ -30,6 +30,22 @@ pub struct Outcome {
     pub reduction: Option<Reduction>,
 }
 
+impl Outcome {
+    /// What is known of a system that nobody has explored: nothing yet.
+    pub fn nothing(system: &ir::System) -> Self {
+        Outcome {
+            report: Report {
+                coverage: vec![0; system.rule_count()],
+                ..Report::nothing()
+            },
+            evaluator: Evaluator::Generated,
+            pairs: BTreeMap::new(),
+            refuted: BTreeMap::new(),
+            reduction: None,
+        }
+    }
+}
+
 /// The exploration of pairs of runs for one property.
 #[derive(Debug, Clone)]
 pub struct Pair {

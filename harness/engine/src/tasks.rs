@@ -175,7 +175,7 @@ impl<'t, Q: Iterator<Item = (usize, &'t mut Task)>> Ways<'_, '_, Q> {
         let nothing = cited.all && found.is_none();
         let (mut outcome, again, identity) = match found {
             Some(found) => found,
-            None if cited.all => (Cited::outcome(task), false, None),
+            None if cited.all => (Outcome::nothing(&task.bound.system), false, None),
             None => self.own(task, &options)?,
         };
         cited.put_back(task, &mut outcome);

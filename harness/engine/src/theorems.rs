@@ -15,10 +15,10 @@ use stillpoint_lang::condition::Condition;
 use stillpoint_lang::diag::{Diagnostic, Result};
 use stillpoint_lang::ir::{Property, Stated, System, Ty};
 use stillpoint_lang::{files, toml_error};
-use stillpoint_model::{Judgement, Report, Verdict};
+use stillpoint_model::{Judgement, Verdict};
 
 use crate::digest::All;
-use crate::outcome::{Evaluator, Outcome, label, undecided};
+use crate::outcome::{Outcome, label, undecided};
 use crate::subject::Task;
 
 /// The file in a family's folder.
@@ -185,21 +185,6 @@ impl Cited {
             properties,
             all,
             whole,
-        }
-    }
-
-    /// The outcome of a task about which there is nothing else to be known: nothing is explored.
-    pub(crate) fn outcome(task: &Task) -> Outcome {
-        let report = Report {
-            coverage: vec![0; task.bound.system.rule_count()],
-            ..Report::nothing()
-        };
-        Outcome {
-            report,
-            evaluator: Evaluator::Generated,
-            pairs: BTreeMap::new(),
-            refuted: BTreeMap::new(),
-            reduction: None,
         }
     }
 

@@ -117,12 +117,9 @@ impl Every {
 
     /// The value of each parameter of the system in a run.
     pub fn configuration(&self, trace: &Trace) -> Vec<i64> {
-        let value = |param: usize| {
-            let chosen = self.place(param).and_then(|place| {
-                let mut initial = trace.initial.iter();
-                initial.find(|(cell, _)| *cell as usize == place)
-            });
-            self.range_of(param).0 + chosen.map_or(0, |(_, offset)| i64::from(*offset))
+        let value = |param: usize| match self.place(param) {
+            Some(place) => begins(&self.bound, trace, place),
+            None => self.range_of(param).0,
         };
         (0..self.bound.system.params.len()).map(value).collect()
     }
@@ -152,6 +149,12 @@ impl Every {
         };
         format!("{}: {count} configurations", list.join(", "))
     }
+}
+
+/// The value with which a state variable starts in a run.
+pub(super) fn begins(bound: &Bound, trace: &Trace, k: usize) -> i64 {
+    let chosen = trace.initial.iter().find(|(cell, _)| *cell as usize == k);
+    i64::from(bound.states[k].0) + chosen.map_or(0, |(_, offset)| i64::from(*offset))
 }
 
 struct Builder<'a> {

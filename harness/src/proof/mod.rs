@@ -90,8 +90,9 @@ pub fn deciding(every: &Every) -> Vec<usize> {
     let problem = Problem::new(&translated.netlist, broken);
     let latches = problem.latches().iter();
     let seen = latches.filter_map(|latch| Some(translated.place(*latch)?.0));
-    let seen: BTreeSet<Option<usize>> = seen.map(Some).collect();
-    free.filter(|k| seen.contains(&every.place(*k))).collect()
+    let seen: BTreeSet<usize> = seen.collect();
+    free.filter(|k| every.place(*k).is_some_and(|place| seen.contains(&place)))
+        .collect()
 }
 
 /// Whether no values of the parameters go together.

@@ -7,7 +7,7 @@ use stillpoint_lang::ir::{Form, Property, Ty};
 use stillpoint_model::Trace;
 use stillpoint_model::proof::{Bounded, Budget, Lit, Problem, Run};
 
-use super::every::Every;
+use super::every::{Every, begins};
 use super::monitor::{self, Cycles, Duty, Forever};
 use crate::export::{Translated, Unsupported};
 
@@ -139,14 +139,8 @@ impl<'a> Asked<'a> {
             cycles: Vec::new(),
         };
         let trace = self.trace(&run);
-        let value = |k: &usize| (*k, self.value(&trace, *k));
+        let value = |k: &usize| (*k, begins(self.translated.bound, &trace, *k));
         self.parameters.iter().map(value).collect()
-    }
-
-    /// The value with which a state variable starts in a run.
-    fn value(&self, trace: &Trace, k: usize) -> i64 {
-        let chosen = trace.initial.iter().find(|(cell, _)| *cell as usize == k);
-        i64::from(self.translated.bound.states[k].0) + chosen.map_or(0, |(_, v)| i64::from(*v))
     }
 
     /// The configuration of a run, where parameters are part of the state.
@@ -154,7 +148,7 @@ impl<'a> Asked<'a> {
         let bound = self.translated.bound;
         let value = |k: &usize| {
             let var = &bound.system.states[*k].var;
-            let value = bound.system.show(var.ty, self.value(trace, *k));
+            let value = bound.system.show(var.ty, begins(bound, trace, *k));
             format!("{} = {value}", var.name)
         };
         let list: Vec<String> = self.parameters.iter().map(value).collect();

@@ -159,7 +159,7 @@ impl Attempt<'_> {
         }
         judged.retain(|one| self.own.0.open.contains_key(&one.id));
         let seconds = start.elapsed().as_secs_f64();
-        self.keep(&every, within, &judged.iter().collect::<Vec<_>>(), seconds)?;
+        self.keep(&every, within, &judged, seconds)?;
         self.conditions(&every, within, &judged)?;
         Ok(true)
     }
@@ -188,8 +188,6 @@ impl Attempt<'_> {
             };
             if let Some((mut conditions, judged)) = search.find(every.configuration(trace))? {
                 conditions.sort_unstable();
-                let mut judged = judged;
-                judged.id.clone_from(&one.id);
                 found.entry(conditions).or_default().push(judged);
             }
         }
@@ -197,7 +195,7 @@ impl Attempt<'_> {
             let bound = self.only(|name| judged.iter().any(|one| one.id == *name));
             let every = Every::such(&bound, &which, &conditions).map_err(Failed::Other)?;
             let seconds = judged.iter().map(|one| one.seconds).sum();
-            self.keep(&every, within, &judged.iter().collect::<Vec<_>>(), seconds)?;
+            self.keep(&every, within, &judged, seconds)?;
         }
         Ok(())
     }
@@ -230,7 +228,7 @@ impl Attempt<'_> {
         &mut self,
         every: &Every,
         within: &BTreeMap<String, (i64, i64)>,
-        judged: &[&Judged],
+        judged: &[Judged],
         seconds: f64,
     ) -> Result<(), Failed> {
         let system = &self.bound.system;
@@ -247,7 +245,7 @@ impl Attempt<'_> {
             Verdict::Violated => one.trace.is_some() && !known(&one.id),
             _ => false,
         };
-        let news: Vec<&Judged> = judged.iter().copied().filter(news).collect();
+        let news: Vec<&Judged> = judged.iter().filter(news).collect();
         let budget = Budget {
             until: None,
             interrupt: self.proving.interrupt.clone(),

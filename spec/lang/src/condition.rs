@@ -175,8 +175,8 @@ impl Condition {
     }
 }
 
-/// A name without space.
-fn written(name: &str) -> String {
+/// A name without space, as it stands in conditions and certificates.
+pub fn written(name: &str) -> String {
     name.split_whitespace().collect::<Vec<_>>().join("_")
 }
 
@@ -238,21 +238,7 @@ mod tests {
                 param("on", Ty::Bool),
                 param("kind", Ty::Enum(0)),
             ],
-            text: String::new(),
-            note: String::new(),
-            cycle_us: 1,
-            scaled: false,
-            readings: Vec::new(),
-            states: Vec::new(),
-            inputs: Vec::new(),
-            lazies: Vec::new(),
-            instances: Vec::new(),
-            sites: Vec::new(),
-            atoms: Vec::new(),
-            observed: Vec::new(),
-            properties: Vec::new(),
-            unreached: Vec::new(),
-            warnings: Vec::new(),
+            ..System::default()
         }
     }
 

@@ -446,7 +446,7 @@ pub struct Reading {
 }
 
 /// A resolved system.
-#[derive(Debug, Clone, PartialEq, Hash)]
+#[derive(Debug, Clone, Default, PartialEq, Hash)]
 pub struct System {
     /// `specification/system`.
     pub name: String,

@@ -3,6 +3,8 @@
 
 use std::fmt;
 
+pub use stillpoint_lang::condition::written;
+
 /// One of its literals holds.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Clause(pub Vec<Literal>);
@@ -37,11 +39,6 @@ pub enum Literal {
         /// What is added to that.
         shift: i64,
     },
-}
-
-/// A name as it stands in a certificate.
-pub fn written(name: &str) -> String {
-    name.split_whitespace().collect::<Vec<_>>().join("_")
 }
 
 impl Literal {
