@@ -175,8 +175,8 @@ impl<O: Origin, T: Store> Level<'_, O, T> {
             stays = stays && burst.ends().all(|(after, _)| after == key);
             let all = noted.unwrap_or_else(|| {
                 let mut all = 0;
-                *unwatched += burst.ends().len() as u32;
                 for (after, marks) in burst.ends() {
+                    *unwatched += 1;
                     if after != last {
                         self.store.visit(local, after);
                         last = after;

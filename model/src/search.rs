@@ -174,12 +174,7 @@ struct Staging {
     active: bool,
     /// They are not tried again.
     over: bool,
-    /// The states explored when they were last prepared.
-    since: u64,
 }
-
-/// States after which it may pay to watch less, though all that is known of the stages is forgotten by that.
-const ANEW: u64 = 1 << 15;
 
 impl Staging {
     fn new(way: Way, parts: bool) -> Self {
@@ -189,7 +184,6 @@ impl Staging {
             watched: Watched::default(),
             active: false,
             over: parts || way == Way::Single,
-            since: 0,
         }
     }
 
@@ -210,33 +204,24 @@ impl Staging {
             model.pays.store(false, Ordering::Relaxed);
             return;
         }
-        let begins = !self.active && (self.way == Way::Staged || self.pace.tries());
-        let anew = self.active && tally.explored - self.since >= ANEW;
-        if !begins && !anew {
+        if self.active || !(self.way == Way::Staged || self.pace.tries()) {
             return;
         }
+        // What is known of a property already is not looked for.
         let shown = |p: usize| (tally.signs[p].first.is_some(), tally.signs[p].met);
         let watched = Watched::new(properties, open, shown);
-        let Some(watched) = watched else {
+        if let Some(watched) = &watched {
+            for worker in workers.iter_mut() {
+                worker.staged = model.staged(&watched.conditions);
+            }
+        }
+        if workers.iter().any(|worker| worker.staged.is_none()) {
             self.end(tally, workers);
             return;
-        };
-        self.since = tally.explored;
-        let fewer = watched.events.len() * 4 <= self.watched.events.len() * 3;
-        if self.active && !fewer {
-            return;
         }
-        self.end(tally, workers);
-        for worker in workers.iter_mut() {
-            worker.staged = model.staged(&watched.conditions);
-        }
-        if workers.iter().all(|worker| worker.staged.is_some()) {
-            self.over = false;
-            self.active = true;
-            self.watched = watched;
-            self.pace.anew();
-            model.pays.store(true, Ordering::Relaxed);
-        }
+        self.active = true;
+        self.watched = watched.unwrap_or_default();
+        model.pays.store(true, Ordering::Relaxed);
     }
 
     /// Takes the stages away for good.

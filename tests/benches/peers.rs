@@ -1,6 +1,7 @@
 //! The explorer beside SPIN: wall times of both on the same systems in one run, and their ratios.
 //!
-//! `cargo bench -p stillpoint-tests --bench peers [-- ROUNDS]`, 3 rounds by default; each round runs every contestant once,
+//! `cargo bench -p stillpoint-tests --bench peers [-- ROUNDS [NAME]]`, 3 rounds by default; NAME is a part of the name of
+//! the only systems that are timed. Each round runs every contestant once,
 //! so that noise of the machine meets all of them. SPIN explores the exported model without judging anything (`-A`);
 //! the explorer judges all properties. Without spin or gcc only the explorer is timed. Where SPIN has not ended after
 //! a minute, and 40 times what the explorer takes, it is stopped.
@@ -147,13 +148,17 @@ fn pan(folder: &Folder, most: Duration) -> bool {
 }
 
 fn main() {
-    let rounds = std::env::args().find_map(|a| a.parse().ok()).unwrap_or(3);
+    let given: Vec<String> = std::env::args().skip(1).collect();
+    let rounds = given.iter().find_map(|a| a.parse().ok()).unwrap_or(3);
+    let named = |a: &&String| !a.starts_with('-') && a.parse::<usize>().is_err();
+    let only = given.iter().find(named).map_or("", String::as_str);
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     println!(
         "{rounds} rounds, {cores} processors; median (least to most); ratio: how many times faster than the first line"
     );
     let peers = tools(&["spin", "gcc"]);
-    for (file, name, kind, values) in YARDSTICKS {
+    let timed = |(_, name, ..): &(&str, &str, &str, Values)| name.contains(only);
+    for (file, name, kind, values) in YARDSTICKS.into_iter().filter(timed) {
         let bound = &system(file, name, values);
         let found = engine::run(bound, &options(0), false, &mut ());
         let report = found.unwrap_or_else(|e| panic!("{name}: {e}")).report;
@@ -194,6 +199,13 @@ fn main() {
             println!("  SPIN did not end: the ratios are the least that they can be");
         }
     }
+    if LONG.1.contains(only) {
+        threads(rounds);
+    }
+}
+
+/// Times a longer exploration with one thread, with two, and twice at the same time.
+fn threads(rounds: usize) {
     let (file, name, number) = LONG;
     let subject = load(&root().join(file));
     let mut tasks = subject.tasks.iter().filter(|t| t.bound.system.name == name);

@@ -11,22 +11,16 @@ impl<K: Key> Staged<'_, K> {
         let Some(group) = group.first_mut() else {
             return;
         };
-        for (known, visits) in group.known.iter().zip(&mut group.visits) {
-            let visits = std::mem::take(visits);
-            if visits == 0 {
-                continue;
-            }
-            for count in &group.counts[known.counts()] {
+        let whole = group.whole;
+        group.take_visits(|visits, counts| {
+            for count in counts {
                 if let Count::Place(table, place, share) = count {
-                    let more = rational(visits, *share, group.whole);
-                    visit(
-                        &mut of[*table as usize].visits[*place as usize],
-                        more,
-                        self.combinations,
-                    );
+                    let more = rational(visits, *share, whole);
+                    let visits = of[*table as usize].visits(*place);
+                    visit(visits, more, self.combinations);
                 }
             }
-        }
+        });
     }
 
     pub(super) fn drain(&mut self, each: &mut dyn FnMut(usize, u64)) {
@@ -35,19 +29,16 @@ impl<K: Key> Staged<'_, K> {
         let groups = stages..self.tables.len();
         groups.rev().for_each(|table| self.count_places(table));
         for table in &mut self.tables[..stages] {
-            for (known, visits) in table.known.iter().zip(&mut table.visits) {
-                let visits = std::mem::take(visits);
-                if visits == 0 {
-                    continue;
-                }
-                for count in &table.counts[known.counts()] {
+            let whole = table.whole;
+            table.take_visits(|visits, counts| {
+                for count in counts {
                     if let Count::Rule(rule, share) = count {
-                        let count = rational(visits, *share, table.whole);
+                        let count = rational(visits, *share, whole);
                         let count = count.and_then(|count| u64::try_from(count).ok());
                         each(*rule, count.unwrap_or(u64::MAX));
                     }
                 }
-            }
+            });
         }
     }
 
@@ -69,7 +60,7 @@ impl<K: Key> Staged<'_, K> {
 #[inline]
 pub(super) fn visit(visits: &mut u128, more: Option<u128>, combinations: u128) {
     let sum = more.and_then(|more| visits.checked_add(more));
-    *visits = sum.unwrap_or(u128::MAX / combinations * combinations);
+    *visits = sum.unwrap_or_else(|| u128::MAX / combinations * combinations);
 }
 
 /// `share` of `whole` parts of a sum of weights, which is a whole number; none if it is so large that it does not fit.

@@ -44,19 +44,19 @@ impl<K: Key> Staged<'_, K> {
     }
 
     /// The place of what follows from a class that comes to a part of a group.
-    fn place_of(&mut self, part: &Group, projection: u32, class: u32) -> usize {
+    fn place_of(&mut self, part: &Group, projection: u32, class: u32) -> u32 {
         let (place, fresh) = self.tables[part.table].place(projection, class);
         if fresh {
             self.learn_of(part, class);
         }
-        place as usize
+        place
     }
 
     /// Goes through the parts of a group.
     fn learn_parts(&mut self, table: usize, parts: &[Group; 2], class: u32) {
         let (mut ways, mut next, mut merge) = self.inner.pop().unwrap_or_default();
         let own = &self.tables[table];
-        let (from, counts, whole) = (own.outcomes.len(), own.counts.len(), own.whole);
+        let (from, whole) = (own.outcomes.len(), own.whole);
         let mut fault = false;
         ways.clear();
         ways.push(Way::begin(class, whole));
@@ -67,15 +67,14 @@ impl<K: Key> Staged<'_, K> {
             for way in &ways {
                 let place = self.place_of(part, projection, way.class);
                 let of = &self.tables[part.table];
-                let known = of.known[place];
-                if known.is_fault() {
+                let follows = of.follows(place);
+                if follows.is_fault() {
                     fault = true;
                     break 'parts;
                 }
-                let outcomes = &of.outcomes[known.outcomes()];
-                follow(*way, outcomes, of.whole, &mut next, Some(&mut merge));
+                follow(*way, follows, of.whole, &mut next, Some(&mut merge));
                 // The weights are parts of the whole, which is one of 64 bits.
-                let count = Count::Place(part.table as u32, place as u32, way.weight as u64);
+                let count = Count::Place(part.table as u32, place, way.weight as u64);
                 self.tables[table].counts.push(count);
             }
             std::mem::swap(&mut ways, &mut next);
@@ -85,7 +84,7 @@ impl<K: Key> Staged<'_, K> {
             .map(|way| (way.key, way.class, way.weight as u64));
         let own = &mut self.tables[table];
         own.outcomes.extend(outcomes);
-        own.learn(from, counts, fault);
+        own.learn(from, fault);
         self.inner.push((ways, next, merge));
     }
 

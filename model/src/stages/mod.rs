@@ -27,7 +27,7 @@ use index::Merge;
 pub(crate) use seen::Burst;
 use seen::Seen;
 use std::sync::atomic::{AtomicU64, Ordering};
-use table::{Count, Table};
+use table::{Count, Follows, Table};
 use ways::{Way, follow};
 
 /// Holds in a cycle in which each of these atoms has the value beside it.
@@ -218,13 +218,13 @@ impl<'a, K: Key> Staged<'a, K> {
             if fresh {
                 self.learn(last, way.class);
             }
-            let known = self.tables[table].known[place as usize];
-            if known.is_fault() {
+            let of = &self.tables[table];
+            if of.follows(place).is_fault() {
                 return None;
             }
             self.looked.push((table as u32, place, way.weight));
             // Where shares are missing it does not come to all of them.
-            if known.adds_up {
+            if of.adds_up(place) {
                 weight = weight.wrapping_add(way.weight);
             }
         }
@@ -233,9 +233,13 @@ impl<'a, K: Key> Staged<'a, K> {
         for (way, (_, place, _)) in self.ways.iter().zip(&self.looked[from..]) {
             let burst = Burst {
                 state: way.key,
-                outcomes: &of.outcomes[of.known[*place as usize].outcomes()],
+                follows: of.follows(*place),
                 marks: &self.marks,
             };
+            if burst.is_one() {
+                each(None, burst);
+                continue;
+            }
             let note = self.seen.note(way.key, *place);
             let new = each(note, burst);
             if note != Some(new) {
@@ -273,15 +277,15 @@ impl<'a, K: Key> Staged<'a, K> {
                 self.learn(group, way.class);
             }
             let of = &self.tables[table];
-            let known = of.known[place as usize];
-            if known.is_fault() {
-                return false;
-            }
+            let follows = of.follows(place);
+            made += match follows {
+                Follows::One(..) => 1,
+                Follows::Of([]) => return false,
+                Follows::Of(outcomes) => outcomes.len(),
+            };
             self.looked.push((table as u32, place, way.weight));
-            let outcomes = &of.outcomes[known.outcomes()];
-            made += outcomes.len();
             let merge = merges.then_some(&mut self.merge);
-            follow(way, outcomes, of.whole, &mut self.next, merge);
+            follow(way, follows, of.whole, &mut self.next, merge);
         }
         let of = &mut self.tables[table];
         if merges {
@@ -296,7 +300,7 @@ impl<'a, K: Key> Staged<'a, K> {
     #[inline]
     fn end(&mut self) {
         for (table, place, weight) in &self.looked {
-            let visits = &mut self.tables[*table as usize].visits[*place as usize];
+            let visits = self.tables[*table as usize].visits(*place);
             visit(visits, Some(*weight), self.combinations);
         }
         if std::mem::take(&mut self.grown) {
@@ -376,7 +380,7 @@ impl<'a, K: Key> Staged<'a, K> {
                 self.marks[class] = self.stages.conditions(outcome.class);
             }
         }
-        table.learn(from, counts, fault);
+        table.learn(from, fault);
     }
 
     /// Tells what is held, and forgets all if it is too much.

@@ -67,11 +67,6 @@ impl Pace {
         (states >= TRIED || self.vectors >= MANY) && self.vectors / states >= WORTH
     }
 
-    /// Stages begin with nothing learned.
-    pub(crate) fn anew(&mut self) {
-        (self.staged, self.last) = (Spent::default(), None);
-    }
-
     /// Whether stages turn out to be the slower way. What is learned in the first states pays later, and where it does it shows soon:
     /// a state takes much less than before.
     pub(crate) fn gives_up(&mut self) -> bool {

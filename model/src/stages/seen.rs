@@ -1,6 +1,7 @@
 //! Bursts: what follows from one way behind the last table, from a state so far and a place there. Many states share them, so what is
 //! made of one is noted.
 
+use super::table::Follows;
 use crate::pack::Key;
 
 /// The most bursts that are remembered: so few that looking one up costs less than what follows from it.
@@ -13,18 +14,29 @@ const SHARE: u64 = 16;
 #[derive(Clone, Copy)]
 pub(crate) struct Burst<'a, K> {
     pub(super) state: K,
-    pub(super) outcomes: &'a [(K, u32, u64)],
+    pub(super) follows: Follows<'a, K>,
     pub(super) marks: &'a [u128],
 }
 
 impl<K: Key> Burst<'_, K> {
     /// The states after them, each with the conditions that hold in it.
     #[inline]
-    pub(crate) fn ends(&self) -> impl ExactSizeIterator<Item = (K, u128)> + '_ {
-        self.outcomes.iter().map(|(own, class, _)| {
-            let marks = self.marks.get(*class as usize).copied();
-            (self.state.plus(*own), marks.unwrap_or(0))
+    pub(crate) fn ends(&self) -> impl Iterator<Item = (K, u128)> + '_ {
+        let (one, all) = match self.follows {
+            Follows::One(own, class) => (Some((own, class)), &[][..]),
+            Follows::Of(outcomes) => (None, outcomes),
+        };
+        let all = all.iter().map(|(own, class, _)| (*own, *class));
+        one.into_iter().chain(all).map(|(own, class)| {
+            let marks = self.marks.get(class as usize).copied();
+            (self.state.plus(own), marks.unwrap_or(0))
         })
+    }
+
+    /// Whether there is one state after them, so that it costs no more to look at it than to see whether it was looked at.
+    #[inline]
+    pub(super) fn is_one(&self) -> bool {
+        matches!(self.follows, Follows::One(..))
     }
 }
 

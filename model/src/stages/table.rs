@@ -1,6 +1,7 @@
 //! What is known of a stage, or of several as one: by the values that they read and the class that comes to them, the outcomes.
 
 use super::index::{Index, Places};
+use crate::pack::Key;
 use crate::system::Domain;
 use std::ops::Range;
 
@@ -14,12 +15,14 @@ pub(super) struct Table<K> {
     projections: Index,
     /// By such a number and a class the place of what follows.
     places: Places,
-    pub(super) known: Vec<Known>,
+    known: Vec<Known<K>>,
+    /// Where a place has several outcomes, or a fault: their range, and whether their shares are all there is.
+    lists: Vec<(Range<u32>, bool)>,
     /// What each outcome adds to the index of the state after, its class, and its share.
     pub(super) outcomes: Vec<(K, u32, u64)>,
+    /// What is counted at each place, and where that ends.
     pub(super) counts: Vec<Count>,
-    /// The input combinations that have come to each place and are not counted yet.
-    pub(super) visits: Vec<u128>,
+    counted: Vec<u32>,
     pub(super) merges: Merges,
     pub(super) traffic: Traffic,
 }
@@ -33,27 +36,29 @@ pub(super) enum Count {
     Place(u32, u32, u64),
 }
 
-/// What follows from a class and the values of the variables read: ranges of outcomes and of counts. Where there is a fault, no outcome.
-#[derive(Clone, Copy)]
-pub(super) struct Known {
-    pub(super) outcomes: (u32, u32),
-    pub(super) counts: (u32, u32),
-    /// Whether the shares of the outcomes are all there is.
-    pub(super) adds_up: bool,
+/// What is known of a place. A state looks up many of them, so that what is needed stands in one piece of memory.
+struct Known<K> {
+    /// What the only outcome adds, and its class.
+    only: (K, u32),
+    /// The number of the list of outcomes plus one; 0 where there is an only one.
+    list: u32,
+    /// The input combinations that have come to it and are not counted yet.
+    visits: u128,
 }
 
-impl Known {
+/// What follows from a class and the values of the variables read.
+#[derive(Clone, Copy)]
+pub(super) enum Follows<'a, K> {
+    /// This, whatever the inputs are.
+    One(K, u32),
+    /// One of these; if there is none, a fault.
+    Of(&'a [(K, u32, u64)]),
+}
+
+impl<K> Follows<'_, K> {
     #[inline]
-    pub(super) fn outcomes(self) -> Range<usize> {
-        self.outcomes.0 as usize..self.outcomes.1 as usize
-    }
-
-    pub(super) fn counts(self) -> Range<usize> {
-        self.counts.0 as usize..self.counts.1 as usize
-    }
-
-    pub(super) fn is_fault(self) -> bool {
-        self.outcomes.0 == self.outcomes.1
+    pub(super) fn is_fault(&self) -> bool {
+        matches!(self, Follows::Of([]))
     }
 }
 
@@ -64,7 +69,7 @@ pub(super) struct Traffic {
     pub(super) fresh: u64,
 }
 
-impl<K> Table<K> {
+impl<K: Key> Table<K> {
     /// None if the values that it reads have no number together.
     pub(super) fn new(
         reads: impl IntoIterator<Item = usize>,
@@ -84,9 +89,10 @@ impl<K> Table<K> {
             projections: Index::default(),
             places: Places::default(),
             known: Vec::new(),
+            lists: Vec::new(),
             outcomes: Vec::new(),
             counts: Vec::new(),
-            visits: Vec::new(),
+            counted: Vec::new(),
             merges: Merges::default(),
             traffic: Traffic::default(),
         })
@@ -116,31 +122,84 @@ impl<K> Table<K> {
         (place, place == fresh)
     }
 
-    /// Takes what has been added to the outcomes and the counts since they had these numbers as what follows from the next place; a
+    /// What follows from a place.
+    #[inline]
+    pub(super) fn follows(&self, place: u32) -> Follows<'_, K> {
+        let Known {
+            only: (own, class),
+            list,
+            ..
+        } = self.known[place as usize];
+        match list.checked_sub(1) {
+            None => Follows::One(own, class),
+            Some(list) => {
+                let (range, _) = &self.lists[list as usize];
+                Follows::Of(&self.outcomes[range.start as usize..range.end as usize])
+            }
+        }
+    }
+
+    /// Whether the shares of what follows from a place are all there is.
+    #[inline]
+    pub(super) fn adds_up(&self, place: u32) -> bool {
+        let list = self.known[place as usize].list.checked_sub(1);
+        list.is_none_or(|list| self.lists[list as usize].1)
+    }
+
+    /// The input combinations that have come to a place.
+    #[inline]
+    pub(super) fn visits(&mut self, place: u32) -> &mut u128 {
+        &mut self.known[place as usize].visits
+    }
+
+    /// Takes the input combinations that have come to each place, with what is counted there.
+    pub(super) fn take_visits(&mut self, mut each: impl FnMut(u128, &[Count])) {
+        let mut from = 0;
+        for (known, end) in self.known.iter_mut().zip(&self.counted) {
+            let visits = std::mem::take(&mut known.visits);
+            if visits > 0 {
+                each(visits, &self.counts[from as usize..*end as usize]);
+            }
+            from = *end;
+        }
+    }
+
+    /// Takes what has been added to the outcomes since they had this number, and to the counts, as what follows from the next place; a
     /// fault has none.
-    pub(super) fn learn(&mut self, outcomes: usize, counts: usize, fault: bool) {
+    pub(super) fn learn(&mut self, outcomes: usize, fault: bool) {
         if fault {
             self.outcomes.truncate(outcomes);
+            let counts = self.counted.last().map_or(0, |end| *end as usize);
             self.counts.truncate(counts);
         }
-        let shares = self.outcomes[outcomes..]
-            .iter()
-            .map(|(.., share)| u128::from(*share));
-        let adds_up = shares.sum::<u128>() == self.whole;
+        let only = match self.outcomes[outcomes..] {
+            [(own, class, share)] if u128::from(share) == self.whole => Some((own, class)),
+            _ => None,
+        };
+        if only.is_some() {
+            self.outcomes.truncate(outcomes);
+        } else {
+            let shares = self.outcomes[outcomes..].iter();
+            let shares = shares.map(|(.., share)| u128::from(*share));
+            let adds_up = shares.sum::<u128>() == self.whole;
+            let range = outcomes as u32..self.outcomes.len() as u32;
+            self.lists.push((range, adds_up));
+        }
         self.known.push(Known {
-            adds_up,
-            outcomes: (outcomes as u32, self.outcomes.len() as u32),
-            counts: (counts as u32, self.counts.len() as u32),
+            only: only.unwrap_or((K::of([0, 0]), 0)),
+            list: only.map_or(self.lists.len() as u32, |_| 0),
+            visits: 0,
         });
-        self.visits.push(0);
+        self.counted.push(self.counts.len() as u32);
         self.traffic.fresh += 1;
     }
 
     pub(super) fn bytes(&self) -> u64 {
-        let lists = self.known.capacity() * size_of::<Known>()
+        let lists = self.known.capacity() * size_of::<Known<K>>()
+            + self.lists.capacity() * size_of::<(Range<u32>, bool)>()
             + self.outcomes.capacity() * size_of::<(K, u32, u64)>()
             + self.counts.capacity() * size_of::<Count>()
-            + self.visits.capacity() * size_of::<u128>();
+            + self.counted.capacity() * size_of::<u32>();
         lists as u64 + self.projections.bytes() + self.places.bytes()
     }
 
@@ -148,9 +207,10 @@ impl<K> Table<K> {
         self.projections = Index::default();
         self.places = Places::default();
         self.known = Vec::new();
+        self.lists = Vec::new();
         self.outcomes = Vec::new();
         self.counts = Vec::new();
-        self.visits = Vec::new();
+        self.counted = Vec::new();
     }
 }
 
@@ -208,9 +268,10 @@ mod tests {
             let from = table.outcomes.len();
             let outcomes = shares.iter().zip(0..).map(|(share, n)| (n, 0, *share));
             table.outcomes.extend(outcomes);
-            table.learn(from, 0, fault);
-            let known = table.known.last().expect("learned");
-            assert_eq!((known.is_fault(), known.adds_up), (fault, adds_up));
+            let place = table.known.len() as u32;
+            table.learn(from, fault);
+            let known = (table.follows(place).is_fault(), table.adds_up(place));
+            assert_eq!(known, (fault, adds_up));
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Ways through stages.
 
 use super::index::Merge;
+use super::table::Follows;
 use crate::pack::Key;
 
 /// A way through some stages: the index of the state so far, the class, the input combinations.
@@ -22,23 +23,30 @@ impl<K: Key> Way<K> {
 #[inline]
 pub(super) fn follow<K: Key>(
     way: Way<K>,
-    outcomes: &[(K, u32, u64)],
+    follows: Follows<K>,
     whole: u128,
     next: &mut Vec<Way<K>>,
     mut merge: Option<&mut Merge>,
 ) {
-    for (own, class, share) in outcomes {
-        let (key, class) = (way.key.plus(*own), *class);
-        let weight = part_of(way.weight, *share, whole);
+    let mut add = |own: K, class: u32, weight: u128| {
+        let key = way.key.plus(own);
         if let Some(merge) = merge.as_deref_mut() {
             let hash = key.hash() ^ u64::from(class).wrapping_mul(0x9e37_79b9_7f4a_7c15);
             let same = |at: usize| next[at].key == key && next[at].class == class;
             if let Some(at) = merge.find(hash, next.len(), same) {
                 next[at].weight += weight;
-                continue;
+                return;
             }
         }
         next.push(Way { key, class, weight });
+    };
+    match follows {
+        Follows::One(own, class) => add(own, class, way.weight),
+        Follows::Of(outcomes) => {
+            for (own, class, share) in outcomes {
+                add(*own, *class, part_of(way.weight, *share, whole));
+            }
+        }
     }
 }
 
