@@ -2,6 +2,7 @@
 
 use crate::crew::Crew;
 use crate::cursor::Leaf;
+use crate::graph::Graph;
 use crate::hashed::{Halves, Hashed, Plain};
 use crate::liveness::fair;
 use crate::model::Model;
@@ -12,7 +13,7 @@ use crate::recoverable::{recoverable, recovery};
 use crate::report::{
     Error, FaultReport, Judgement, Options, Progress, Report, Step, Storage, Trace, Verdict,
 };
-use crate::response::{Response, bounded, until};
+use crate::response::{Response, bounded, side_by_side, until, waiting};
 use crate::search::search;
 use crate::store::{Dense, Store};
 use crate::system::System;
@@ -403,6 +404,26 @@ fn decide<'a, T: Store>(
         }
     }
     let mut lost = recoverable(model, &goals, store, tally.states)?.into_iter();
+    let responses = properties
+        .iter()
+        .enumerate()
+        .filter_map(|(number, property)| {
+            let signs = tally.signs[number];
+            match property.form {
+                Form::LeadsTo {
+                    goal,
+                    assuming,
+                    within: Some(_),
+                    ..
+                } if tally.complete && signs.first.is_some() => {
+                    let response = Response::new(goal, assuming, signs);
+                    Some((number, response, &found.pending[number]))
+                }
+                _ => None,
+            }
+        });
+    let mut graphs = side_by_side(model, &responses.collect::<Vec<_>>(), held);
+    let held = held + graphs.values().map(Graph::bytes).sum::<u64>();
     let mut decisions = Vec::new();
     for (number, Property { form, .. }) in properties.iter().enumerate() {
         let signs = tally.signs[number];
@@ -454,13 +475,13 @@ fn decide<'a, T: Store>(
                 assuming,
                 ..
             } => {
-                let response = Response {
-                    goal: *goal,
-                    assuming: *assuming,
-                    met: signs.met,
-                };
+                let response = Response::new(*goal, *assuming, signs);
                 match within {
-                    Some(within) => bounded(model, form, response, *within, pending, witness, held),
+                    Some(within) => {
+                        let known = graphs.remove(&number);
+                        let graph = known.or_else(|| waiting(model, response, pending, held, None));
+                        bounded(model, form, response, *within, graph, witness)
+                    }
                     None => fair(model, form, response, conditions, pending, witness, held),
                 }
             }

@@ -84,6 +84,28 @@ impl<K: Key> Graph<K> {
         rules: &Rules<K>,
         held: u64,
     ) -> Option<Self> {
+        Self::by(model.crew.size(), u64::MAX, model, seeds, rules, held)
+    }
+
+    /// The same by the calling thread alone, if the graph takes no more than so many bytes.
+    pub(crate) fn alone(
+        most: u64,
+        model: &Model<Any, K>,
+        seeds: &[K],
+        rules: &Rules<K>,
+        held: u64,
+    ) -> Option<Self> {
+        Self::by(1, most, model, seeds, rules, held)
+    }
+
+    fn by(
+        threads: usize,
+        most: u64,
+        model: &Model<Any, K>,
+        seeds: &[K],
+        rules: &Rules<K>,
+        held: u64,
+    ) -> Option<Self> {
         let mut graph = Graph {
             nodes: Nodes::new(),
             first: vec![0],
@@ -95,7 +117,7 @@ impl<K: Key> Graph<K> {
             graph.nodes.add(*key)?;
         }
         graph.seeds = graph.nodes();
-        let mut workers: Vec<_> = (0..model.crew.size())
+        let mut workers: Vec<_> = (0..threads)
             .map(|_| {
                 let staged = model.quicker(&rules.conditions);
                 (model.cursor(), staged, Vec::<Piece<K>>::new())
@@ -104,6 +126,9 @@ impl<K: Key> Graph<K> {
         let mut done = 0;
         while done < graph.nodes.keys().len() {
             if model.watch.over(0) || model.watch.too_much(held + graph.bytes()) {
+                return None;
+            }
+            if graph.bytes() > most {
                 return None;
             }
             // What the pieces of this block hold, and whether it is too much.

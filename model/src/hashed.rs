@@ -143,7 +143,14 @@ pub(crate) struct Hashed<C> {
 pub(crate) struct HashedLocal<M> {
     batch: Batch<u64>,
     memory: M,
+    /// Codes that came last, each in the slot of its hash: most states come several times in a row of states, and what is found here
+    /// need not be looked for in memory that all threads write to.
+    recent: Vec<u64>,
 }
+
+/// Slots for such codes, as many as stay in a cache, and what stands in an empty one. That code is looked for in the set.
+const RECENT: usize = 1 << 13;
+const EMPTY: u64 = u64::MAX;
 
 impl<C: Code> Hashed<C> {
     pub(crate) fn new() -> Self {
@@ -179,13 +186,21 @@ impl<C: Code> Store for Hashed<C> {
         HashedLocal {
             batch: Batch::new(),
             memory: self.code.memory(),
+            recent: vec![EMPTY; RECENT],
         }
     }
 
     #[inline]
     fn visit(&self, local: &mut Self::Local, key: C::Key) {
         match self.code.encode(&mut local.memory, key) {
-            Some(code) => self.set.insert(&mut local.batch, code),
+            Some(code) => {
+                // The lower bits choose a shard, and the upper ones its slot.
+                let recent = &mut local.recent[(code.hash() >> 20) as usize % RECENT];
+                if *recent != code || code == EMPTY {
+                    *recent = code;
+                    self.set.insert(&mut local.batch, code);
+                }
+            }
             None => self.full.store(true, Ordering::Relaxed),
         }
     }
@@ -201,6 +216,7 @@ impl<C: Code> Store for Hashed<C> {
     fn undo(&mut self, locals: Vec<&mut Self::Local>) -> u64 {
         for local in locals {
             local.batch.clear();
+            local.recent.fill(EMPTY);
         }
         let mut count = 0;
         for (shard, to) in self.to.iter().enumerate() {

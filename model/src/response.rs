@@ -1,5 +1,6 @@
 //! Duties (obligations) with an end that the next few cycles decide: bounded responses, which are bounded leads-to, and weak until.
 
+use crate::choices::Odometer;
 use crate::crew::Crew;
 use crate::cursor::Leaf;
 use crate::duty::Duty;
@@ -17,6 +18,7 @@ use crate::store::Store;
 use crate::tally::Signs;
 use crate::trace::{Request, runs};
 use crate::watch::Watch;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -32,33 +34,53 @@ pub(crate) struct Response {
     pub(crate) met: bool,
 }
 
-/// Judges `goal` in one of the cycles k ..= k + within. The states after cycles with `when` and without `goal` are the
-/// seeds of a graph of the cycles without `goal`: the longest path from a seed tells the least bound that holds, the
-/// shortest one to a state that a cycle with `goal` leaves, the fastest reaction.
-pub(crate) fn bounded<'a, K: Key>(
+impl Response {
+    pub(crate) fn new<K>(goal: usize, assuming: Option<usize>, signs: Signs<K>) -> Self {
+        let met = signs.met;
+        Response {
+            goal,
+            assuming,
+            met,
+        }
+    }
+}
+
+/// The most bytes of the graph of a response that one thread finds by itself.
+const ROOM: u64 = 1 << 20;
+
+/// What a cycle is to the graph of a response.
+fn edge<'a, K: Key>(
     model: &'a Model<'a, Any<'a>, K>,
-    form: &'a Form,
-    response: Response,
-    within: u32,
-    pending: &Set<K>,
-    witness: Evidence<'a, K>,
-    held: u64,
-) -> Decision<'a, K> {
-    let Response {
-        goal,
-        assuming,
-        met,
-    } = response;
-    let edge = move |process: &mut dyn Process, choices: &mut crate::choices::Odometer, _: K| {
+    Response { goal, assuming, .. }: Response,
+) -> impl Fn(&mut dyn Process, &mut Odometer, K) -> Mark + Sync + 'a {
+    move |process, choices, _| {
         let mut eval = model.eval(process, choices);
         match (eval.atom(goal), eval.given(assuming)) {
             (false, true) => Mark::Edge(0),
             (true, true) => Mark::Exit,
             (_, false) => Mark::Outside,
         }
+    }
+}
+
+/// The graph of the cycles without the goal, from the states in which the duty is pending: by the calling thread alone if it takes
+/// `alone` bytes at most, or by all.
+pub(crate) fn waiting<'a, K: Key>(
+    model: &'a Model<'a, Any<'a>, K>,
+    response: Response,
+    pending: &Set<K>,
+    held: u64,
+    alone: Option<u64>,
+) -> Option<Graph<K>> {
+    let edge = edge(model, response);
+    let given: Condition = response.assuming.iter().map(|atom| (*atom, true)).collect();
+    let with = |value| {
+        given
+            .iter()
+            .copied()
+            .chain([(response.goal, value)])
+            .collect()
     };
-    let given: Condition = assuming.iter().map(|atom| (*atom, true)).collect();
-    let with = |value| given.iter().copied().chain([(goal, value)]).collect();
     let rules = Rules {
         rule: &edge,
         conditions: vec![with(false), with(true)],
@@ -68,7 +90,47 @@ pub(crate) fn bounded<'a, K: Key>(
             _ => Mark::Exit,
         },
     };
-    let Some(graph) = Graph::build(model, &pending.sorted(), &rules, held) else {
+    let seeds = pending.sorted();
+    match alone {
+        Some(most) => Graph::alone(most, model, &seeds, &rules, held),
+        None => Graph::build(model, &seeds, &rules, held),
+    }
+}
+
+/// The graphs of those of these responses whose graphs are small. Each of them is found by one thread, as what one learns of the stages
+/// of a cycle is of no use to another one.
+pub(crate) fn side_by_side<'a, K: Key>(
+    model: &'a Model<'a, Any<'a>, K>,
+    responses: &[(usize, Response, &Set<K>)],
+    held: u64,
+) -> BTreeMap<usize, Graph<K>> {
+    let room = held + model.known() + ROOM * responses.len() as u64;
+    let fits = model.watch.memory().is_none_or(|most| room <= most);
+    if responses.len() < 2 || !fits {
+        return BTreeMap::new();
+    }
+    let mut workers: Vec<_> = (0..model.crew.size()).map(|_| Vec::new()).collect();
+    model.crew.share(&mut workers, responses.len(), |own, n| {
+        let (number, response, pending) = responses[n];
+        let graph = waiting(model, response, pending, held, Some(ROOM));
+        own.extend(graph.map(|graph| (number, graph)));
+    });
+    workers.into_iter().flatten().collect()
+}
+
+/// Judges `goal` in one of the cycles k ..= k + within. The states after cycles with `when` and without `goal` are the
+/// seeds of a graph of the cycles without `goal`: the longest path from a seed tells the least bound that holds, the
+/// shortest one to a state that a cycle with `goal` leaves, the fastest reaction.
+pub(crate) fn bounded<'a, K: Key>(
+    model: &'a Model<'a, Any<'a>, K>,
+    form: &'a Form,
+    response: Response,
+    within: u32,
+    graph: Option<Graph<K>>,
+    witness: Evidence<'a, K>,
+) -> Decision<'a, K> {
+    let edge = edge(model, response);
+    let Some(graph) = graph else {
         return Verdict::Inconclusive.into();
     };
     let heights = graph.components(|_| true).heights(&graph);
@@ -76,7 +138,7 @@ pub(crate) fn bounded<'a, K: Key>(
     let bound = (0..graph.seeds)
         .map(|seed| heights[seed as usize].map(|h| u64::from(h) + 1))
         .try_fold(0, |most, one| one.map(|one| most.max(one)));
-    let fastest = match met {
+    let fastest = match response.met {
         true => Some(0),
         false => graph.nearest_exit().map(|edges| edges + 1),
     };
@@ -143,7 +205,7 @@ pub(crate) fn until<'a, K: Key>(
 ) -> Result<Decision<'a, K>, Error> {
     let violated = AtomicBool::new(signs.bad.is_some());
     if signs.bad.is_none() {
-        let rule = |process: &mut dyn Process, choices: &mut crate::choices::Odometer, _: K| {
+        let rule = |process: &mut dyn Process, choices: &mut Odometer, _: K| {
             let sign = model.eval(process, choices).duty(holds, unless);
             if sign.bad {
                 violated.store(true, Ordering::Relaxed);
