@@ -49,20 +49,25 @@ const DEPTH: usize = 1;
 /// # Errors
 /// The budget is spent.
 pub fn reachability(problem: &Problem, budget: &Budget) -> Result<(Reachability, Effort), Spent> {
-    let mut engine = Engine {
-        problem,
-        frames: Frames::new(problem, budget),
-        lift: Lift::new(
-            problem.graph(),
-            &problem.nodes,
-            problem.cone().map(|l| l.lit),
-        ),
-        budget,
-        obligations: Vec::new(),
-        effort: Effort::default(),
-    };
+    let mut engine = Engine::new(problem, usize::MAX, budget);
     let found = engine.decide()?;
     Ok((found, engine.effort))
+}
+
+/// Decides whether `bad` can be reached, if that takes no more than so many obligations.
+///
+/// # Errors
+/// The budget is spent.
+pub fn attempt(
+    problem: &Problem,
+    most: usize,
+    budget: &Budget,
+) -> Result<Option<Reachability>, Spent> {
+    let mut engine = Engine::new(problem, most, budget);
+    match engine.decide() {
+        Err(Spent) if engine.weary() => Ok(None),
+        found => found.map(Some),
+    }
 }
 
 /// States that lead to what is looked for.
@@ -78,11 +83,34 @@ struct Engine<'a> {
     frames: Frames<'a>,
     lift: Lift,
     budget: &'a Budget,
+    /// The most obligations.
+    most: usize,
     obligations: Vec<Obligation>,
     effort: Effort,
 }
 
-impl Engine<'_> {
+impl<'a> Engine<'a> {
+    fn new(problem: &'a Problem<'a>, most: usize, budget: &'a Budget) -> Self {
+        Engine {
+            problem,
+            frames: Frames::new(problem, budget),
+            lift: Lift::new(
+                problem.graph(),
+                &problem.nodes,
+                problem.cone().map(|l| l.lit),
+            ),
+            budget,
+            most,
+            obligations: Vec::new(),
+            effort: Effort::default(),
+        }
+    }
+
+    /// Whether there were more obligations than there may be.
+    fn weary(&self) -> bool {
+        self.effort.obligations > self.most
+    }
+
     fn decide(&mut self) -> Result<Reachability, Spent> {
         // A run of one cycle.
         if let Some(mut values) = self.frames.bad(0)? {
@@ -144,7 +172,7 @@ impl Engine<'_> {
         let mut open = BinaryHeap::from([Reverse((level, first))]);
         while let Some(Reverse((level, number))) = open.pop() {
             // The solvers of small questions hardly ever look at the time.
-            if self.budget.spent() {
+            if self.budget.spent() || self.weary() {
                 return Err(Spent);
             }
             let cube = self.obligations[number].cube.clone();

@@ -6,7 +6,8 @@
 //! is, and whatever parameters are part of the state.
 //!
 //! Regions are found from states that are in none yet: the inputs of a short run from there into the regions, and then all states that
-//! these inputs lead there alike. Where no short run does, inputs under which some number falls and nothing else changes.
+//! these inputs lead there alike. Where no short run does, inputs under which some number falls and nothing else changes. What this does
+//! not help waits until there are more regions.
 
 mod check;
 mod search;
@@ -14,13 +15,16 @@ mod search;
 use super::graph::Lit;
 use super::invariant::Invariant;
 use super::netlist::{Netlist, Problem};
-use super::pdr::{Reachability, reachability};
+use super::pdr::{Reachability, attempt};
 use super::sat::{Budget, Spent};
 use super::word::Word;
 use search::Search;
 
 /// States that are looked at for the sake of one before it is asked whether it is reached at all.
 const FEW: usize = 20;
+
+/// Obligations of the question whether it is reached: a state that is, but late, would take many.
+const ATTEMPT: usize = 1000;
 
 /// A proof of more regions is none that anybody wants to read.
 const REGIONS: usize = 2000;
@@ -83,23 +87,42 @@ pub fn ways(recovery: &Recovery, budget: &Budget) -> Result<Option<Ways>, Spent>
     }
     let problem = Problem::new(&netlist, end);
     let mut search = Search::new(&problem, recovery, budget);
-    while let Some(state) = search.uncovered()? {
-        if search.ways.steps.len() > REGIONS {
-            return Ok(None);
+    // A state from which no way is found soon is put off, with all that differ from it in numbers only: regions found for the sake of others
+    // may lead on from it. Only when there are no others, more is done about one.
+    let mut hard = false;
+    loop {
+        let (mut off, mut found) = (Vec::new(), false);
+        while let Some(state) = search.uncovered(&off)? {
+            if search.ways.steps.len() > REGIONS {
+                return Ok(None);
+            }
+            // A state that is not reached needs no way. Whatever its numbers are, that is told soonest.
+            let done = match hard {
+                false => {
+                    search.within(&state, Some(FEW))?
+                        || excluded(&netlist, &mut search, (&state, false), budget)?
+                }
+                true => {
+                    search.within(&state, None)?
+                        || excluded(&netlist, &mut search, (&state, true), budget)?
+                        || search.far(&state)?
+                }
+            };
+            match done {
+                true => found = true,
+                false => off.push(search.others(&state)),
+            }
+            if done && hard {
+                break;
+            }
         }
-        // A state that is not reached needs no way. Whatever its numbers are, that is told soonest, and before ways are looked for that take
-        // long.
-        if search.within(&state, Some(FEW))?
-            || excluded(&netlist, &mut search, (&state, false), budget)?
-            || search.within(&state, None)?
-            || search.far(&state)?
-            || excluded(&netlist, &mut search, (&state, true), budget)?
-        {
-            continue;
+        match found {
+            true => hard = false,
+            false if off.is_empty() => return Ok(Some(search.ways)),
+            false if hard => return Ok(None),
+            false => hard = true,
         }
-        return Ok(None);
     }
-    Ok(Some(search.ways))
 }
 
 /// Whether a state, with its numbers or with any, is not reached; then the invariant excludes it.
@@ -117,7 +140,8 @@ fn excluded(
     let here = cube.iter();
     let here = here.map(|(k, value)| netlist.latches[*k].lit.flipped(!value));
     let bad = netlist.graph.all(here.collect::<Vec<_>>());
-    let Reachability::Proved(invariant) = reachability(&Problem::new(&netlist, bad), budget)?.0
+    let Some(Reachability::Proved(invariant)) =
+        attempt(&Problem::new(&netlist, bad), ATTEMPT, budget)?
     else {
         return Ok(false);
     };

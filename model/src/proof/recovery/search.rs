@@ -203,10 +203,17 @@ impl<'a> Search<'a> {
         self.solver.solve(&terms)
     }
 
-    /// A state of the invariant that is in no region.
-    pub(super) fn uncovered(&mut self) -> Result<Option<Vec<bool>>, Spent> {
-        let found = self.solve(&[!self.covered])?;
+    /// A state of the invariant that is in no region, and among `these`.
+    pub(super) fn uncovered(&mut self, these: &[Lit]) -> Result<Option<Vec<bool>>, Spent> {
+        let found = self.solve(&[these, &[!self.covered]].concat())?;
         Ok(found.then(|| of(&self.answer(), &self.frames[0].state)))
+    }
+
+    /// That a state differs from this one in more than numbers.
+    pub(super) fn others(&mut self, state: &[bool]) -> Lit {
+        let region = self.cube(state, false);
+        let now = self.frames[0].state.clone();
+        !self.inside(&region, &now)
     }
 
     fn fixed(lits: &[Lit], values: &[bool]) -> Vec<Lit> {
@@ -239,6 +246,10 @@ impl<'a> Search<'a> {
         }
         for number in 0..self.moves.len() {
             for rises in [false, true] {
+                // Too much was looked at: all that led here ends too.
+                if self.looks > self.most {
+                    return Ok(false);
+                }
                 if self.accelerate(&here, state, Rank { number, rises }, depth)? {
                     return Ok(true);
                 }
