@@ -14,7 +14,7 @@ use stillpoint_engine::subject::{self, Readings};
 use stillpoint_engine::theorems::{OfSystem, Proved, RANGE, Theorems};
 use stillpoint_harness::proof::{Every, Settings, judge_every};
 use stillpoint_harness::theorems::certificates::{Certificates, check as check_certificates};
-use stillpoint_harness::theorems::{prints, ranges, systems};
+use stillpoint_harness::theorems::{Proving, Ranges, is_more, prints, prove, ranges, systems};
 use stillpoint_lang::Spec;
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::condition::Condition;
@@ -181,6 +181,64 @@ fn confirmed(work: &[Shown]) -> usize {
 fn certificates_of_theorems_are_confirmed() {
     let count = confirmed(&daily(shown()));
     assert!(count >= 100, "{count}");
+}
+
+/// What is known for some values is asked again for all, and stands there once then; what is not found for more stays as it was.
+#[test]
+fn what_is_known_for_fewer_values_is_asked_again() {
+    let family = folder("heidenhain-fs");
+    let name = "heidenhain-fs/cutout/brake".to_owned();
+    let certificates = Certificates::load(&family).unwrap_or_else(|e| panic!("{e}"));
+    let before = (theorems("heidenhain-fs"), certificates);
+    let ask = |known: &(Theorems, Certificates), time: Duration| {
+        let proving = Proving {
+            each: time,
+            open: true,
+            systems: vec!["brake".to_owned()],
+            interrupt: None,
+        };
+        let all = prove(&family, known, &proving, &mut |_| (), &mut |_| Ok(()));
+        all.unwrap_or_else(|_| panic!("it is proved")).0
+    };
+    let mut few = before.clone();
+    let proved = &mut few.0.systems.get_mut(&name).expect("known").proved;
+    assert!(proved.len() == 1 && proved[0].within.is_empty());
+    proved[0].within = [("factor".to_owned(), (0, 15))].into();
+    proved[0].every = "factor = 0 .. 15: 16 configurations".to_owned();
+    let within = |all: &Theorems, label: &str| -> Vec<Ranges> {
+        let own = &all.systems[&name];
+        assert!(own.open.is_empty());
+        let of = own.proved.iter().filter(|p| p.holds.contains_key(label));
+        of.map(|proved| proved.within.clone()).collect()
+    };
+    let all = ask(&few, Duration::from_secs(60));
+    for label in before.0.systems[&name].proved[0].holds.keys() {
+        assert_eq!(within(&all, label), [Ranges::new()], "{label}");
+    }
+    // Without time the ranges alone are decided.
+    let all = ask(&few, Duration::ZERO);
+    assert_eq!(
+        within(&all, "HFS-BRT-002"),
+        [Ranges::from([("factor".to_owned(), (0, 15))])]
+    );
+}
+
+/// A range that is left out is the whole one.
+#[test]
+fn more_is_more_of_each_parameter() {
+    let few = Ranges::from([("a".to_owned(), (0, 15)), ("b".to_owned(), (-8, 7))]);
+    let only = |a| Ranges::from([("a".to_owned(), a)]);
+    for (these, more) in [
+        (few.clone(), false),
+        (Ranges::new(), true),
+        (only((0, 15)), true),
+        (only((0, 255)), true),
+        (only((1, 255)), false),
+        (Ranges::from([("c".to_owned(), (0, 15))]), false),
+    ] {
+        assert_eq!(is_more(&these, &few), more, "{these:?}");
+    }
+    assert!(!is_more(&few, &only((0, 15))));
 }
 
 /// A certificate that says something else, or is about something else, confirms nothing.

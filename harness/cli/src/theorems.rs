@@ -27,7 +27,7 @@ pub struct Arguments {
     /// Check the certificates of all theorems, without the engines that have found them
     #[arg(long, conflicts_with = "prove")]
     check: bool,
-    /// Ask also those again that were not proved before
+    /// Ask also those again that were not proved before, and those for more values that are known for fewer
     #[arg(long, requires = "prove")]
     open: bool,
     /// Only about this system; may be given several times

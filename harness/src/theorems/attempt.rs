@@ -16,6 +16,7 @@ use stillpoint_model::{Interrupt, Verdict};
 
 use super::certificates::certified;
 use super::conditions::Search;
+use super::wider::wider;
 use super::{Failed, Proving, prints};
 use crate::proof::{
     Engine, Every, Judged, Proof, Settings, Shown, Span, Which, deciding, judge_every, untold,
@@ -56,7 +57,8 @@ pub(super) fn of_system(
     let known = known.filter(|known| same(&known.0)).cloned();
     let own = match known {
         Some(known) if !proving.open => return Ok(known),
-        known => known.unwrap_or((own, Vec::new())),
+        Some(known) => wider(bound, known, proving, told)?,
+        None => (own, Vec::new()),
     };
     let mut attempt = Attempt {
         bound,
@@ -101,18 +103,18 @@ pub fn ranges(bound: &Bound, within: &BTreeMap<String, (i64, i64)>) -> Which {
     Which::Named(spans.collect())
 }
 
-struct Attempt<'a> {
-    bound: &'a Bound,
-    own: Own,
-    proving: &'a Proving,
+pub(super) struct Attempt<'a> {
+    pub(super) bound: &'a Bound,
+    pub(super) own: Own,
+    pub(super) proving: &'a Proving,
     /// Properties for which conditions were searched.
-    searched: BTreeSet<String>,
-    told: &'a mut dyn FnMut(&str),
+    pub(super) searched: BTreeSet<String>,
+    pub(super) told: &'a mut dyn FnMut(&str),
 }
 
 impl Attempt<'_> {
     /// Tries all values; where the system cannot be told with them, as many as it can be told with.
-    fn widest(&mut self) -> Result<(), Failed> {
+    pub(super) fn widest(&mut self) -> Result<(), Failed> {
         let narrower = NARROWER.iter().map(|n| windows(self.bound, *n, *n));
         let all = std::iter::once(BTreeMap::new()).chain(narrower);
         for within in all.collect::<Vec<_>>() {

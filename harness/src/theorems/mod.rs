@@ -4,6 +4,7 @@ mod attempt;
 pub mod certificates;
 mod conditions;
 mod text;
+mod wider;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -24,12 +25,13 @@ use certificates::{Certificates, Confirmed};
 
 pub use attempt::ranges;
 pub use text::{count, text, told};
+pub use wider::{Ranges, is_more};
 
 /// How to prove.
 pub struct Proving {
     /// Wall time for a property.
     pub each: Duration,
-    /// Ask again what was not proved before.
+    /// Ask again what was not proved before, and for more values what is known for fewer.
     pub open: bool,
     /// Only about these systems, by their names in their files; none: about all.
     pub systems: Vec<String>,
