@@ -77,35 +77,19 @@ struct Piece<K> {
 }
 
 impl<K: Key> Graph<K> {
-    /// The graph reached from the seeds; none if a limit is reached first. `held` bytes are in use elsewhere.
+    /// The graph reached from the seeds; none if a limit is reached first. `held` bytes are in use elsewhere. By the calling thread `alone` if
+    /// the graph takes so many bytes at most, else by all.
     pub(crate) fn build(
         model: &Model<Any, K>,
         seeds: &[K],
         rules: &Rules<K>,
         held: u64,
+        alone: Option<u64>,
     ) -> Option<Self> {
-        Self::by(model.crew.size(), u64::MAX, model, seeds, rules, held)
-    }
-
-    /// The same by the calling thread alone, if the graph takes no more than so many bytes.
-    pub(crate) fn alone(
-        most: u64,
-        model: &Model<Any, K>,
-        seeds: &[K],
-        rules: &Rules<K>,
-        held: u64,
-    ) -> Option<Self> {
-        Self::by(1, most, model, seeds, rules, held)
-    }
-
-    fn by(
-        threads: usize,
-        most: u64,
-        model: &Model<Any, K>,
-        seeds: &[K],
-        rules: &Rules<K>,
-        held: u64,
-    ) -> Option<Self> {
+        let (threads, most) = match alone {
+            Some(most) => (1, most),
+            None => (model.crew.size(), u64::MAX),
+        };
         let mut graph = Graph {
             nodes: Nodes::new(),
             first: vec![0],

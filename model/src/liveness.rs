@@ -60,7 +60,7 @@ pub(crate) fn fair<'a, K: Key>(
             _ => Mark::Edge((marks >> 1) as u32),
         },
     };
-    let Some(graph) = Graph::build(model, &pending.sorted(), &rules, held) else {
+    let Some(graph) = Graph::build(model, &pending.sorted(), &rules, held, None) else {
         return Verdict::Inconclusive.into();
     };
     let all = (1u32 << fair.len()) - 1;

@@ -157,7 +157,7 @@ fn together<'a, K: Key>(
         mark: &|marks, after| mark(label_of(marks), after),
     };
     let held = held + size_of_val(left.as_slice()) as u64;
-    let graph = Arc::new(Graph::build(model, &left, &rules, held)?);
+    let graph = Arc::new(Graph::build(model, &left, &rules, held, None)?);
     let lost = (0..number).map(|number| {
         let used = |edge: Edge| split(edge.label).0 >> number & 1 != 0;
         let reached = |edge: &Edge| split(edge.label).1 >> number & 1 != 0;

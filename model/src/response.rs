@@ -91,10 +91,7 @@ pub(crate) fn waiting<'a, K: Key>(
         },
     };
     let seeds = pending.sorted();
-    match alone {
-        Some(most) => Graph::alone(most, model, &seeds, &rules, held),
-        None => Graph::build(model, &seeds, &rules, held),
-    }
+    Graph::build(model, &seeds, &rules, held, alone)
 }
 
 /// The graphs of those of these responses whose graphs are small. Each of them is found by one thread, as what one learns of the stages
@@ -231,7 +228,7 @@ pub(crate) fn until<'a, K: Key>(
                 }
             },
         };
-        if Graph::build(model, &pending.sorted(), &rules, held).is_none()
+        if Graph::build(model, &pending.sorted(), &rules, held, None).is_none()
             && !violated.load(Ordering::Relaxed)
         {
             return Ok(Verdict::Inconclusive.into());
