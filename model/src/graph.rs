@@ -112,12 +112,14 @@ impl<K: Key> Graph<K> {
             if model.watch.over(0) || model.watch.too_much(held + graph.bytes()) {
                 return None;
             }
-            if graph.bytes() > most {
+            let here = graph.bytes();
+            if here > most {
                 return None;
             }
             // What the pieces of this block hold, and whether it is too much.
             let (found, broken) = (AtomicU64::new(0), AtomicBool::new(false));
-            let before = held + graph.bytes() + model.known();
+            let before = held + here + model.known();
+            let too_much = |own| model.watch.too_much(before + own) || here + own > most;
             let keys = graph.nodes.keys();
             let block = &keys[done..keys.len().min(done + 1024 * PIECE)];
             model.crew.share(
@@ -144,7 +146,7 @@ impl<K: Key> Graph<K> {
                                     exits |= mark.note(*key, after, &mut ends);
                                 }
                                 let own = found.load(Ordering::Relaxed) + ends.bytes();
-                                !model.watch.too_much(before + own) && !model.watch.ended()
+                                !too_much(own) && !model.watch.ended()
                             }
                             None => {
                                 cursor.leaves(&model.packer, *key, |process, odometer, leaf| {
@@ -153,7 +155,7 @@ impl<K: Key> Graph<K> {
                                         exits |= mark.note(*key, after, &mut ends);
                                     }
                                     let own = found.load(Ordering::Relaxed) + ends.bytes();
-                                    match model.watch.too_much(before + own) {
+                                    match too_much(own) {
                                         true => ControlFlow::Break(()),
                                         false => ControlFlow::Continue(()),
                                     }
@@ -199,7 +201,7 @@ impl<K: Key> Graph<K> {
             }
         }
         // Also the graph that is done counts.
-        (!model.watch.too_much(held + graph.bytes())).then_some(graph)
+        (!model.watch.too_much(held + graph.bytes()) && graph.bytes() <= most).then_some(graph)
     }
 
     pub(crate) fn bytes(&self) -> u64 {

@@ -103,7 +103,7 @@ pub(crate) fn side_by_side<'a, K: Key>(
 ) -> BTreeMap<usize, Graph<K>> {
     let room = held + model.known() + ROOM * responses.len() as u64;
     let fits = model.watch.memory().is_none_or(|most| room <= most);
-    if responses.len() < 2 || !fits {
+    if responses.len() < 2 || model.crew.size() < 2 || !fits {
         return BTreeMap::new();
     }
     let mut workers: Vec<_> = (0..model.crew.size()).map(|_| Vec::new()).collect();
