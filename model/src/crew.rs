@@ -1,6 +1,7 @@
 //! The worker pool: the threads of one search.
 
 use crate::report::Error;
+use rayon::slice::ParallelSliceMut;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -54,6 +55,11 @@ impl Crew {
 
     pub(crate) fn size(&self) -> usize {
         self.pool.current_num_threads()
+    }
+
+    /// Brings a list in ascending order.
+    pub(crate) fn sort(&self, list: &mut [u64]) {
+        self.pool.install(|| list.par_sort_unstable());
     }
 
     /// Does pieces of work, each once. Each worker runs on a thread of its own and begins with its share of the pieces,

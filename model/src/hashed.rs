@@ -1,6 +1,7 @@
 //! The states of a sparse space, in an exact hash set; the frontier is the end of its lists.
 
 use crate::checkpoint::{In, Out};
+use crate::crew::Crew;
 use crate::pack::{Key, Wide};
 use crate::set::{Batch, SHARDS, Set};
 use crate::store::{PIECE, Store};
@@ -136,6 +137,9 @@ pub(crate) struct Hashed<C> {
     to: Vec<usize>,
     /// Pieces of the frontier: shard, first place.
     pieces: Vec<(usize, usize)>,
+    /// The frontier, where it is arranged: the codes of states that are alike in their first half, or in the first variables, stand
+    /// together.
+    arranged: Option<Vec<u64>>,
     full: AtomicBool,
 }
 
@@ -160,6 +164,7 @@ impl<C: Code> Hashed<C> {
             from: vec![0; SHARDS],
             to: vec![0; SHARDS],
             pieces: Vec::new(),
+            arranged: None,
             full: AtomicBool::new(false),
         }
     }
@@ -167,6 +172,7 @@ impl<C: Code> Hashed<C> {
     /// Makes the states from `from` to `to` the frontier and gives their number.
     fn set_frontier(&mut self, from: Vec<usize>, to: Vec<usize>) -> u64 {
         self.pieces.clear();
+        self.arranged = None;
         let mut count = 0;
         for (shard, (from, to)) in from.iter().zip(&to).enumerate() {
             let starts = (*from..*to).step_by(PIECE);
@@ -250,8 +256,20 @@ impl<C: Code> Store for Hashed<C> {
         Ok(())
     }
 
+    fn arrange(&mut self, crew: &Crew) {
+        let mut codes = Vec::with_capacity(self.size() as usize);
+        for (shard, (from, to)) in self.from.iter().zip(&self.to).enumerate() {
+            codes.extend_from_slice(&self.set.shard(shard).keys[*from..*to]);
+        }
+        crew.sort(&mut codes);
+        self.arranged = Some(codes);
+    }
+
     fn pieces(&self) -> usize {
-        self.pieces.len()
+        match &self.arranged {
+            Some(codes) => codes.len().div_ceil(PIECE),
+            None => self.pieces.len(),
+        }
     }
 
     fn size(&self) -> u64 {
@@ -261,6 +279,11 @@ impl<C: Code> Store for Hashed<C> {
 
     #[inline]
     fn each(&self, piece: usize, mut visit: impl FnMut(C::Key)) {
+        if let Some(codes) = &self.arranged {
+            let codes = &codes[piece * PIECE..codes.len().min((piece + 1) * PIECE)];
+            codes.iter().for_each(|code| visit(self.code.decode(*code)));
+            return;
+        }
         let (shard, start) = self.pieces[piece];
         let end = self.to[shard].min(start + PIECE);
         let mut codes = [0; PIECE];
@@ -284,7 +307,10 @@ impl<C: Code> Store for Hashed<C> {
 
     fn bytes(&self) -> u64 {
         match self.full.load(Ordering::Relaxed) {
-            false => self.set.bytes() + self.code.bytes(),
+            false => {
+                let arranged = self.arranged.as_ref().map_or(0, |codes| 8 * codes.len());
+                self.set.bytes() + self.code.bytes() + arranged as u64
+            }
             true => u64::MAX / 4,
         }
     }

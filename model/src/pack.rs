@@ -114,6 +114,12 @@ pub(crate) struct Place {
     pub(crate) top: bool,
 }
 
+/// The state of an index, and what was left of the index at each of its digits, from the least significant one on.
+pub(crate) struct Opened {
+    pub(crate) state: Vec<i32>,
+    rests: Vec<Option<u64>>,
+}
+
 /// Packs the values of one list of domains; in each half the first variable is the most significant.
 #[derive(Clone, Debug)]
 pub(crate) struct Packer<K> {
@@ -249,6 +255,40 @@ impl<K: Key> Packer<K> {
         }
     }
 
+    /// The state of an index, from the one opened before: of an index near to that one most digits are the same.
+    #[inline]
+    pub(crate) fn open(&self, key: K, opened: &mut Opened) {
+        let mut rest = key.halves();
+        let mut same = [false; 2];
+        for (variable, before) in self.order.iter().zip(&mut opened.rests) {
+            let digit = &self.digits[*variable];
+            let half = if K::HALVES == 1 { 0 } else { digit.half & 1 };
+            if same[half] {
+                continue;
+            }
+            if *before == Some(rest[half]) {
+                // So are all digits above it.
+                same[half] = true;
+                if same[..K::HALVES].iter().all(|same| *same) {
+                    return;
+                }
+                continue;
+            }
+            *before = Some(rest[half]);
+            let offset = rest[half] % digit.size;
+            rest[half] /= digit.size;
+            opened.state[*variable] = (i64::from(digit.lo) + offset as i64) as i32;
+        }
+    }
+
+    /// For [`Packer::open`].
+    pub(crate) fn opened(&self) -> Opened {
+        Opened {
+            state: vec![0; self.digits.len()],
+            rests: vec![None; self.digits.len()],
+        }
+    }
+
     /// The state of an index, as a new vector.
     pub(crate) fn state(&self, key: K) -> Vec<i32> {
         let mut state = vec![0; self.digits.len()];
@@ -292,6 +332,22 @@ mod tests {
         for outside in [[-4, 7, 0], [5, 7, 0], [0, 8, 0], [0, 7, 3], [0, 6, 0]] {
             assert_eq!(narrow.pack(&outside), None);
             assert_eq!(wide.pack(&outside), None);
+        }
+    }
+
+    #[test]
+    fn an_index_is_opened_from_any_other() {
+        let domains = [1, 5, 3, 7, 1, 4].map(|hi| Domain { lo: -1, hi });
+        let space = space(&domains).unwrap() as u64;
+        let (narrow, wide) = (packer::<u64>(&domains), packer::<Wide>(&domains));
+        let (mut one, mut two) = (narrow.opened(), wide.opened());
+        let far = (0..2000).map(|n: u64| n * 7919 % space);
+        for key in (0..space).chain(far) {
+            narrow.open(key, &mut one);
+            assert_eq!(one.state, narrow.state(key));
+            let same = wide.pack(&one.state).unwrap();
+            wide.open(same, &mut two);
+            assert_eq!(two.state, one.state);
         }
     }
 

@@ -83,6 +83,9 @@ pub(crate) fn search<O: Origin, T: Store>(
             })
             .collect();
         staging.prepare(model, properties, &open, &mut found.tally, &mut workers);
+        if staging.active {
+            store.arrange(model.crew);
+        }
         let level = Level {
             model,
             store: &*store,

@@ -2,6 +2,7 @@
 
 use crate::bitmap::{Bitmap, place};
 use crate::checkpoint::{In, Out};
+use crate::crew::Crew;
 use crate::pack::Key;
 use std::io;
 use std::sync::atomic::Ordering;
@@ -24,6 +25,9 @@ pub(crate) trait Store: Sync {
     fn save(&self, out: &mut Out) -> io::Result<()>;
     /// Reads them into an empty store.
     fn load(&mut self, input: &mut In) -> io::Result<()>;
+    /// Brings the frontier in an order in which states next to each other are much alike, where it has none: what is known of one
+    /// helps with the next.
+    fn arrange(&mut self, crew: &Crew);
     /// The frontier in pieces, to be shared out.
     fn pieces(&self) -> usize;
     fn each(&self, piece: usize, visit: impl FnMut(Self::Key));
@@ -209,6 +213,10 @@ impl Store for Dense {
         self.size = input.number()?;
         self.list = input.numbers()?;
         Ok(())
+    }
+
+    fn arrange(&mut self, crew: &Crew) {
+        crew.sort(&mut self.list);
     }
 
     fn pieces(&self) -> usize {

@@ -2,6 +2,7 @@
 //! that were reached, as intervals. A timer that runs down from its start leaves one interval, however long it is.
 
 use crate::checkpoint::{In, Out};
+use crate::crew::Crew;
 use crate::pack::Key;
 use crate::set::{SHARDS, Shard};
 use crate::store::{PIECE, Store};
@@ -261,6 +262,10 @@ impl Store for Ticked {
         }
         self.list = input.numbers()?;
         Ok(())
+    }
+
+    fn arrange(&mut self, crew: &Crew) {
+        crew.sort(&mut self.list);
     }
 
     fn pieces(&self) -> usize {

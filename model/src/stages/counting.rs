@@ -24,6 +24,7 @@ impl<K: Key> Staged<'_, K> {
     }
 
     pub(super) fn drain(&mut self, each: &mut dyn FnMut(usize, u64)) {
+        (0..self.groups.len()).for_each(|group| self.settle(group));
         let stages = self.writes.len();
         // What comes to a group comes to tables before its own.
         let groups = stages..self.tables.len();

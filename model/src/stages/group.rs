@@ -2,6 +2,7 @@
 
 use super::Staged;
 use super::fusion::Change;
+use super::prefix::Prefix;
 use super::table::{Count, Table, Traffic};
 use super::ways::{Way, follow};
 use crate::pack::Key;
@@ -61,7 +62,7 @@ impl<K: Key> Staged<'_, K> {
         ways.clear();
         ways.push(Way::begin(class, whole));
         'parts: for part in parts {
-            let projection = self.tables[part.table].projection(&self.before);
+            let projection = self.tables[part.table].projection(&self.opened.state);
             next.clear();
             merge.start();
             for way in &ways {
@@ -101,6 +102,7 @@ impl<K: Key> Staged<'_, K> {
             .iter()
             .map(Table::bytes)
             .sum::<u64>();
+        self.forget_prefixes();
         let room = bytes < self.most / SHARE_OF_GROUPS;
         let last = self.groups[self.groups.len() - 1].table;
         match self.fusion.next(&seen, room) {
@@ -132,6 +134,8 @@ impl<K: Key> Staged<'_, K> {
             }
             None => {}
         }
+        self.prefixes
+            .resize_with(self.groups.len(), Prefix::default);
         for table in &mut self.tables {
             table.traffic = Traffic::default();
         }

@@ -9,6 +9,7 @@ mod fusion;
 mod group;
 mod index;
 mod pace;
+mod prefix;
 mod seen;
 mod table;
 mod watched;
@@ -17,13 +18,14 @@ mod ways;
 pub(crate) use pace::Pace;
 pub(crate) use watched::{Event, Watched};
 
-use crate::pack::{Key, Packer};
+use crate::pack::{Key, Opened, Packer};
 use crate::process::Origin;
 use crate::system::{Domain, Fault};
 use counting::visit;
 use fusion::Fusion;
 use group::Group;
 use index::Merge;
+use prefix::Prefix;
 pub(crate) use seen::Burst;
 use seen::Seen;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -100,16 +102,16 @@ pub(crate) struct Staged<'a, K> {
     domains: &'a [Domain],
     packer: &'a Packer<K>,
     combinations: u128,
-    before: Vec<i32>,
+    opened: Opened,
     after: Vec<i32>,
     list: Vec<Outcome>,
-    ways: Vec<Way<K>>,
-    next: Vec<Way<K>>,
+    /// One for each group.
+    prefixes: Vec<Prefix<K>>,
     merge: Merge,
-    /// The same three, for each group that learns within another one.
+    /// What is needed for ways, for each group that learns within another one.
     inner: Vec<Room<K>>,
-    /// The places looked up for this state, with the combinations that came there.
-    looked: Vec<(u32, u32, u128)>,
+    /// The places looked up in the last table for this state.
+    places: Vec<u32>,
     marks: Vec<u128>,
     seen: Seen<K>,
     /// Of rules, from what was forgotten since.
@@ -154,6 +156,7 @@ impl<'a, K: Key> Staged<'a, K> {
             }
             writes.push(own);
         }
+        let prefixes = tables.iter().map(|_| Prefix::default()).collect();
         let whole = !tables.is_empty() && owned.iter().all(|owned| *owned);
         whole.then(|| Staged {
             groups: (0..tables.len()).map(Group::single).collect(),
@@ -164,14 +167,13 @@ impl<'a, K: Key> Staged<'a, K> {
             domains,
             packer,
             combinations: origin.combinations(),
-            before: vec![0; domains.len()],
+            opened: packer.opened(),
             after: vec![0; domains.len()],
             list: Vec::new(),
-            ways: Vec::new(),
-            next: Vec::new(),
+            prefixes,
             merge: Merge::default(),
             inner: Vec::new(),
-            looked: Vec::new(),
+            places: Vec::new(),
             marks: Vec::new(),
             seen: Seen::new(most),
             fired: Vec::new(),
@@ -186,10 +188,10 @@ impl<'a, K: Key> Staged<'a, K> {
     #[inline]
     pub(crate) fn cycles(&mut self, key: K) -> bool {
         self.begin(key);
-        let last = self.groups.len() - 1;
-        let made = (0..=last).all(|group| self.pass(group, group == last));
+        let groups = self.groups.len();
+        let made = self.pass(groups);
         if made {
-            self.end();
+            self.count_state(groups);
         }
         made
     }
@@ -205,15 +207,51 @@ impl<'a, K: Key> Staged<'a, K> {
     ) -> Option<u128> {
         self.begin(key);
         let last = self.groups.len() - 1;
-        if !(0..last).all(|group| self.pass(group, false)) {
+        if !self.pass(last) {
             return None;
         }
+        let ways = match last.checked_sub(1) {
+            Some(before) => std::mem::take(&mut self.prefixes[before].ways),
+            None => vec![Way::begin(0, self.combinations)],
+        };
+        let weight = self.look_up(last, &ways);
+        if weight.is_some() {
+            let of = &mut self.tables[self.groups[last].table];
+            of.traffic.ways += ways.len() as u64;
+            for (way, place) in ways.iter().zip(&self.places) {
+                visit(of.visits(*place), Some(way.weight), self.combinations);
+                let burst = Burst {
+                    state: way.key,
+                    follows: of.follows(*place),
+                    marks: &self.marks,
+                };
+                if burst.is_one() {
+                    each(None, burst);
+                    continue;
+                }
+                let note = self.seen.note(way.key, *place);
+                let new = each(note, burst);
+                if note != Some(new) {
+                    self.seen.add(way.key, *place, new);
+                }
+            }
+            self.count_state(last);
+        }
+        if let Some(before) = last.checked_sub(1) {
+            self.prefixes[before].ways = ways;
+        }
+        weight
+    }
+
+    /// Looks up the places of ways in the table of the last group. The input combinations whose shares are there, added up; none if
+    /// one of them meets a fault.
+    #[inline]
+    fn look_up(&mut self, last: usize, ways: &[Way<K>]) -> Option<u128> {
         let table = self.groups[last].table;
-        let projection = self.tables[table].projection(&self.before);
-        let from = self.looked.len();
+        let projection = self.tables[table].projection(&self.opened.state);
+        self.places.clear();
         let mut weight = 0u128;
-        for at in 0..self.ways.len() {
-            let way = self.ways[at];
+        for way in ways {
             let (place, fresh) = self.tables[table].place(projection, way.class);
             if fresh {
                 self.learn(last, way.class);
@@ -222,56 +260,79 @@ impl<'a, K: Key> Staged<'a, K> {
             if of.follows(place).is_fault() {
                 return None;
             }
-            self.looked.push((table as u32, place, way.weight));
+            self.places.push(place);
             // Where shares are missing it does not come to all of them.
             if of.adds_up(place) {
                 weight = weight.wrapping_add(way.weight);
             }
         }
-        let of = &mut self.tables[table];
-        of.traffic.ways += self.ways.len() as u64;
-        for (way, (_, place, _)) in self.ways.iter().zip(&self.looked[from..]) {
-            let burst = Burst {
-                state: way.key,
-                follows: of.follows(*place),
-                marks: &self.marks,
-            };
-            if burst.is_one() {
-                each(None, burst);
-                continue;
-            }
-            let note = self.seen.note(way.key, *place);
-            let new = each(note, burst);
-            if note != Some(new) {
-                self.seen.add(way.key, *place, new);
-            }
-        }
-        self.end();
         Some(weight)
     }
 
     /// Nothing is made yet of this state.
     #[inline]
     fn begin(&mut self, key: K) {
-        self.packer.unpack(key, &mut self.before);
-        self.looked.clear();
-        self.ways.clear();
-        self.ways.push(Way::begin(0, self.combinations));
+        if std::mem::take(&mut self.grown) {
+            self.weigh();
+        }
+        if self.fusion.is_due() {
+            self.fuse();
+        }
+        self.packer.open(key, &mut self.opened);
     }
 
-    /// Goes on through the stages of a group; false if one of the ways meets a fault.
+    /// Goes through the stages of the first groups, as far as their prefixes are not the same; false if one of the ways meets a fault.
     #[inline]
-    fn pass(&mut self, group: usize, last: bool) -> bool {
+    fn pass(&mut self, groups: usize) -> bool {
+        let state = &self.opened.state;
+        let same = |group: &usize| {
+            let read = self.tables[self.groups[*group].table].read(state);
+            self.prefixes[*group].read != Some(read)
+        };
+        match (0..groups).find(same) {
+            Some(first) => self.pass_from(first, groups),
+            None => true,
+        }
+    }
+
+    fn pass_from(&mut self, first: usize, groups: usize) -> bool {
+        for group in first..self.groups.len() {
+            self.settle(group);
+            self.prefixes[group].read = None;
+        }
+        (first..groups).all(|group| self.pass_one(group))
+    }
+
+    /// Goes on through the stages of a group.
+    fn pass_one(&mut self, group: usize) -> bool {
+        let mut own = std::mem::take(&mut self.prefixes[group]);
+        own.ways.clear();
+        own.looked.clear();
+        let made = match group.checked_sub(1) {
+            Some(before) => {
+                let ways = std::mem::take(&mut self.prefixes[before].ways);
+                let made = self.follow_all(group, &ways, &mut own);
+                self.prefixes[before].ways = ways;
+                made
+            }
+            None => self.follow_all(group, &[Way::begin(0, self.combinations)], &mut own),
+        };
+        let table = &self.tables[self.groups[group].table];
+        own.read = made.then(|| table.read(&self.opened.state));
+        self.prefixes[group] = own;
+        made
+    }
+
+    /// Makes what follows from these ways in a group; false if one of them meets a fault.
+    fn follow_all(&mut self, group: usize, ways: &[Way<K>], own: &mut Prefix<K>) -> bool {
         let table = self.groups[group].table;
-        let projection = self.tables[table].projection(&self.before);
-        let merges = self.tables[table].merges.begin() || last;
-        self.next.clear();
+        let projection = self.tables[table].projection(&self.opened.state);
+        let merges = self.tables[table].merges.begin() || group + 1 == self.groups.len();
         if merges {
             self.merge.start();
         }
         let mut made = 0;
-        for at in 0..self.ways.len() {
-            let way = self.ways[at];
+        for way in ways {
             let (place, fresh) = self.tables[table].place(projection, way.class);
             if fresh {
                 self.learn(group, way.class);
@@ -283,31 +344,23 @@ impl<'a, K: Key> Staged<'a, K> {
                 Follows::Of([]) => return false,
                 Follows::Of(outcomes) => outcomes.len(),
             };
-            self.looked.push((table as u32, place, way.weight));
+            own.looked.push((place, way.weight));
             let merge = merges.then_some(&mut self.merge);
-            follow(way, follows, of.whole, &mut self.next, merge);
+            follow(*way, follows, of.whole, &mut own.ways, merge);
         }
         let of = &mut self.tables[table];
         if merges {
-            of.merges.end(made, self.next.len());
+            of.merges.end(made, own.ways.len());
         }
-        of.traffic.ways += self.ways.len() as u64;
-        std::mem::swap(&mut self.ways, &mut self.next);
+        of.traffic.ways += ways.len() as u64;
         true
     }
 
-    /// Counts what has come to the places looked up.
+    /// Counts a state whose cycles are made, in the first groups.
     #[inline]
-    fn end(&mut self) {
-        for (table, place, weight) in &self.looked {
-            let visits = self.tables[*table as usize].visits(*place);
-            visit(visits, Some(*weight), self.combinations);
-        }
-        if std::mem::take(&mut self.grown) {
-            self.weigh();
-        }
-        if self.fusion.is_due() {
-            self.fuse();
+    fn count_state(&mut self, groups: usize) {
+        for prefix in &mut self.prefixes[..groups] {
+            prefix.states += 1;
         }
     }
 
@@ -322,7 +375,8 @@ impl<'a, K: Key> Staged<'a, K> {
     #[inline]
     pub(crate) fn ends(&self) -> impl ExactSizeIterator<Item = (K, u128)> + '_ {
         let marks = &self.marks;
-        self.ways.iter().map(|way| {
+        let ways = self.prefixes.last().map_or(&[][..], |all| &all.ways);
+        ways.iter().map(|way| {
             let marks = marks.get(way.class as usize).copied();
             (way.key, marks.unwrap_or(0))
         })
@@ -341,7 +395,7 @@ impl<'a, K: Key> Staged<'a, K> {
         self.list.clear();
         let made = self
             .stages
-            .outcomes(stage, &self.before, class, &mut self.list);
+            .outcomes(stage, &self.opened.state, class, &mut self.list);
         let last = stage + 1 == self.writes.len();
         let writes = &self.writes[stage];
         let table = &mut self.tables[stage];
@@ -386,6 +440,7 @@ impl<'a, K: Key> Staged<'a, K> {
     /// Tells what is held, and forgets all if it is too much.
     fn weigh(&mut self) {
         if self.bytes() > self.most {
+            self.forget_prefixes();
             let mut kept = std::mem::take(&mut self.fired);
             self.drain(&mut |rule, count| kept.push((rule, count)));
             self.fired = kept;

@@ -1,0 +1,53 @@
+//! The ways behind each group of stages but the last, as the state before left them: of states that are much alike the first stages
+//! read the same, so that what they make of it is there already.
+
+use super::Staged;
+use super::counting::visit;
+use super::ways::Way;
+use crate::pack::Key;
+
+/// What a group has made of the values that it reads and of what the groups before it made.
+pub(super) struct Prefix<K> {
+    /// Those values, as a number; none if nothing is known.
+    pub(super) read: Option<u64>,
+    pub(super) ways: Vec<Way<K>>,
+    /// The places looked up, with the combinations that came there from each state.
+    pub(super) looked: Vec<(u32, u128)>,
+    /// The states that it was the same for, of which the places know nothing yet.
+    pub(super) states: u128,
+}
+
+impl<K> Default for Prefix<K> {
+    fn default() -> Self {
+        Prefix {
+            read: None,
+            ways: Vec::new(),
+            looked: Vec::new(),
+            states: 0,
+        }
+    }
+}
+
+impl<K: Key> Staged<'_, K> {
+    /// Tells the places of a group's prefix for how many states they were looked up.
+    #[inline]
+    pub(super) fn settle(&mut self, group: usize) {
+        let Prefix { looked, states, .. } = &mut self.prefixes[group];
+        let states = std::mem::take(states);
+        if states > 0 {
+            let table = &mut self.tables[self.groups[group].table];
+            for (place, weight) in looked {
+                let more = weight.checked_mul(states);
+                visit(table.visits(*place), more, self.combinations);
+            }
+        }
+    }
+
+    /// Forgets the prefixes: places and groups have another meaning from now on.
+    pub(super) fn forget_prefixes(&mut self) {
+        for group in 0..self.groups.len() {
+            self.settle(group);
+            self.prefixes[group].read = None;
+        }
+    }
+}
