@@ -38,6 +38,9 @@ impl Beside {
     }
 }
 
+/// Lists shorter than this are brought in order by one thread.
+const ALONE: usize = 1 << 15;
+
 /// A fixed number of threads.
 pub(crate) struct Crew {
     pool: rayon::ThreadPool,
@@ -59,7 +62,10 @@ impl Crew {
 
     /// Brings a list in ascending order.
     pub(crate) fn sort(&self, list: &mut [u64]) {
-        self.pool.install(|| list.par_sort_unstable());
+        match list.len() < ALONE {
+            true => list.sort_unstable(),
+            false => self.pool.install(|| list.par_sort_unstable()),
+        }
     }
 
     /// Does pieces of work, each once. Each worker runs on a thread of its own and begins with its share of the pieces,
@@ -70,11 +76,23 @@ impl Crew {
         pieces: usize,
         work: impl Fn(&mut W, usize) + Sync,
     ) {
+        self.share_to_end(workers, pieces, work, |_| ());
+    }
+
+    /// The same; at the end, when no piece is left, each worker does something more.
+    pub(crate) fn share_to_end<W: Send>(
+        &self,
+        workers: &mut [W],
+        pieces: usize,
+        work: impl Fn(&mut W, usize) + Sync,
+        end: impl Fn(&mut W) + Sync,
+    ) {
         let searches = self.beside.as_ref().map_or(1, Beside::number);
         let number = workers.len().div_ceil(searches);
         if pieces <= 1 || number == 1 {
             if let Some(worker) = workers.first_mut() {
                 (0..pieces).for_each(|piece| work(worker, piece));
+                end(worker);
             }
             return;
         }
@@ -100,6 +118,7 @@ impl Crew {
                     work(&mut worker, piece);
                 }
             }
+            end(&mut worker);
         });
     }
 }

@@ -13,8 +13,8 @@ use crate::recoverable::{recoverable, recovery};
 use crate::report::{
     Error, FaultReport, Judgement, Options, Progress, Report, Step, Storage, Trace, Verdict,
 };
-use crate::response::{Response, bounded, side_by_side, until, waiting};
-use crate::search::search;
+use crate::response::{Response, Waiting, bounded, until};
+use crate::search::{Known, search};
 use crate::store::{Dense, Store};
 use crate::system::System;
 use crate::tally::Found;
@@ -176,7 +176,7 @@ impl Job<Any<'_>> for Explore<'_> {
         mut store: T,
         storage: Storage,
     ) -> Result<Report, Error> {
-        let found = search(
+        let (found, known) = search(
             model,
             &mut store,
             self.properties,
@@ -186,6 +186,7 @@ impl Job<Any<'_>> for Explore<'_> {
         let finish = Finish {
             model,
             found,
+            known,
             properties: self.properties,
             options: self.options,
             storage,
@@ -198,6 +199,7 @@ impl Job<Any<'_>> for Explore<'_> {
 pub(crate) struct Finish<'a, K> {
     pub(crate) model: &'a Model<'a, Any<'a>, K>,
     pub(crate) found: Found<K>,
+    pub(crate) known: Known<'a, K>,
     pub(crate) properties: &'a [Property],
     pub(crate) options: &'a Options,
     pub(crate) storage: Storage,
@@ -208,12 +210,13 @@ impl<K: Key> Finish<'_, K> {
         let Finish {
             model,
             found,
+            known,
             properties,
             options,
             storage,
         } = self;
         let tally = &found.tally;
-        let decisions = decide(model, &found, properties, options, &store)?;
+        let decisions = decide(model, &found, known, properties, options, &store)?;
         let mut requests = Vec::new();
         let mut judgements = Vec::new();
         let mut tails = Vec::new();
@@ -390,6 +393,7 @@ pub(crate) fn seen<'a, K: Key>(
 fn decide<'a, T: Store>(
     model: &'a Model<'a, Any<'a>, T::Key>,
     found: &Found<T::Key>,
+    known: Known<'a, T::Key>,
     properties: &'a [Property],
     options: &Options,
     store: &T,
@@ -403,7 +407,6 @@ fn decide<'a, T: Store>(
             }
         }
     }
-    let mut lost = recoverable(model, &goals, store, tally.states)?.into_iter();
     let responses = properties
         .iter()
         .enumerate()
@@ -422,7 +425,10 @@ fn decide<'a, T: Store>(
                 _ => None,
             }
         });
-    let mut graphs = side_by_side(model, &responses.collect::<Vec<_>>(), held);
+    let responses: Vec<_> = responses.collect();
+    let mut waiting = Waiting::new(model, &responses, known);
+    let mut lost = recoverable(model, &goals, store, tally.states)?.into_iter();
+    let mut graphs = waiting.small(&responses, held);
     let held = held + graphs.values().map(Graph::bytes).sum::<u64>();
     let mut decisions = Vec::new();
     for (number, Property { form, .. }) in properties.iter().enumerate() {
@@ -479,7 +485,7 @@ fn decide<'a, T: Store>(
                 match within {
                     Some(within) => {
                         let known = graphs.remove(&number);
-                        let graph = known.or_else(|| waiting(model, response, pending, held, None));
+                        let graph = known.or_else(|| waiting.graph(response, pending, held));
                         bounded(model, form, response, *within, graph, witness)
                     }
                     None => fair(model, form, response, conditions, pending, witness, held),

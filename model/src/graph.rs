@@ -1,13 +1,13 @@
 //! The explicit graph of a part of the reachable cycles, with its strongly connected components.
 
 use crate::choices::Odometer;
-use crate::cursor::Leaf;
+use crate::cursor::{Cursor, Leaf};
 use crate::distinct::Distinct;
 use crate::model::Model;
 use crate::nodes::{Nodes, push};
 use crate::pack::Key;
-use crate::process::{Any, Process};
-use crate::stages::Condition;
+use crate::process::{Any, Origin, Process};
+use crate::stages::{Condition, Staged};
 use crate::store::PIECE;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -18,8 +18,7 @@ pub(crate) type Rule<'a, K> = dyn Fn(&mut dyn Process, &mut Odometer, K) -> Mark
 /// The same in two forms, for cycles one by one and in stages.
 pub(crate) struct Rules<'a, K> {
     pub(crate) rule: &'a Rule<'a, K>,
-    pub(crate) conditions: Vec<Condition>,
-    /// What a cycle to the given state is in which these conditions hold, one bit for each.
+    /// What a cycle to the given state is in which the conditions hold that the walkers tell of, one bit for each.
     pub(crate) mark: &'a (dyn Fn(u128, K) -> Mark + Sync),
 }
 
@@ -76,20 +75,42 @@ struct Piece<K> {
     exit: Option<usize>,
 }
 
+/// What one thread needs to find a graph.
+pub(crate) struct Walker<'m, 'a, K> {
+    cursor: Cursor<<Any<'a> as Origin>::Process>,
+    staged: Option<Staged<'m, K>>,
+    pieces: Vec<Piece<K>>,
+}
+
+impl<'m, 'a, K: Key> Walker<'m, 'a, K> {
+    /// With the stages of a cycle, if they are the quicker way.
+    pub(crate) fn new(model: &Model<'a, Any<'a>, K>, staged: Option<Staged<'m, K>>) -> Self {
+        Walker {
+            cursor: model.cursor(),
+            staged,
+            pieces: Vec::new(),
+        }
+    }
+
+    /// One for each thread; they tell of these conditions which ones hold.
+    pub(crate) fn all(model: &'m Model<'a, Any<'a>, K>, conditions: &[Condition]) -> Vec<Self> {
+        let threads = 0..model.crew.size();
+        let one = |_| Walker::new(model, model.quicker(conditions));
+        threads.map(one).collect()
+    }
+}
+
 impl<K: Key> Graph<K> {
-    /// The graph reached from the seeds; none if a limit is reached first. `held` bytes are in use elsewhere. By the calling thread `alone` if
-    /// the graph takes so many bytes at most, else by all.
-    pub(crate) fn build(
-        model: &Model<Any, K>,
+    /// The graph reached from the seeds; none if a limit is reached first, or it takes more than `most` bytes. `held` bytes are in use
+    /// elsewhere.
+    pub(crate) fn build<'a>(
+        model: &Model<'a, Any<'a>, K>,
         seeds: &[K],
         rules: &Rules<K>,
+        walkers: &mut [Walker<'_, 'a, K>],
         held: u64,
-        alone: Option<u64>,
+        most: u64,
     ) -> Option<Self> {
-        let (threads, most) = match alone {
-            Some(most) => (1, most),
-            None => (model.crew.size(), u64::MAX),
-        };
         let mut graph = Graph {
             nodes: Nodes::new(),
             first: vec![0],
@@ -101,12 +122,6 @@ impl<K: Key> Graph<K> {
             graph.nodes.add(*key)?;
         }
         graph.seeds = graph.nodes();
-        let mut workers: Vec<_> = (0..threads)
-            .map(|_| {
-                let staged = model.quicker(&rules.conditions);
-                (model.cursor(), staged, Vec::<Piece<K>>::new())
-            })
-            .collect();
         let mut done = 0;
         while done < graph.nodes.keys().len() {
             if model.watch.over(0) || model.watch.too_much(held + graph.bytes()) {
@@ -122,10 +137,14 @@ impl<K: Key> Graph<K> {
             let too_much = |own| model.watch.too_much(before + own) || here + own > most;
             let keys = graph.nodes.keys();
             let block = &keys[done..keys.len().min(done + 1024 * PIECE)];
-            model.crew.share(
-                &mut workers,
-                block.len().div_ceil(PIECE),
-                |(cursor, staged, pieces), number| {
+            model
+                .crew
+                .share(walkers, block.len().div_ceil(PIECE), |walker, number| {
+                    let Walker {
+                        cursor,
+                        staged,
+                        pieces,
+                    } = walker;
                     if broken.load(Ordering::Relaxed) {
                         return;
                     }
@@ -176,16 +195,14 @@ impl<K: Key> Graph<K> {
                         piece.ends.extend(ends);
                     }
                     pieces.push(piece);
-                },
-            );
+                });
             if broken.into_inner() {
+                walkers.iter_mut().for_each(|w| w.pieces.clear());
                 return None;
             }
             done += block.len();
-            let mut pieces: Vec<Piece<K>> = workers
-                .iter_mut()
-                .flat_map(|(_, _, pieces)| pieces.drain(..))
-                .collect();
+            let drained = walkers.iter_mut().flat_map(|w| w.pieces.drain(..));
+            let mut pieces: Vec<Piece<K>> = drained.collect();
             pieces.sort_unstable_by_key(|piece| piece.number);
             for piece in pieces {
                 let exit = piece.exit.and_then(|node| u32::try_from(node).ok());

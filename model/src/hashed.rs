@@ -211,6 +211,10 @@ impl<C: Code> Store for Hashed<C> {
         }
     }
 
+    fn settle(&self, local: &mut Self::Local) {
+        self.set.flush(&mut local.batch);
+    }
+
     fn advance(&mut self, locals: Vec<&mut Self::Local>) -> u64 {
         for local in locals {
             self.set.flush(&mut local.batch);

@@ -117,6 +117,14 @@ impl<O: Origin, T: Store> Level<'_, O, T> {
         }
     }
 
+    /// Adds what a worker still has of its own to what all have found.
+    pub(crate) fn settle(&self, worker: &mut Worker<'_, O::Process, T::Key, T::Local>) {
+        self.store.settle(&mut worker.local);
+        for (pending, own) in self.pending.iter().zip(&mut worker.pending) {
+            pending.flush(own);
+        }
+    }
+
     /// Whether a limit is reached.
     fn over(&self) -> bool {
         let tables = self.parts.map_or(0, Tables::bytes);
@@ -175,7 +183,7 @@ impl<O: Origin, T: Store> Level<'_, O, T> {
             stays = stays && burst.ends().all(|(after, _)| after == key);
             let all = noted.unwrap_or_else(|| {
                 let mut all = 0;
-                for (after, marks) in burst.ends() {
+                burst.each(|after, marks| {
                     *unwatched += 1;
                     if after != last {
                         self.store.visit(local, after);
@@ -188,7 +196,7 @@ impl<O: Origin, T: Store> Level<'_, O, T> {
                         self.pending[property].insert(&mut pending[property], after);
                         duties &= duties - 1;
                     }
-                }
+                });
                 all
             });
             shown |= all;
@@ -197,7 +205,7 @@ impl<O: Origin, T: Store> Level<'_, O, T> {
         let Some(weight) = weight else {
             return false;
         };
-        shown &= !self.watched.pending;
+        shown &= self.watched.shown;
         while shown != 0 {
             let (property, event) = self.watched.events[shown.trailing_zeros() as usize];
             match event {

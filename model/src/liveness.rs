@@ -3,7 +3,7 @@
 use crate::choices::Odometer;
 use crate::cursor::Leaf;
 use crate::explore::{Decision, Evidence, Tail, sign_test};
-use crate::graph::{Components, Edge, Graph, Mark, Rules};
+use crate::graph::{Components, Edge, Graph, Mark, Rules, Walker};
 use crate::model::Model;
 use crate::pack::Key;
 use crate::process::{Any, Process};
@@ -54,13 +54,15 @@ pub(crate) fn fair<'a, K: Key>(
     let met = fair.iter().map(|atom| vec![(*atom, true)]);
     let rules = Rules {
         rule: &label,
-        conditions: [waits].into_iter().chain(met).collect(),
         mark: &|marks, _| match marks & 1 {
             0 => Mark::Outside,
             _ => Mark::Edge((marks >> 1) as u32),
         },
     };
-    let Some(graph) = Graph::build(model, &pending.sorted(), &rules, held, None) else {
+    let conditions: Vec<Condition> = [waits].into_iter().chain(met).collect();
+    let (mut walkers, seeds) = (Walker::all(model, &conditions), pending.sorted());
+    let graph = Graph::build(model, &seeds, &rules, &mut walkers, held, u64::MAX);
+    let Some(graph) = graph else {
         return Verdict::Inconclusive.into();
     };
     let all = (1u32 << fair.len()) - 1;

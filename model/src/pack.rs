@@ -255,9 +255,10 @@ impl<K: Key> Packer<K> {
         }
     }
 
-    /// The state of an index, from the one opened before: of an index near to that one most digits are the same.
+    /// The state of an index, from the one opened before, with the variables whose values are others: of an index near to that one most
+    /// digits are the same.
     #[inline]
-    pub(crate) fn open(&self, key: K, opened: &mut Opened) {
+    pub(crate) fn open(&self, key: K, opened: &mut Opened, mut changed: impl FnMut(usize)) {
         let mut rest = key.halves();
         let mut same = [false; 2];
         for (variable, before) in self.order.iter().zip(&mut opened.rests) {
@@ -277,7 +278,10 @@ impl<K: Key> Packer<K> {
             *before = Some(rest[half]);
             let offset = rest[half] % digit.size;
             rest[half] /= digit.size;
-            opened.state[*variable] = (i64::from(digit.lo) + offset as i64) as i32;
+            let value = (i64::from(digit.lo) + offset as i64) as i32;
+            if std::mem::replace(&mut opened.state[*variable], value) != value {
+                changed(*variable);
+            }
         }
     }
 
@@ -343,10 +347,14 @@ mod tests {
         let (mut one, mut two) = (narrow.opened(), wide.opened());
         let far = (0..2000).map(|n: u64| n * 7919 % space);
         for key in (0..space).chain(far) {
-            narrow.open(key, &mut one);
+            let old = one.state.clone();
+            let mut changed = [false; 6];
+            narrow.open(key, &mut one, |variable| changed[variable] = true);
             assert_eq!(one.state, narrow.state(key));
+            let differs = |v: usize| old[v] != one.state[v];
+            assert!((0..6).all(|v| changed[v] == differs(v)));
             let same = wide.pack(&one.state).unwrap();
-            wide.open(same, &mut two);
+            wide.open(same, &mut two, |_| ());
             assert_eq!(two.state, one.state);
         }
     }

@@ -7,7 +7,7 @@ use crate::choices::Odometer;
 use crate::cursor::{Cursor, Leaf};
 use crate::distinct::Distinct;
 use crate::explore::{Decision, Evidence};
-use crate::graph::{Edge, Graph, Mark, Rules};
+use crate::graph::{Edge, Graph, Mark, Rules, Walker};
 use crate::model::Model;
 use crate::nodes::Nodes;
 use crate::pack::Key;
@@ -153,11 +153,13 @@ fn together<'a, K: Key>(
     };
     let rules = Rules {
         rule: &|process, choices, after| mark(label(process, choices), after),
-        conditions,
         mark: &|marks, after| mark(label_of(marks), after),
     };
     let held = held + size_of_val(left.as_slice()) as u64;
-    let graph = Arc::new(Graph::build(model, &left, &rules, held, None)?);
+    let mut walkers = Walker::all(model, &conditions);
+    let graph = Graph::build(model, &left, &rules, &mut walkers, held, u64::MAX)?;
+    drop(walkers);
+    let graph = Arc::new(graph);
     let lost = (0..number).map(|number| {
         let used = |edge: Edge| split(edge.label).0 >> number & 1 != 0;
         let reached = |edge: &Edge| split(edge.label).1 >> number & 1 != 0;

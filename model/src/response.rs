@@ -5,19 +5,20 @@ use crate::crew::Crew;
 use crate::cursor::Leaf;
 use crate::duty::Duty;
 use crate::explore::{Decision, Evidence, Job, Tail, on_store, seen, sign_test};
-use crate::graph::{Graph, Mark, Rules};
+use crate::graph::{Graph, Mark, Rules, Walker};
 use crate::model::Model;
 use crate::pack::Key;
 use crate::process::{Any, Process};
 use crate::property::{Form, Property};
 use crate::report::{Error, Options, Storage, Trace, Until, Verdict};
-use crate::search::search;
+use crate::search::{Known, search};
 use crate::set::Set;
-use crate::stages::Condition;
+use crate::stages::{Condition, MOST_CONDITIONS, waits};
 use crate::store::Store;
 use crate::tally::Signs;
 use crate::trace::{Request, runs};
 use crate::watch::Watch;
+use std::cmp::Reverse;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -45,6 +46,13 @@ impl Response {
     }
 }
 
+impl Response {
+    /// What the stages have to tell of each cycle: that the response waits on, and that it ends.
+    pub(crate) fn waits(self) -> [Condition; 2] {
+        waits(self.goal, self.assuming)
+    }
+}
+
 /// The most bytes of the graph of a response that one thread finds by itself.
 const ROOM: u64 = 1 << 20;
 
@@ -63,56 +71,108 @@ fn edge<'a, K: Key>(
     }
 }
 
-/// The graph of the cycles without the goal, from the states in which the duty is pending: by the calling thread alone if it takes
-/// `alone` bytes at most, or by all.
-pub(crate) fn waiting<'a, K: Key>(
+/// Finds the graphs of responses.
+pub(crate) struct Waiting<'a, K> {
+    model: &'a Model<'a, Any<'a>, K>,
+    walkers: Vec<Walker<'a, 'a, K>>,
+    /// What they tell of each cycle.
+    told: Vec<Condition>,
+}
+
+impl<'a, K: Key> Waiting<'a, K> {
+    /// With what the search has learned of the stages of a cycle, if it tells enough.
+    pub(crate) fn new(
+        model: &'a Model<'a, Any<'a>, K>,
+        responses: &[(usize, Response, &Set<K>)],
+        known: Known<'a, K>,
+    ) -> Self {
+        let needed: Vec<_> = responses.iter().flat_map(|(_, r, _)| r.waits()).collect();
+        let Known { staged, told } = known;
+        let (walkers, told) = if responses.is_empty() || needed.len() > MOST_CONDITIONS {
+            (Vec::new(), Vec::new())
+        } else if !staged.is_empty() && needed.iter().all(|one| told.contains(one)) {
+            let staged = staged.into_iter().map(Some);
+            (staged.map(|s| Walker::new(model, s)).collect(), told)
+        } else {
+            drop(staged);
+            (Walker::all(model, &needed), needed)
+        };
+        Waiting {
+            model,
+            walkers,
+            told,
+        }
+    }
+
+    /// The graphs of those of these responses whose graphs are small: each of them is found by one thread.
+    pub(crate) fn small(
+        &mut self,
+        responses: &[(usize, Response, &Set<K>)],
+        held: u64,
+    ) -> BTreeMap<usize, Graph<K>> {
+        let Waiting {
+            model,
+            walkers,
+            told,
+        } = self;
+        let room = held + model.known() + ROOM * responses.len() as u64;
+        let fits = model.watch.memory().is_none_or(|most| room <= most);
+        if responses.len() < 2 || walkers.len() < 2 || !fits {
+            return BTreeMap::new();
+        }
+        // The large ones first, so that none of them is begun when the other threads are done.
+        let mut order: Vec<_> = responses.iter().collect();
+        order.sort_by_cached_key(|(_, _, pending)| Reverse(pending.counts().iter().sum::<usize>()));
+        let mut workers: Vec<_> = walkers.iter_mut().map(|w| (w, Vec::new())).collect();
+        model.crew.share(&mut workers, order.len(), |worker, n| {
+            let (walker, graphs) = worker;
+            let (number, response, pending) = *order[n];
+            let one = std::slice::from_mut(*walker);
+            let graph = waiting(model, response, pending, (one, told), held, ROOM);
+            graphs.extend(graph.map(|graph| (number, graph)));
+        });
+        workers.into_iter().flat_map(|(_, graphs)| graphs).collect()
+    }
+
+    /// The graph of a response, found by all threads.
+    pub(crate) fn graph(
+        &mut self,
+        response: Response,
+        pending: &Set<K>,
+        held: u64,
+    ) -> Option<Graph<K>> {
+        let all = |by| waiting(self.model, response, pending, by, held, u64::MAX);
+        if self.walkers.is_empty() {
+            let told = response.waits();
+            let mut own = Walker::all(self.model, &told);
+            return all((&mut own, &told));
+        }
+        all((&mut self.walkers, &self.told))
+    }
+}
+
+/// The graph of the cycles without the goal, from the states in which the duty is pending, found by walkers that tell of these conditions.
+fn waiting<'a, K: Key>(
     model: &'a Model<'a, Any<'a>, K>,
     response: Response,
     pending: &Set<K>,
+    (walkers, told): (&mut [Walker<'a, 'a, K>], &[Condition]),
     held: u64,
-    alone: Option<u64>,
+    most: u64,
 ) -> Option<Graph<K>> {
     let edge = edge(model, response);
-    let given: Condition = response.assuming.iter().map(|atom| (*atom, true)).collect();
-    let with = |value| {
-        given
-            .iter()
-            .copied()
-            .chain([(response.goal, value)])
-            .collect()
-    };
+    let bit = |condition| told.iter().position(|one| *one == condition);
+    let [waits, ends] = response.waits().map(bit);
+    let holds = |marks: u128, bit: Option<usize>| bit.is_some_and(|bit| marks >> bit & 1 != 0);
     let rules = Rules {
         rule: &edge,
-        conditions: vec![with(false), with(true)],
-        mark: &|marks, _| match marks & 3 {
-            0 => Mark::Outside,
-            1 => Mark::Edge(0),
-            _ => Mark::Exit,
+        mark: &|marks, _| match (holds(marks, waits), holds(marks, ends)) {
+            (false, false) => Mark::Outside,
+            (true, _) => Mark::Edge(0),
+            (false, true) => Mark::Exit,
         },
     };
-    let seeds = pending.sorted();
-    Graph::build(model, &seeds, &rules, held, alone)
-}
-
-/// The graphs of those of these responses whose graphs are small. Each of them is found by one thread, as what one learns of the stages
-/// of a cycle is of no use to another one.
-pub(crate) fn side_by_side<'a, K: Key>(
-    model: &'a Model<'a, Any<'a>, K>,
-    responses: &[(usize, Response, &Set<K>)],
-    held: u64,
-) -> BTreeMap<usize, Graph<K>> {
-    let room = held + model.known() + ROOM * responses.len() as u64;
-    let fits = model.watch.memory().is_none_or(|most| room <= most);
-    if responses.len() < 2 || model.crew.size() < 2 || !fits {
-        return BTreeMap::new();
-    }
-    let mut workers: Vec<_> = (0..model.crew.size()).map(|_| Vec::new()).collect();
-    model.crew.share(&mut workers, responses.len(), |own, n| {
-        let (number, response, pending) = responses[n];
-        let graph = waiting(model, response, pending, held, Some(ROOM));
-        own.extend(graph.map(|graph| (number, graph)));
-    });
-    workers.into_iter().flatten().collect()
+    Graph::build(model, &pending.sorted(), &rules, walkers, held, most)
 }
 
 /// Judges `goal` in one of the cycles k ..= k + within. The states after cycles with `when` and without `goal` are the
@@ -214,10 +274,6 @@ pub(crate) fn until<'a, K: Key>(
         };
         let rules = Rules {
             rule: &rule,
-            conditions: vec![
-                vec![(unless, false), (holds, true)],
-                vec![(unless, false), (holds, false)],
-            ],
             mark: &|marks, _| {
                 if marks & 2 != 0 {
                     violated.store(true, Ordering::Relaxed);
@@ -228,7 +284,13 @@ pub(crate) fn until<'a, K: Key>(
                 }
             },
         };
-        if Graph::build(model, &pending.sorted(), &rules, held, None).is_none()
+        let conditions = [
+            vec![(unless, false), (holds, true)],
+            vec![(unless, false), (holds, false)],
+        ];
+        let mut walkers = Walker::all(model, &conditions);
+        let seeds = pending.sorted();
+        if Graph::build(model, &seeds, &rules, &mut walkers, held, u64::MAX).is_none()
             && !violated.load(Ordering::Relaxed)
         {
             return Ok(Verdict::Inconclusive.into());
@@ -303,7 +365,7 @@ impl Job<Any<'_>> for Counterexample<'_> {
             id: String::new(),
             form: form.clone(),
         }];
-        let found = search(model, &mut store, &property, self.options, &mut ())?;
+        let (found, _) = search(model, &mut store, &property, self.options, &mut ())?;
         let Some(at) = found.tally.signs[0].bad else {
             return Ok(None);
         };

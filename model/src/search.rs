@@ -10,7 +10,7 @@ use crate::process::Origin;
 use crate::property::Property;
 use crate::report::{Error, Options, Progress, Way};
 use crate::set::Set;
-use crate::stages::{Pace, Watched};
+use crate::stages::{Condition, Pace, Staged, Watched};
 use crate::store::Store;
 use crate::tally::{Found, Tally};
 use crate::watch::Watch;
@@ -18,13 +18,13 @@ use std::ops::ControlFlow;
 use std::sync::atomic::Ordering;
 
 /// Explores level by level. The answer does not depend on the number of threads as long as no limit is reached.
-pub(crate) fn search<O: Origin, T: Store>(
-    model: &Model<O, T::Key>,
+pub(crate) fn search<'m, O: Origin, T: Store>(
+    model: &'m Model<O, T::Key>,
     store: &mut T,
     properties: &[Property],
     options: &Options,
     progress: &mut dyn Progress,
-) -> Result<Found<T::Key>, Error> {
+) -> Result<Searched<'m, T::Key>, Error> {
     let origin = &model.origin;
     let parts = Tables::new(origin, &model.packer, properties, model.watch);
     let mut workers: Vec<_> = (0..model.crew.size())
@@ -58,7 +58,7 @@ pub(crate) fn search<O: Origin, T: Store>(
             };
             if !all {
                 // Not all initial states are there: nothing to explore from, nor to continue from later.
-                return Ok(found);
+                return Ok((found, Known::default()));
             }
             found
         }
@@ -82,7 +82,15 @@ pub(crate) fn search<O: Origin, T: Store>(
                     .settled(signs.first.is_some(), signs.bad.is_some())
             })
             .collect();
-        staging.prepare(model, properties, &open, &mut found.tally, &mut workers);
+        let size = store.size();
+        staging.prepare(
+            model,
+            properties,
+            &open,
+            size,
+            &mut found.tally,
+            &mut workers,
+        );
         if staging.active {
             store.arrange(model.crew);
         }
@@ -96,11 +104,12 @@ pub(crate) fn search<O: Origin, T: Store>(
             parts: parts.as_ref(),
             watched: &staging.watched,
         };
-        model
-            .crew
-            .share(&mut workers, store.pieces(), |worker, piece| {
-                level.explore(worker, piece)
-            });
+        model.crew.share_to_end(
+            &mut workers,
+            store.pieces(),
+            |worker, piece| level.explore(worker, piece),
+            |worker| level.settle(worker),
+        );
         // A level that a limit broke off is explored again when the search is continued.
         let stopped = model.watch.stopped();
         let before = (stopped && keeper.is_some()).then(|| found.tally.clone());
@@ -165,7 +174,29 @@ pub(crate) fn search<O: Origin, T: Store>(
             declared: origin.combinations(),
         });
     }
-    Ok(found)
+    let known = Known {
+        told: staging.watched.conditions,
+        staged: workers.into_iter().filter_map(|w| w.staged).collect(),
+    };
+    Ok((found, known))
+}
+
+/// What a search has found, and learned.
+type Searched<'m, K> = (Found<K>, Known<'m, K>);
+
+/// What the threads of a search have learned of the stages of a cycle, if that is the quicker way, and the conditions of which they tell.
+pub(crate) struct Known<'m, K> {
+    pub(crate) staged: Vec<Staged<'m, K>>,
+    pub(crate) told: Vec<Condition>,
+}
+
+impl<K> Default for Known<'_, K> {
+    fn default() -> Self {
+        Known {
+            staged: Vec::new(),
+            told: Vec::new(),
+        }
+    }
 }
 
 /// Decides between levels how the cycles of their states are made.
@@ -196,6 +227,7 @@ impl Staging {
         model: &'m Model<'_, O, K>,
         properties: &[Property],
         open: &[usize],
+        frontier: u64,
         tally: &mut Tally<K>,
         workers: &mut [Worker<'m, O::Process, K, L>],
     ) {
@@ -207,7 +239,7 @@ impl Staging {
             model.pays.store(false, Ordering::Relaxed);
             return;
         }
-        if self.active || !(self.way == Way::Staged || self.pace.tries()) {
+        if self.active || !(self.way == Way::Staged || self.pace.tries(frontier)) {
             return;
         }
         // What is known of a property already is not looked for.

@@ -15,6 +15,8 @@ pub(crate) trait Store: Sync {
     fn local(&self) -> Self::Local;
     /// Adds a state; if it is new it becomes part of the next frontier.
     fn visit(&self, local: &mut Self::Local, key: Self::Key);
+    /// Adds what a worker still has of its own, as the level is over for it.
+    fn settle(&self, _: &mut Self::Local) {}
     /// Ends the level: what the workers found is the frontier now. Gives its size.
     fn advance(&mut self, locals: Vec<&mut Self::Local>) -> u64;
     /// Forgets what the workers found in a level that was not explored to its end. Gives how many states that were.

@@ -201,13 +201,17 @@ impl Store for Ticked {
         }
     }
 
+    fn settle(&self, TickedLocal { batch, found }: &mut TickedLocal) {
+        for (shard, keys) in batch.iter_mut().enumerate().filter(|(_, k)| !k.is_empty()) {
+            self.flush(shard, keys, found);
+        }
+    }
+
     fn advance(&mut self, locals: Vec<&mut TickedLocal>) -> u64 {
         self.list = Vec::new();
-        for TickedLocal { batch, found } in locals {
-            for (shard, keys) in batch.iter_mut().enumerate().filter(|(_, k)| !k.is_empty()) {
-                self.flush(shard, keys, found);
-            }
-            self.list.append(&mut std::mem::take(found));
+        for local in locals {
+            self.settle(local);
+            self.list.append(&mut std::mem::take(&mut local.found));
         }
         let bytes = self.list.capacity() * size_of::<u64>();
         self.lists = AtomicU64::new(bytes as u64);

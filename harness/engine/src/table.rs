@@ -36,6 +36,7 @@ struct Shape {
     first_rule: Vec<usize>,
     rules: usize,
     combinations: u128,
+    plans: staged::Plans,
 }
 
 impl Shape {
@@ -65,6 +66,7 @@ impl Shape {
             first_rule,
             rules,
             combinations: bound.combinations(),
+            plans: staged::Plans::default(),
         }
     }
 
@@ -190,7 +192,7 @@ impl System for Interpreted<'_> {
         // A part of a system is explored by itself.
         let whole = self.instances.len() == self.bound.system.instances.len();
         whole
-            .then(|| staged::stages(self.bound, conditions))
+            .then(|| staged::stages(&self.shape.plans, self.bound, conditions))
             .flatten()
     }
 
@@ -312,7 +314,7 @@ impl System for Generated<'_> {
     }
 
     fn stages(&self, conditions: &[Condition]) -> Option<Box<dyn Stages + '_>> {
-        staged::stages(self.bound, conditions)
+        staged::stages(&self.shape.plans, self.bound, conditions)
     }
 
     fn observe<C: Choices>(

@@ -30,6 +30,7 @@ use crate::parts::Tables;
 use crate::process::{Any, Origin};
 use crate::property::{Property, validate};
 use crate::report::{Error, Judgement, Limits, Options, Progress, Report, Storage, Verdict, Way};
+use crate::search::Known;
 use crate::store::Dense;
 use crate::system::System;
 use crate::tally::Found;
@@ -155,6 +156,7 @@ fn run<C: Ending>(
     C::finish(Finish {
         model: &task.model,
         found,
+        known: Known::default(),
         properties,
         options,
         storage: C::STORAGE,

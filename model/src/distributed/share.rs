@@ -100,6 +100,10 @@ impl<C: Code> Store for Share<C> {
         self.own.load(input)
     }
 
+    fn settle(&self, local: &mut ShareLocal<C>) {
+        self.own.settle(&mut local.own);
+    }
+
     fn arrange(&mut self, crew: &Crew) {
         self.own.arrange(crew);
     }

@@ -136,6 +136,7 @@ impl<K: Key> Staged<'_, K> {
         }
         self.prefixes
             .resize_with(self.groups.len(), Prefix::default);
+        self.note_readers();
         for table in &mut self.tables {
             table.traffic = Traffic::default();
         }

@@ -16,7 +16,7 @@ mod watched;
 mod ways;
 
 pub(crate) use pace::Pace;
-pub(crate) use watched::{Event, Watched};
+pub(crate) use watched::{Event, Watched, waits};
 
 use crate::pack::{Key, Opened, Packer};
 use crate::process::Origin;
@@ -39,10 +39,10 @@ pub type Condition = Vec<(usize, bool)>;
 pub(crate) const MOST_CONDITIONS: usize = 128;
 
 /// One of the outcomes of a stage.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Outcome {
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Outcome<'o> {
     /// The values of the stage's variables after the cycle, in the order of [`Stages::writes`].
-    pub after: Vec<i32>,
+    pub after: &'o [i32],
     /// What it leaves to the next stage.
     pub class: u32,
     /// The rule that fired.
@@ -66,7 +66,7 @@ pub trait Stages: Send {
     /// The combinations of the inputs that a stage may read.
     fn combinations(&self, stage: usize) -> u64;
 
-    /// Adds the outcomes of a stage to a list: from the values of the variables before the cycle, of which only those that the
+    /// Hands on the outcomes of a stage: from the values of the variables before the cycle, of which only those that the
     /// stage reads are given, and from what the stage before it has left (0 for the first one). The shares are the combinations
     /// of the stage's inputs, also where the class has their values already.
     ///
@@ -77,7 +77,7 @@ pub trait Stages: Send {
         stage: usize,
         before: &[i32],
         class: u32,
-        list: &mut Vec<Outcome>,
+        each: &mut dyn FnMut(Outcome),
     ) -> Result<(), Fault>;
 
     /// Which of the conditions hold, one bit for each, in a class that the last stage leaves.
@@ -104,9 +104,11 @@ pub(crate) struct Staged<'a, K> {
     combinations: u128,
     opened: Opened,
     after: Vec<i32>,
-    list: Vec<Outcome>,
-    /// One for each group.
+    /// One for each group; of so many groups they are those of the state looked at.
     prefixes: Vec<Prefix<K>>,
+    valid: usize,
+    /// By variable the first group that reads it.
+    readers: Vec<usize>,
     merge: Merge,
     /// What is needed for ways, for each group that learns within another one.
     inner: Vec<Room<K>>,
@@ -158,7 +160,7 @@ impl<'a, K: Key> Staged<'a, K> {
         }
         let prefixes = tables.iter().map(|_| Prefix::default()).collect();
         let whole = !tables.is_empty() && owned.iter().all(|owned| *owned);
-        whole.then(|| Staged {
+        let mut staged = whole.then(|| Staged {
             groups: (0..tables.len()).map(Group::single).collect(),
             fusion: Fusion::new(tables.len()),
             stages,
@@ -169,8 +171,9 @@ impl<'a, K: Key> Staged<'a, K> {
             combinations: origin.combinations(),
             opened: packer.opened(),
             after: vec![0; domains.len()],
-            list: Vec::new(),
             prefixes,
+            valid: 0,
+            readers: vec![usize::MAX; domains.len()],
             merge: Merge::default(),
             inner: Vec::new(),
             places: Vec::new(),
@@ -181,7 +184,9 @@ impl<'a, K: Key> Staged<'a, K> {
             told: 0,
             most,
             grown: false,
-        })
+        })?;
+        staged.note_readers();
+        Some(staged)
     }
 
     /// Makes all cycles from a state; [`Staged::ends`] has them. False if one of them meets a fault: nothing is known then.
@@ -225,13 +230,13 @@ impl<'a, K: Key> Staged<'a, K> {
                     follows: of.follows(*place),
                     marks: &self.marks,
                 };
-                if burst.is_one() {
-                    each(None, burst);
-                    continue;
-                }
-                let note = self.seen.note(way.key, *place);
+                let one = burst.is_one();
+                let note = match one {
+                    true => None,
+                    false => self.seen.note(way.key, *place),
+                };
                 let new = each(note, burst);
-                if note != Some(new) {
+                if !one && note != Some(new) {
                     self.seen.add(way.key, *place, new);
                 }
             }
@@ -278,29 +283,31 @@ impl<'a, K: Key> Staged<'a, K> {
         if self.fusion.is_due() {
             self.fuse();
         }
-        self.packer.open(key, &mut self.opened);
+        let mut first = self.valid;
+        self.packer.open(key, &mut self.opened, |variable| {
+            first = first.min(self.readers[variable]);
+        });
+        self.valid = first;
     }
 
-    /// Goes through the stages of the first groups, as far as their prefixes are not the same; false if one of the ways meets a fault.
+    /// Goes through the stages of the first groups, as far as their prefixes are those of another state; false if one of the ways
+    /// meets a fault.
     #[inline]
     fn pass(&mut self, groups: usize) -> bool {
-        let state = &self.opened.state;
-        let same = |group: &usize| {
-            let read = self.tables[self.groups[*group].table].read(state);
-            self.prefixes[*group].read != Some(read)
-        };
-        match (0..groups).find(same) {
-            Some(first) => self.pass_from(first, groups),
-            None => true,
-        }
+        self.valid >= groups || self.pass_on(groups)
     }
 
-    fn pass_from(&mut self, first: usize, groups: usize) -> bool {
-        for group in first..self.groups.len() {
+    fn pass_on(&mut self, groups: usize) -> bool {
+        for group in self.valid..self.groups.len() {
             self.settle(group);
-            self.prefixes[group].read = None;
         }
-        (first..groups).all(|group| self.pass_one(group))
+        while self.valid < groups {
+            if !self.pass_one(self.valid) {
+                return false;
+            }
+            self.valid += 1;
+        }
+        true
     }
 
     /// Goes on through the stages of a group.
@@ -317,8 +324,6 @@ impl<'a, K: Key> Staged<'a, K> {
             }
             None => self.follow_all(group, &[Way::begin(0, self.combinations)], &mut own),
         };
-        let table = &self.tables[self.groups[group].table];
-        own.read = made.then(|| table.read(&self.opened.state));
         self.prefixes[group] = own;
         made
     }
@@ -392,22 +397,23 @@ impl<'a, K: Key> Staged<'a, K> {
 
     /// Has a stage make its outcomes.
     fn learn_stage(&mut self, stage: usize, class: u32) {
-        self.list.clear();
-        let made = self
-            .stages
-            .outcomes(stage, &self.opened.state, class, &mut self.list);
-        let last = stage + 1 == self.writes.len();
-        let writes = &self.writes[stage];
-        let table = &mut self.tables[stage];
+        let Staged {
+            stages,
+            packer,
+            opened,
+            after,
+            ..
+        } = self;
+        let (table, writes) = (&mut self.tables[stage], &self.writes[stage]);
         let (from, counts) = (table.outcomes.len(), table.counts.len());
-        let mut fault = made.is_err();
-        for outcome in self.list.drain(..) {
-            for (variable, value) in writes.iter().zip(&outcome.after) {
-                self.after[*variable] = *value;
+        let mut fault = false;
+        let made = stages.outcomes(stage, &opened.state, class, &mut |outcome| {
+            for (variable, value) in writes.iter().zip(outcome.after) {
+                after[*variable] = *value;
             }
-            let Some(own) = self.packer.share(writes, &self.after) else {
+            let Some(own) = packer.share(writes, after) else {
                 fault = true;
-                continue;
+                return;
             };
             let old = table.outcomes[from..]
                 .iter_mut()
@@ -426,12 +432,15 @@ impl<'a, K: Key> Staged<'a, K> {
                     None => table.counts.push(Count::Rule(rule, outcome.share)),
                 }
             }
-            if last {
-                let class = outcome.class as usize;
-                if self.marks.len() <= class {
-                    self.marks.resize(class + 1, 0);
+        });
+        fault |= made.is_err();
+        if stage + 1 == self.writes.len() {
+            for (_, class, _) in &table.outcomes[from..] {
+                let at = *class as usize;
+                if self.marks.len() <= at {
+                    self.marks.resize(at + 1, 0);
                 }
-                self.marks[class] = self.stages.conditions(outcome.class);
+                self.marks[at] = stages.conditions(*class);
             }
         }
         table.learn(from, fault);

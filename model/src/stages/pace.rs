@@ -2,8 +2,10 @@
 
 use std::time::Duration;
 
-/// States made one by one before stages are tried, or input vectors, and the input vectors of each state that are worth it.
+/// States made one by one before stages are tried, those of the next level among them, or input vectors, and the input vectors of each
+/// state that are worth it. So few states that were made one by one tell how long one takes.
 const TRIED: u64 = 512;
+const FEW: u64 = 64;
 const MANY: u64 = 1 << 14;
 const WORTH: u64 = 12;
 /// States in stages before they are judged, or nanoseconds of all threads together.
@@ -61,10 +63,14 @@ impl Pace {
         self.staged.states += other.staged.states;
     }
 
-    /// Whether stages are worth a trial.
-    pub(crate) fn tries(&self) -> bool {
+    /// Whether stages are worth a trial, before so many further states.
+    pub(crate) fn tries(&self, further: u64) -> bool {
         let states = self.plain.states.max(1);
-        (states >= TRIED || self.vectors >= MANY) && self.vectors / states >= WORTH
+        let each = self.vectors / states;
+        let all = states.saturating_add(further);
+        let many = all >= TRIED || all.saturating_mul(each) >= MANY;
+        let known = states >= FEW || self.vectors >= MANY;
+        known && many && each >= WORTH
     }
 
     /// Whether stages turn out to be the slower way. What is learned in the first states pays later, and where it does it shows soon:

@@ -6,10 +6,8 @@ use super::counting::visit;
 use super::ways::Way;
 use crate::pack::Key;
 
-/// What a group has made of the values that it reads and of what the groups before it made.
+/// What a group has made of the state before, and of what the groups before it made.
 pub(super) struct Prefix<K> {
-    /// Those values, as a number; none if nothing is known.
-    pub(super) read: Option<u64>,
     pub(super) ways: Vec<Way<K>>,
     /// The places looked up, with the combinations that came there from each state.
     pub(super) looked: Vec<(u32, u128)>,
@@ -20,7 +18,6 @@ pub(super) struct Prefix<K> {
 impl<K> Default for Prefix<K> {
     fn default() -> Self {
         Prefix {
-            read: None,
             ways: Vec::new(),
             looked: Vec::new(),
             states: 0,
@@ -45,9 +42,17 @@ impl<K: Key> Staged<'_, K> {
 
     /// Forgets the prefixes: places and groups have another meaning from now on.
     pub(super) fn forget_prefixes(&mut self) {
-        for group in 0..self.groups.len() {
-            self.settle(group);
-            self.prefixes[group].read = None;
+        (0..self.groups.len()).for_each(|group| self.settle(group));
+        self.valid = 0;
+    }
+
+    /// The first group that reads each variable.
+    pub(super) fn note_readers(&mut self) {
+        self.readers.fill(usize::MAX);
+        for (number, group) in self.groups.iter().enumerate().rev() {
+            for variable in self.tables[group.table].reads() {
+                self.readers[variable] = number;
+            }
         }
     }
 }

@@ -103,21 +103,15 @@ impl<K: Key> Table<K> {
         self.reads.iter().map(|(variable, _, _)| *variable)
     }
 
-    /// The values of the variables that it reads, as one number.
+    /// The number of the values of the variables that it reads.
     #[inline]
-    pub(super) fn read(&self, before: &[i32]) -> u64 {
+    pub(super) fn projection(&mut self, before: &[i32]) -> u32 {
         let mut all = 0;
         for (variable, lo, stride) in &self.reads {
             all += u64::from((before[*variable] as u32).wrapping_sub(*lo as u32)) * stride;
         }
-        all
-    }
-
-    /// The number given to them.
-    #[inline]
-    pub(super) fn projection(&mut self, before: &[i32]) -> u32 {
-        let (read, fresh) = (self.read(before), self.projections.len());
-        self.projections.number(read, fresh)
+        let fresh = self.projections.len();
+        self.projections.number(all, fresh)
     }
 
     /// The place of what follows; the next one where nothing is known.

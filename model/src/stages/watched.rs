@@ -16,9 +16,17 @@ pub(crate) enum Event {
 #[derive(Default)]
 pub(crate) struct Watched {
     pub(crate) conditions: Vec<Condition>,
+    /// Of the first ones; the others are told for later.
     pub(crate) events: Vec<(usize, Event)>,
-    /// The bits of those that make a duty pending.
+    /// The bits of those that make a duty pending, and of the other ones of events.
     pub(crate) pending: u128,
+    pub(crate) shown: u128,
+}
+
+/// What has to be told of each cycle of a response with this goal, under this assumption: that it waits on, and that it ends.
+pub(crate) fn waits(goal: usize, assuming: Option<usize>) -> [Condition; 2] {
+    let given = || assuming.iter().map(|atom| (*atom, true));
+    [false, true].map(|value| given().chain([(goal, value)]).collect())
 }
 
 impl Watched {
@@ -41,12 +49,30 @@ impl Watched {
                 if known {
                     continue;
                 }
-                if event == Event::Pending {
-                    all.pending |= 1u128.checked_shl(all.events.len() as u32)?;
+                let bit = 1u128.checked_shl(all.events.len() as u32)?;
+                match event {
+                    Event::Pending => all.pending |= bit,
+                    _ => all.shown |= bit,
                 }
                 all.events.push((property, event));
                 all.conditions.push(condition);
             }
+        }
+        // What the verdicts on bounded responses ask about, so that they need not learn the stages anew.
+        let bounded = open.iter().filter_map(|p| match properties[*p].form {
+            Form::LeadsTo {
+                goal,
+                assuming,
+                within: Some(_),
+                ..
+            } => Some(waits(goal, assuming)),
+            _ => None,
+        });
+        let mut more: Vec<Condition> = bounded.flatten().collect();
+        more.sort_unstable();
+        more.dedup();
+        if all.events.len() + more.len() <= MOST_CONDITIONS {
+            all.conditions.extend(more);
         }
         (all.events.len() <= MOST_CONDITIONS).then_some(all)
     }

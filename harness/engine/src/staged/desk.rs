@@ -4,6 +4,7 @@ use stillpoint_lang::bind::Bound;
 use stillpoint_lang::eval::{Memory, UNSET};
 
 use super::plan::{Cell, Stage};
+use super::recall::{NONE, Part, Places};
 
 /// The cells of a cycle as far as one stage knows them.
 pub(super) struct Desk {
@@ -20,6 +21,12 @@ pub(super) struct Desk {
     /// The names evaluated here, in this order, each with the number of inputs read until then.
     log: Vec<(usize, usize)>,
     rule: usize,
+    /// The state variables assigned in this combination.
+    assigned: Vec<bool>,
+    /// The places of the given values, by cell as in [`Places`], of which NONE is left where it was asked for already.
+    unasked: Places,
+    /// What was asked for in all combinations, in this order, and the answers.
+    asked: Vec<(u32, i32)>,
 }
 
 impl Desk {
@@ -35,6 +42,9 @@ impl Desk {
             at: 0,
             log: Vec::new(),
             rule: 0,
+            assigned: vec![false; bound.states.len()],
+            unasked: Places::default(),
+            asked: Vec::new(),
         }
     }
 
@@ -61,20 +71,38 @@ impl Desk {
             }
         }
         self.found.copy_from_slice(&self.now);
+        self.assigned.fill(false);
+        self.unasked.clone_from(&stage.places);
+        self.asked.clear();
     }
 
-    /// The values of these cells.
-    pub(super) fn class(&self, cells: &[Cell]) -> Box<[i32]> {
-        let value = |cell: &Cell| match cell {
-            Cell::Now(k) => self.now[*k],
-            Cell::Input(k) => self.inputs[*k],
-            Cell::Named(k) => self.names[*k],
-        };
-        cells.iter().map(value).collect()
+    /// What a step leaves in a cell.
+    pub(super) fn left(&self, stage: &Stage, cell: Cell) -> Part {
+        let places = &stage.places;
+        match cell {
+            Cell::Now(k) => self.after(stage, k),
+            Cell::Input(k) => match self.choices[..self.at].iter().find(|(i, _)| *i == k) {
+                Some((_, value)) => Part::Own(*value),
+                None => Part::Given(places.inputs[k]),
+            },
+            Cell::Named(k) => match self.log.iter().any(|(name, _)| *name == k) {
+                true => Part::Own(self.names[k]),
+                false => Part::Given(places.names[k]),
+            },
+        }
     }
 
-    pub(super) fn after(&self, k: usize) -> i32 {
-        self.now[k]
+    /// What a step leaves in a state variable.
+    pub(super) fn after(&self, stage: &Stage, k: usize) -> Part {
+        match self.assigned[k] {
+            true => Part::Own(self.now[k]),
+            false => Part::Given(stage.places.now[k]),
+        }
+    }
+
+    /// What was asked for, by place, and the answers.
+    pub(super) fn asked(&self) -> &[(u32, i32)] {
+        &self.asked
     }
 
     /// The rule that fired, from 0.
@@ -95,7 +123,7 @@ impl Desk {
     ///
     /// The step up to the first input that has another value is what it was. So the inputs before it count as read, and what was
     /// named before it was read keeps its value.
-    pub(super) fn advance(&mut self) -> bool {
+    pub(super) fn advance(&mut self, stage: &Stage) -> bool {
         self.choices.truncate(self.at);
         while let Some((k, value)) = self.choices.last_mut() {
             self.inputs[*k] = UNSET;
@@ -104,6 +132,7 @@ impl Desk {
                 self.at = self.choices.len() - 1;
                 self.rule = 0;
                 self.now.copy_from_slice(&self.found);
+                stage.writes.iter().for_each(|k| self.assigned[*k] = false);
                 let kept = self.log.partition_point(|(_, read)| *read <= self.at);
                 for (name, _) in self.log.drain(kept..) {
                     self.names[name] = UNSET;
@@ -116,21 +145,35 @@ impl Desk {
     }
 }
 
+/// Notes a question for a given value, and its answer.
+#[inline]
+fn ask(unasked: &mut u32, answer: i32, asked: &mut Vec<(u32, i32)>) {
+    let place = std::mem::replace(unasked, NONE);
+    if place != NONE {
+        asked.push((place, answer));
+    }
+}
+
 impl Memory for Desk {
     #[inline]
     fn before(&mut self, k: usize) -> i32 {
         debug_assert_ne!(self.before[k], UNSET, "more is read than was foreseen");
+        ask(&mut self.unasked.before[k], self.before[k], &mut self.asked);
         self.before[k]
     }
 
     #[inline]
     fn now(&mut self, k: usize) -> i32 {
         debug_assert_ne!(self.now[k], UNSET, "more is read than was foreseen");
+        if !self.assigned[k] {
+            ask(&mut self.unasked.now[k], self.now[k], &mut self.asked);
+        }
         self.now[k]
     }
 
     #[inline]
     fn input(&mut self, k: usize) -> i32 {
+        ask(&mut self.unasked.inputs[k], self.inputs[k], &mut self.asked);
         if self.inputs[k] == UNSET {
             if self.at == self.choices.len() {
                 self.choices.push((k, self.ranges[k].0));
@@ -145,12 +188,14 @@ impl Memory for Desk {
 
     #[inline]
     fn named(&mut self, k: usize) -> Option<i32> {
+        ask(&mut self.unasked.names[k], self.names[k], &mut self.asked);
         Some(self.names[k]).filter(|value| *value != UNSET)
     }
 
     #[inline]
     fn assign(&mut self, k: usize, value: i32) {
         self.now[k] = value;
+        self.assigned[k] = true;
     }
 
     #[inline]

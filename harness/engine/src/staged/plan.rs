@@ -8,6 +8,7 @@ use stillpoint_lang::ir::{Node, Space, Stmt, System};
 use stillpoint_model::Condition;
 
 use super::conditions;
+use super::recall::{NONE, Places};
 
 /// What a stage can leave to a later one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -32,6 +33,31 @@ pub(super) struct Stage {
     pub(super) combinations: u64,
     /// The number of its first rule.
     pub(super) first_rule: usize,
+    pub(super) places: Places,
+}
+
+impl Places {
+    /// Of these state variables and of what is kept before the stage.
+    fn new(bound: &Bound, reads: &[usize], kept: &[Cell]) -> Self {
+        let mut places = Places {
+            before: vec![NONE; bound.states.len()],
+            now: vec![NONE; bound.states.len()],
+            inputs: vec![NONE; bound.inputs.len()],
+            names: vec![NONE; bound.system.lazies.len()],
+        };
+        for (place, k) in (0..).zip(reads) {
+            places.before[*k] = place;
+            places.now[*k] = place;
+        }
+        for (place, cell) in (reads.len() as u32..).zip(kept) {
+            match cell {
+                Cell::Now(k) => places.now[*k] = place,
+                Cell::Input(k) => places.inputs[*k] = place,
+                Cell::Named(k) => places.names[*k] = place,
+            }
+        }
+        places
+    }
 }
 
 /// Where the end of the last stage tells whether a condition holds.
@@ -91,15 +117,18 @@ impl Plan {
             });
             let combinations = sizes.into_iter().try_fold(1, u64::checked_mul)?;
             let earlier = system.instances[..stage].iter();
+            let reads: Vec<usize> = needs.reads.into_iter().collect();
+            live = needs.cells;
+            let kept: Vec<Cell> = live.iter().copied().collect();
             stages.push(Stage {
-                reads: needs.reads.into_iter().collect(),
+                places: Places::new(&bound, &reads, &kept),
+                reads,
                 writes: own.collect(),
                 forced,
                 combinations,
                 first_rule: earlier.map(|i| i.rules.len()).sum(),
             });
-            live = needs.cells;
-            boundaries.push(live.iter().copied().collect());
+            boundaries.push(kept);
         }
         stages.reverse();
         boundaries.reverse();

@@ -1,0 +1,201 @@
+//! What a stage has made of the values that it asked for: others, which it was given and did not look at, change nothing.
+//!
+//! A stage asks for one value after the other, and which one comes next follows from the answers. So what it has made stands at the end
+//! of a path of answers.
+
+use std::collections::HashMap;
+use std::ops::Range;
+
+use foldhash::fast::FixedState;
+use stillpoint_lang::eval::UNSET;
+use stillpoint_model::Fault;
+
+/// The most bytes of one stage. It costs little to begin anew.
+const MOST: usize = 16 << 20;
+
+/// So many answers to one question stand in a list.
+const FEW: usize = 8;
+
+/// A value that a stage has left: one of its own, or one that it was given and has not changed, by its place.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Part {
+    Own(i32),
+    Given(u32),
+}
+
+impl Part {
+    pub(super) fn value(self, given: impl Fn(u32) -> i32) -> i32 {
+        match self {
+            Part::Own(value) => value,
+            Part::Given(place) => given(place),
+        }
+    }
+}
+
+/// One of the outcomes of a stage.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Made {
+    /// Where the values stand that it leaves: in its variables, then to the next stage.
+    pub(super) parts: u32,
+    pub(super) rule: Option<usize>,
+    pub(super) share: u64,
+}
+
+/// After some answers.
+enum Node {
+    /// The place of the value that is asked for next, and the number of the last one of the answers plus one.
+    Ask(u32, u32),
+    /// What is made.
+    End(u32),
+}
+
+/// An answer, the node behind it, and the number of the answer before it plus one.
+struct Answer(i32, u32, u32);
+
+/// What one stage has made.
+#[derive(Default)]
+pub(super) struct Recall {
+    /// The first one is the root, if there is any.
+    nodes: Vec<Node>,
+    answers: Vec<Answer>,
+    /// By node and answer, where there are many answers.
+    others: HashMap<(u32, i32), u32, FixedState>,
+    ends: Vec<Result<Range<u32>, Fault>>,
+    made: Vec<Made>,
+    parts: Vec<Part>,
+}
+
+impl Recall {
+    /// What was made, given these values by their places.
+    pub(super) fn find(&self, given: impl Fn(u32) -> i32) -> Option<u32> {
+        let mut at = 0;
+        loop {
+            match self.nodes.get(at as usize)? {
+                Node::End(end) => return Some(*end),
+                Node::Ask(place, _) => at = self.behind(at, given(*place)).ok()?,
+            }
+        }
+    }
+
+    /// The node behind an answer; if there is none, whether there are few answers.
+    #[inline]
+    fn behind(&self, node: u32, answer: i32) -> Result<u32, bool> {
+        let Node::Ask(_, mut next) = self.nodes[node as usize] else {
+            return Err(true);
+        };
+        for _ in 0..FEW {
+            let Some(at) = next.checked_sub(1) else {
+                return Err(true);
+            };
+            let Answer(one, behind, before) = self.answers[at as usize];
+            if one == answer {
+                return Ok(behind);
+            }
+            next = before;
+        }
+        self.others.get(&(node, answer)).copied().ok_or(false)
+    }
+
+    /// The outcomes.
+    pub(super) fn made(&self, end: u32) -> Result<&[Made], Fault> {
+        let range = self.ends[end as usize].clone()?;
+        Ok(&self.made[range.start as usize..range.end as usize])
+    }
+
+    /// The values that an outcome leaves, and those after them.
+    pub(super) fn parts(&self, made: &Made) -> &[Part] {
+        &self.parts[made.parts as usize..]
+    }
+
+    /// Begins anew if what is known is too much.
+    pub(super) fn begin(&mut self) {
+        if self.bytes() as usize > MOST {
+            *self = Self::default();
+        }
+    }
+
+    /// One of the outcomes that are made now.
+    pub(super) fn push(
+        &mut self,
+        parts: impl Iterator<Item = Part>,
+        rule: Option<usize>,
+        share: u64,
+    ) {
+        self.made.push(Made {
+            parts: self.parts.len() as u32,
+            rule,
+            share,
+        });
+        self.parts.extend(parts);
+    }
+
+    /// So many outcomes, those pushed last, were made after these questions and answers.
+    pub(super) fn add(&mut self, asked: &[(u32, i32)], made: Result<usize, Fault>) -> u32 {
+        let (all, end) = (self.made.len() as u32, self.ends.len() as u32);
+        self.ends.push(made.map(|made| all - made as u32..all));
+        let mut at = None;
+        for (place, answer) in asked {
+            let node = self.node(at, Node::Ask(*place, 0));
+            debug_assert!(matches!(self.nodes[node as usize], Node::Ask(p, _) if p == *place));
+            at = Some((node, *answer));
+        }
+        self.node(at, Node::End(end));
+        end
+    }
+
+    /// The node behind an answer: this one if there is none yet.
+    fn node(&mut self, after: Option<(u32, i32)>, node: Node) -> u32 {
+        let fresh = self.nodes.len() as u32;
+        match after {
+            None if fresh > 0 => return 0,
+            None => {}
+            Some((before, answer)) => match self.behind(before, answer) {
+                Ok(behind) => return behind,
+                Err(false) => _ = self.others.insert((before, answer), fresh),
+                Err(true) => {
+                    if let Node::Ask(_, last) = &mut self.nodes[before as usize] {
+                        self.answers.push(Answer(answer, fresh, *last));
+                        *last = self.answers.len() as u32;
+                    }
+                }
+            },
+        }
+        self.nodes.push(node);
+        fresh
+    }
+
+    pub(super) fn bytes(&self) -> u64 {
+        let bytes = self.nodes.capacity() * size_of::<Node>()
+            + self.answers.capacity() * size_of::<Answer>()
+            + self.others.capacity() * size_of::<((u32, i32), u32)>()
+            + self.ends.capacity() * size_of::<Result<Range<u32>, Fault>>()
+            + self.made.capacity() * size_of::<Made>()
+            + self.parts.capacity() * size_of::<Part>();
+        bytes as u64
+    }
+}
+
+/// The places of the values that a stage is given: the state variables that it reads, then what is kept before it.
+#[derive(Clone, Default)]
+pub(super) struct Places {
+    pub(super) before: Vec<u32>,
+    pub(super) now: Vec<u32>,
+    pub(super) inputs: Vec<u32>,
+    pub(super) names: Vec<u32>,
+}
+
+/// No place: nothing is given.
+pub(super) const NONE: u32 = u32::MAX;
+
+/// What a stage is given, by place.
+pub(super) fn given<'a>(
+    reads: &'a [usize],
+    before: &'a [i32],
+    class: &'a [i32],
+) -> impl Fn(u32) -> i32 + 'a {
+    move |place| match (place as usize).checked_sub(reads.len()) {
+        _ if place == NONE => UNSET,
+        Some(cell) => class[cell],
+        None => before[reads[place as usize]],
+    }
+}
