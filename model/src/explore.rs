@@ -427,8 +427,11 @@ fn decide<'a, T: Store>(
         });
     let responses: Vec<_> = responses.collect();
     let mut waiting = Waiting::new(model, &responses, known);
-    let mut lost = recoverable(model, &goals, store, tally.states)?.into_iter();
     let mut graphs = waiting.small(&responses, held);
+    if graphs.len() == responses.len() {
+        waiting.end();
+    }
+    let mut lost = recoverable(model, &goals, store, tally.states)?.into_iter();
     let held = held + graphs.values().map(Graph::bytes).sum::<u64>();
     let mut decisions = Vec::new();
     for (number, Property { form, .. }) in properties.iter().enumerate() {

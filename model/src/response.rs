@@ -86,7 +86,9 @@ impl<'a, K: Key> Waiting<'a, K> {
         responses: &[(usize, Response, &Set<K>)],
         known: Known<'a, K>,
     ) -> Self {
-        let needed: Vec<_> = responses.iter().flat_map(|(_, r, _)| r.waits()).collect();
+        let mut needed: Vec<_> = responses.iter().flat_map(|(_, r, _)| r.waits()).collect();
+        needed.sort_unstable();
+        needed.dedup();
         let Known { staged, told } = known;
         let (walkers, told) = if responses.is_empty() || needed.len() > MOST_CONDITIONS {
             (Vec::new(), Vec::new())
@@ -102,6 +104,11 @@ impl<'a, K: Key> Waiting<'a, K> {
             walkers,
             told,
         }
+    }
+
+    /// Forgets what is known of the stages.
+    pub(crate) fn end(&mut self) {
+        self.walkers.clear();
     }
 
     /// The graphs of those of these responses whose graphs are small: each of them is found by one thread.
@@ -120,9 +127,12 @@ impl<'a, K: Key> Waiting<'a, K> {
         if responses.len() < 2 || walkers.len() < 2 || !fits {
             return BTreeMap::new();
         }
-        // The large ones first, so that none of them is begun when the other threads are done.
+        // Each thread begins with large ones, so that none of them is begun when the others are done.
         let mut order: Vec<_> = responses.iter().collect();
         order.sort_by_cached_key(|(_, _, pending)| Reverse(pending.counts().iter().sum::<usize>()));
+        let threads = walkers.len();
+        let of = |thread| order.iter().skip(thread).step_by(threads).copied();
+        let order: Vec<_> = (0..threads).flat_map(of).collect();
         let mut workers: Vec<_> = walkers.iter_mut().map(|w| (w, Vec::new())).collect();
         model.crew.share(&mut workers, order.len(), |worker, n| {
             let (walker, graphs) = worker;

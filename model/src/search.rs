@@ -91,7 +91,11 @@ pub(crate) fn search<'m, O: Origin, T: Store>(
             &mut found.tally,
             &mut workers,
         );
-        if staging.active {
+        let room = model
+            .watch
+            .memory()
+            .is_none_or(|most| bytes(store, &found.pending) + model.known() + 8 * size <= most);
+        if staging.active && room {
             store.arrange(model.crew);
         }
         let level = Level {
@@ -244,18 +248,19 @@ impl Staging {
         }
         // What is known of a property already is not looked for.
         let shown = |p: usize| (tally.signs[p].first.is_some(), tally.signs[p].met);
-        let watched = Watched::new(properties, open, shown);
-        if let Some(watched) = &watched {
-            for worker in workers.iter_mut() {
-                worker.staged = model.staged(&watched.conditions);
-            }
+        let Some(watched) = Watched::new(properties, open, shown) else {
+            // More may be known when the next level is over.
+            return;
+        };
+        for worker in workers.iter_mut() {
+            worker.staged = model.staged(&watched.conditions);
         }
         if workers.iter().any(|worker| worker.staged.is_none()) {
             self.end(tally, workers);
             return;
         }
         self.active = true;
-        self.watched = watched.unwrap_or_default();
+        self.watched = watched;
         model.pays.store(true, Ordering::Relaxed);
     }
 

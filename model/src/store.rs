@@ -29,7 +29,7 @@ pub(crate) trait Store: Sync {
     fn load(&mut self, input: &mut In) -> io::Result<()>;
     /// Brings the frontier in an order in which states next to each other are much alike, where it has none: what is known of one
     /// helps with the next.
-    fn arrange(&mut self, crew: &Crew);
+    fn arrange(&mut self, _: &Crew) {}
     /// The frontier in pieces, to be shared out.
     fn pieces(&self) -> usize;
     fn each(&self, piece: usize, visit: impl FnMut(Self::Key));

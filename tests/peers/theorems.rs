@@ -556,3 +556,29 @@ mod slow {
         println!("{} theorems confirmed", confirmed(&shown()));
     }
 }
+
+/// What takes up to a minute: `.ci/run` has it beside the daily tests.
+mod slow {
+    use super::*;
+    use stillpoint_harness::proof::Which;
+
+    /// The way back from every state of an axis with all its stops, for all values at once: found only if states that were not helped
+    /// wait until there is more to help them with. In the index it stands for fewer values.
+    #[test]
+    #[ignore = "slow: a step of .ci/run"]
+    fn the_ways_back_of_an_axis_are_found_for_all_values() {
+        let file = folder("sinumerik-840d").join("axis.toml");
+        let mut bound = bound(&file, "stop");
+        let wanted = |id: &str| id.starts_with("S840D-P-44-RESET");
+        bound.system.properties.retain(|p| wanted(&label(p)));
+        assert_eq!(bound.system.properties.len(), 1);
+        let every = Every::new(&bound, &Which::All).expect("free parameters");
+        let settings = Settings {
+            each: Some(Duration::from_secs(300)),
+            ..Settings::default()
+        };
+        for one in judge_every(&every, &settings) {
+            assert_eq!(one.verdict, Verdict::Holds, "{}: {:?}", one.id, one.reason);
+        }
+    }
+}

@@ -2,7 +2,6 @@
 
 use super::flow::owner;
 use crate::checkpoint::{In, Out};
-use crate::crew::Crew;
 use crate::hashed::{Code, Hashed, HashedLocal};
 use crate::pack::Key;
 use crate::store::Store;
@@ -98,14 +97,6 @@ impl<C: Code> Store for Share<C> {
 
     fn load(&mut self, input: &mut In) -> io::Result<()> {
         self.own.load(input)
-    }
-
-    fn settle(&self, local: &mut ShareLocal<C>) {
-        self.own.settle(&mut local.own);
-    }
-
-    fn arrange(&mut self, crew: &Crew) {
-        self.own.arrange(crew);
     }
 
     fn pieces(&self) -> usize {

@@ -20,7 +20,7 @@ const MUCH: u64 = 1 << 14;
 /// Fewer ways than these in a trial are not worth it.
 const FEW: u64 = 2 * TRIAL as u64;
 
-/// One of so many states may be new to the first stages. While more are, each part of their trial is twice as long as the one before,
+/// One of so many states, of those for which the first stages are looked up, may be new to them. While more are, each part of their trial is twice as long as the one before,
 /// and the share of what is new falls by one of so many at least.
 const NEW: u64 = 2;
 const FALLS: u64 = 100;

@@ -102,10 +102,13 @@ impl<K: Key> Staged<'_, K> {
             .iter()
             .map(Table::bytes)
             .sum::<u64>();
-        self.forget_prefixes();
         let room = bytes < self.most / SHARE_OF_GROUPS;
         let last = self.groups[self.groups.len() - 1].table;
-        match self.fusion.next(&seen, room) {
+        let change = self.fusion.next(&seen, room);
+        if change.is_some() {
+            self.forget_prefixes();
+        }
+        match change {
             Some(Change::Fuse(group)) => {
                 let parts = [self.groups[group].clone(), self.groups[group + 1].clone()];
                 match self.table(&parts) {

@@ -85,6 +85,9 @@ pub trait Stages: Send {
 
     /// Bytes held.
     fn bytes(&self) -> u64;
+
+    /// Forgets what can be found again. Classes keep their numbers.
+    fn forget(&mut self);
 }
 
 /// Lists of ways, those before a table and those behind it, to be used again.
@@ -446,7 +449,7 @@ impl<'a, K: Key> Staged<'a, K> {
         table.learn(from, fault);
     }
 
-    /// Tells what is held, and forgets all if it is too much.
+    /// Tells what is held, and forgets all but the classes if it is too much.
     fn weigh(&mut self) {
         if self.bytes() > self.most {
             self.forget_prefixes();
@@ -455,6 +458,7 @@ impl<'a, K: Key> Staged<'a, K> {
             self.fired = kept;
             self.tables.iter_mut().for_each(Table::forget);
             self.seen.forget();
+            self.stages.forget();
         }
         let bytes = self.bytes();
         self.held
@@ -464,7 +468,8 @@ impl<'a, K: Key> Staged<'a, K> {
 
     fn bytes(&self) -> u64 {
         let tables = self.tables.iter().map(Table::bytes).sum::<u64>();
-        self.stages.bytes() + self.seen.bytes() + tables
+        let prefixes = self.prefixes.iter().map(Prefix::bytes).sum::<u64>();
+        self.stages.bytes() + self.seen.bytes() + tables + prefixes
     }
 }
 

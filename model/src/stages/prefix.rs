@@ -1,5 +1,5 @@
-//! The ways behind each group of stages but the last, as the state before left them: of states that are much alike the first stages
-//! read the same, so that what they make of it is there already.
+//! The ways behind each group of stages, as the state before left them: of states that are much alike the first stages read the same, so
+//! that what they make of it is there already.
 
 use super::Staged;
 use super::counting::visit;
@@ -25,6 +25,14 @@ impl<K> Default for Prefix<K> {
     }
 }
 
+impl<K> Prefix<K> {
+    pub(super) fn bytes(&self) -> u64 {
+        let bytes = self.ways.capacity() * size_of::<Way<K>>()
+            + self.looked.capacity() * size_of::<(u32, u128)>();
+        bytes as u64
+    }
+}
+
 impl<K: Key> Staged<'_, K> {
     /// Tells the places of a group's prefix for how many states they were looked up.
     #[inline]
@@ -43,6 +51,7 @@ impl<K: Key> Staged<'_, K> {
     /// Forgets the prefixes: places and groups have another meaning from now on.
     pub(super) fn forget_prefixes(&mut self) {
         (0..self.groups.len()).for_each(|group| self.settle(group));
+        self.prefixes.fill_with(Prefix::default);
         self.valid = 0;
     }
 

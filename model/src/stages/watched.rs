@@ -58,14 +58,15 @@ impl Watched {
                 all.conditions.push(condition);
             }
         }
-        // What the verdicts on bounded responses ask about, so that they need not learn the stages anew.
+        // What the verdicts on bounded responses ask about, so that they need not learn the stages anew. An assumption is asked about
+        // nowhere else: what it reads would have to be kept.
         let bounded = open.iter().filter_map(|p| match properties[*p].form {
             Form::LeadsTo {
                 goal,
-                assuming,
+                assuming: None,
                 within: Some(_),
                 ..
-            } => Some(waits(goal, assuming)),
+            } => Some(waits(goal, None)),
             _ => None,
         });
         let mut more: Vec<Condition> = bounded.flatten().collect();

@@ -158,6 +158,10 @@ impl Memory for Desk {
     #[inline]
     fn before(&mut self, k: usize) -> i32 {
         debug_assert_ne!(self.before[k], UNSET, "more is read than was foreseen");
+        let place = self.unasked.before[k];
+        if place == self.unasked.now[k] {
+            self.unasked.now[k] = NONE;
+        }
         ask(&mut self.unasked.before[k], self.before[k], &mut self.asked);
         self.before[k]
     }
@@ -166,6 +170,9 @@ impl Memory for Desk {
     fn now(&mut self, k: usize) -> i32 {
         debug_assert_ne!(self.now[k], UNSET, "more is read than was foreseen");
         if !self.assigned[k] {
+            if self.unasked.now[k] == self.unasked.before[k] {
+                self.unasked.before[k] = NONE;
+            }
             ask(&mut self.unasked.now[k], self.now[k], &mut self.asked);
         }
         self.now[k]

@@ -114,13 +114,13 @@ impl Staged {
         let recall = &mut recalls[stage];
         recall.begin();
         let mut vectors = 0;
-        let made = loop {
+        let fault = loop {
             if vectors == MOST_VECTORS {
                 // The states that need it are made one by one.
-                break Err(Fault::OUT_OF_DOMAIN);
+                break Some(Fault::OUT_OF_DOMAIN);
             }
             if let Err(code) = plan.bound.step_over(stage, desk) {
-                break Err(Fault { code });
+                break Some(Fault { code });
             }
             for name in &own.forced {
                 plan.bound.value_over(name, desk);
@@ -133,10 +133,10 @@ impl Staged {
             let share = own.combinations / desk.combinations();
             recall.push(after.chain(left), rule, share);
             if !desk.advance(own) {
-                break Ok(vectors);
+                break None;
             }
         };
-        recall.add(desk.asked(), made)
+        recall.add(desk.asked(), fault)
     }
 }
 
@@ -202,5 +202,9 @@ impl Stages for Staged {
         let recalls = self.recalls.iter().map(Recall::bytes);
         let classes = self.classes.iter().map(|classes| classes.bytes);
         recalls.chain(classes).sum()
+    }
+
+    fn forget(&mut self) {
+        self.recalls.fill_with(Recall::default);
     }
 }

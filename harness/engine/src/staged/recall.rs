@@ -10,7 +10,7 @@ use foldhash::fast::FixedState;
 use stillpoint_lang::eval::UNSET;
 use stillpoint_model::Fault;
 
-/// The most bytes of one stage. It costs little to begin anew.
+/// With more bytes it begins anew, which costs little.
 const MOST: usize = 16 << 20;
 
 /// So many answers to one question stand in a list.
@@ -62,6 +62,8 @@ pub(super) struct Recall {
     others: HashMap<(u32, i32), u32, FixedState>,
     ends: Vec<Result<Range<u32>, Fault>>,
     made: Vec<Made>,
+    /// So many of them belong to an end.
+    noted: usize,
     parts: Vec<Part>,
 }
 
@@ -129,10 +131,19 @@ impl Recall {
         self.parts.extend(parts);
     }
 
-    /// So many outcomes, those pushed last, were made after these questions and answers.
-    pub(super) fn add(&mut self, asked: &[(u32, i32)], made: Result<usize, Fault>) -> u32 {
-        let (all, end) = (self.made.len() as u32, self.ends.len() as u32);
-        self.ends.push(made.map(|made| all - made as u32..all));
+    /// The outcomes pushed since the last call were made after these questions and answers, unless there was a fault.
+    pub(super) fn add(&mut self, asked: &[(u32, i32)], fault: Option<Fault>) -> u32 {
+        let end = self.ends.len() as u32;
+        let from = self.noted;
+        if let (Some(_), Some(first)) = (fault, self.made.get(from)) {
+            self.parts.truncate(first.parts as usize);
+            self.made.truncate(from);
+        }
+        self.noted = self.made.len();
+        self.ends.push(match fault {
+            Some(fault) => Err(fault),
+            None => Ok(from as u32..self.noted as u32),
+        });
         let mut at = None;
         for (place, answer) in asked {
             let node = self.node(at, Node::Ask(*place, 0));
