@@ -44,9 +44,7 @@ impl Response {
             met,
         }
     }
-}
 
-impl Response {
     /// What the stages have to tell of each cycle: that the response waits on, and that it ends.
     pub(crate) fn waits(self) -> [Condition; 2] {
         waits(self.goal, self.assuming)

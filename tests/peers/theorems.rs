@@ -549,18 +549,13 @@ fn machines_have_the_same_verdicts_without_theorems() {
 /// What takes a minute: `.ci/run` has it beside the daily tests.
 mod slow {
     use super::*;
+    use stillpoint_harness::proof::Which;
 
     #[test]
     #[ignore = "slow: a step of .ci/run"]
     fn the_certificates_of_all_theorems_are_confirmed() {
         println!("{} theorems confirmed", confirmed(&shown()));
     }
-}
-
-/// What takes up to a minute: `.ci/run` has it beside the daily tests.
-mod slow {
-    use super::*;
-    use stillpoint_harness::proof::Which;
 
     /// The way back from every state of an axis with all its stops, for all values at once: found only if states that were not helped
     /// wait until there is more to help them with. In the index it stands for fewer values.
