@@ -216,9 +216,7 @@ impl<C: Code> Store for Hashed<C> {
     }
 
     fn advance(&mut self, locals: Vec<&mut Self::Local>) -> u64 {
-        for local in locals {
-            self.set.flush(&mut local.batch);
-        }
+        locals.into_iter().for_each(|local| self.settle(local));
         let (from, to) = (std::mem::take(&mut self.to), self.set.counts());
         self.set_frontier(from, to)
     }

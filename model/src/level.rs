@@ -183,7 +183,7 @@ impl<O: Origin, T: Store> Level<'_, O, T> {
             stays = stays && burst.ends().all(|(after, _)| after == key);
             let all = noted.unwrap_or_else(|| {
                 let mut all = 0;
-                burst.each(|after, marks| {
+                burst.ends().for_each(|(after, marks)| {
                     *unwatched += 1;
                     if after != last {
                         self.store.visit(local, after);

@@ -103,6 +103,14 @@ impl Digit {
     fn offset(&self, value: i32) -> u64 {
         u64::from((value as u32).wrapping_sub(self.lo as u32))
     }
+
+    /// The value with the lowest digit of what is left of an index, which is taken off.
+    #[inline]
+    fn take(&self, rest: &mut u64) -> i32 {
+        let offset = *rest % self.size;
+        *rest /= self.size;
+        (i64::from(self.lo) + offset as i64) as i32
+    }
 }
 
 /// Where the values of a variable stand in an index.
@@ -249,9 +257,7 @@ impl<K: Key> Packer<K> {
         for variable in &self.order {
             let digit = &self.digits[*variable];
             let half = if K::HALVES == 1 { 0 } else { digit.half & 1 };
-            let offset = rest[half] % digit.size;
-            rest[half] /= digit.size;
-            state[*variable] = (i64::from(digit.lo) + offset as i64) as i32;
+            state[*variable] = digit.take(&mut rest[half]);
         }
     }
 
@@ -276,9 +282,7 @@ impl<K: Key> Packer<K> {
                 continue;
             }
             *before = Some(rest[half]);
-            let offset = rest[half] % digit.size;
-            rest[half] /= digit.size;
-            let value = (i64::from(digit.lo) + offset as i64) as i32;
+            let value = digit.take(&mut rest[half]);
             if std::mem::replace(&mut opened.state[*variable], value) != value {
                 changed(*variable);
             }

@@ -218,10 +218,7 @@ impl<'a, K: Key> Staged<'a, K> {
         if !self.pass(last) {
             return None;
         }
-        let ways = match last.checked_sub(1) {
-            Some(before) => std::mem::take(&mut self.prefixes[before].ways),
-            None => vec![Way::begin(0, self.combinations)],
-        };
+        let ways = self.take_ways(last);
         let weight = self.look_up(last, &ways);
         if weight.is_some() {
             let of = &mut self.tables[self.groups[last].table];
@@ -245,9 +242,7 @@ impl<'a, K: Key> Staged<'a, K> {
             }
             self.count_state(last);
         }
-        if let Some(before) = last.checked_sub(1) {
-            self.prefixes[before].ways = ways;
-        }
+        self.put_back(last, ways);
         weight
     }
 
@@ -318,15 +313,9 @@ impl<'a, K: Key> Staged<'a, K> {
         let mut own = std::mem::take(&mut self.prefixes[group]);
         own.ways.clear();
         own.looked.clear();
-        let made = match group.checked_sub(1) {
-            Some(before) => {
-                let ways = std::mem::take(&mut self.prefixes[before].ways);
-                let made = self.follow_all(group, &ways, &mut own);
-                self.prefixes[before].ways = ways;
-                made
-            }
-            None => self.follow_all(group, &[Way::begin(0, self.combinations)], &mut own),
-        };
+        let ways = self.take_ways(group);
+        let made = self.follow_all(group, &ways, &mut own);
+        self.put_back(group, ways);
         self.prefixes[group] = own;
         made
     }

@@ -33,21 +33,6 @@ impl<K: Key> Burst<'_, K> {
         })
     }
 
-    /// Hands on the same.
-    #[inline]
-    pub(crate) fn each(&self, mut each: impl FnMut(K, u128)) {
-        let mut end = |own: K, class: u32| {
-            let marks = self.marks.get(class as usize).copied();
-            each(self.state.plus(own), marks.unwrap_or(0));
-        };
-        match self.follows {
-            Follows::One(own, class) => end(own, class),
-            Follows::Of(outcomes) => outcomes
-                .iter()
-                .for_each(|(own, class, _)| end(*own, *class)),
-        }
-    }
-
     /// Whether there is one state after them, so that it costs no more to look at it than to see whether it was looked at.
     #[inline]
     pub(super) fn is_one(&self) -> bool {

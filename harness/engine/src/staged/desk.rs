@@ -23,8 +23,9 @@ pub(super) struct Desk {
     rule: usize,
     /// The state variables assigned in this combination.
     assigned: Vec<bool>,
-    /// The places of the given values, by cell as in [`Places`], of which NONE is left where it was asked for already.
-    unasked: Places,
+    /// The places of the given values, and which of them were not asked for yet.
+    places: Places,
+    unasked: Vec<bool>,
     /// What was asked for in all combinations, in this order, and the answers.
     asked: Vec<(u32, i32)>,
 }
@@ -43,7 +44,8 @@ impl Desk {
             log: Vec::new(),
             rule: 0,
             assigned: vec![false; bound.states.len()],
-            unasked: Places::default(),
+            places: Places::default(),
+            unasked: Vec::new(),
             asked: Vec::new(),
         }
     }
@@ -72,7 +74,9 @@ impl Desk {
         }
         self.found.copy_from_slice(&self.now);
         self.assigned.fill(false);
-        self.unasked.clone_from(&stage.places);
+        self.places.clone_from(&stage.places);
+        self.unasked.clear();
+        self.unasked.resize(stage.reads.len() + cells.len(), true);
         self.asked.clear();
     }
 
@@ -97,6 +101,14 @@ impl Desk {
         match self.assigned[k] {
             true => Part::Own(self.now[k]),
             false => Part::Given(stage.places.now[k]),
+        }
+    }
+
+    /// Notes a question for a given value, and its answer.
+    #[inline]
+    fn ask(&mut self, place: u32, answer: i32) {
+        if place != NONE && std::mem::replace(&mut self.unasked[place as usize], false) {
+            self.asked.push((place, answer));
         }
     }
 
@@ -145,24 +157,11 @@ impl Desk {
     }
 }
 
-/// Notes a question for a given value, and its answer.
-#[inline]
-fn ask(unasked: &mut u32, answer: i32, asked: &mut Vec<(u32, i32)>) {
-    let place = std::mem::replace(unasked, NONE);
-    if place != NONE {
-        asked.push((place, answer));
-    }
-}
-
 impl Memory for Desk {
     #[inline]
     fn before(&mut self, k: usize) -> i32 {
         debug_assert_ne!(self.before[k], UNSET, "more is read than was foreseen");
-        let place = self.unasked.before[k];
-        if place == self.unasked.now[k] {
-            self.unasked.now[k] = NONE;
-        }
-        ask(&mut self.unasked.before[k], self.before[k], &mut self.asked);
+        self.ask(self.places.before[k], self.before[k]);
         self.before[k]
     }
 
@@ -170,17 +169,14 @@ impl Memory for Desk {
     fn now(&mut self, k: usize) -> i32 {
         debug_assert_ne!(self.now[k], UNSET, "more is read than was foreseen");
         if !self.assigned[k] {
-            if self.unasked.now[k] == self.unasked.before[k] {
-                self.unasked.before[k] = NONE;
-            }
-            ask(&mut self.unasked.now[k], self.now[k], &mut self.asked);
+            self.ask(self.places.now[k], self.now[k]);
         }
         self.now[k]
     }
 
     #[inline]
     fn input(&mut self, k: usize) -> i32 {
-        ask(&mut self.unasked.inputs[k], self.inputs[k], &mut self.asked);
+        self.ask(self.places.inputs[k], self.inputs[k]);
         if self.inputs[k] == UNSET {
             if self.at == self.choices.len() {
                 self.choices.push((k, self.ranges[k].0));
@@ -195,7 +191,7 @@ impl Memory for Desk {
 
     #[inline]
     fn named(&mut self, k: usize) -> Option<i32> {
-        ask(&mut self.unasked.names[k], self.names[k], &mut self.asked);
+        self.ask(self.places.names[k], self.names[k]);
         Some(self.names[k]).filter(|value| *value != UNSET)
     }
 
