@@ -8,7 +8,7 @@ use crate::process::{Origin, Process, beyond};
 use crate::property::{Eval, Property};
 use crate::report::Options;
 use crate::set::{Batch, Set};
-use crate::stages::{self, Pace, Staged, Watched};
+use crate::stages::{self, Pace, Staged, Trial, Watched};
 use crate::store::Store;
 use crate::system::Fault;
 use crate::tally::Found;
@@ -36,7 +36,9 @@ pub(crate) struct Worker<'m, P, K, L> {
     pub(crate) joined: Option<Joined>,
     /// Where the cycles of a state are made in stages.
     pub(crate) staged: Option<Staged<'m, K>>,
-    /// What the pieces of this level took.
+    /// Where they are made in stages only as long as that is the quicker way.
+    pub(crate) trial: Option<Trial>,
+    /// What was made one by one in this level.
     pub(crate) pace: Pace,
     vectors: u64,
     /// Cycles put together from tables since the last look at the limits.
@@ -72,11 +74,17 @@ impl<P: Process, K: Key, L> Worker<'_, P, K, L> {
             examples: Vec::new(),
             joined: parts.map(Tables::worker),
             staged: None,
+            trial: None,
             pace: Pace::default(),
             vectors: 0,
             unwatched: 0,
             broken: false,
         }
+    }
+
+    /// Whether the next state is made in stages.
+    fn in_stages(&self) -> bool {
+        self.staged.is_some() && self.trial.is_none_or(|trial| !trial.plain())
     }
 }
 
@@ -90,6 +98,39 @@ pub(crate) fn lower<K: Ord + Copy>(slot: &mut Option<K>, key: K) {
 /// What the states and the pending duties take.
 pub(crate) fn bytes<T: Store>(store: &T, pending: &[Set<T::Key>]) -> u64 {
     store.bytes() + pending.iter().map(Set::bytes).sum::<u64>()
+}
+
+/// States of a piece that are made in the same way, between two looks at the clock.
+struct Lap {
+    start: Instant,
+    explored: u64,
+    vectors: u64,
+    staged: bool,
+    stride: u64,
+}
+
+impl Lap {
+    fn new<P: Process, K: Key, L>(worker: &Worker<'_, P, K, L>) -> Self {
+        Lap {
+            start: Instant::now(),
+            explored: worker.explored,
+            vectors: worker.vectors,
+            staged: worker.in_stages(),
+            stride: worker.trial.map_or(u64::MAX, |trial| trial.stride()),
+        }
+    }
+
+    /// The worker takes note of what they took.
+    fn end<P, K, L>(&self, worker: &mut Worker<'_, P, K, L>) {
+        let (time, states) = (self.start.elapsed(), worker.explored - self.explored);
+        if let Some(trial) = &mut worker.trial {
+            trial.made(time, states);
+        }
+        if !self.staged {
+            let vectors = worker.vectors - self.vectors;
+            worker.pace.plain(time, states, vectors);
+        }
+    }
 }
 
 /// What is the same for all workers during a level.
@@ -139,7 +180,7 @@ impl<O: Origin, T: Store> Level<'_, O, T> {
         worker: &mut Worker<'_, O::Process, T::Key, T::Local>,
         piece: usize,
     ) {
-        let (start, explored, vectors) = (Instant::now(), worker.explored, worker.vectors);
+        let mut lap = Lap::new(worker);
         self.store.each(piece, |key| {
             if worker.broken {
                 return;
@@ -147,16 +188,16 @@ impl<O: Origin, T: Store> Level<'_, O, T> {
             let joined = self
                 .parts
                 .is_some_and(|parts| self.joined(parts, worker, key));
-            if !joined && !self.staged(worker, key) {
+            let made = joined || lap.staged && self.staged(worker, key);
+            if !made {
                 self.state(worker, key);
             }
+            if worker.explored - lap.explored >= lap.stride {
+                lap.end(worker);
+                lap = Lap::new(worker);
+            }
         });
-        let (time, states) = (start.elapsed(), worker.explored - explored);
-        let vectors = worker.vectors - vectors;
-        match worker.staged {
-            Some(_) => worker.pace.staged(time, states),
-            None => worker.pace.plain(time, states, vectors),
-        }
+        lap.end(worker);
     }
 
     /// One state whose cycles are made in stages; false if there are none, or a cycle meets a fault.

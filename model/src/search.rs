@@ -10,7 +10,7 @@ use crate::process::Origin;
 use crate::property::Property;
 use crate::report::{Error, Options, Progress, Way};
 use crate::set::Set;
-use crate::stages::{Condition, Pace, Staged, Watched};
+use crate::stages::{Condition, Pace, Staged, Trial, Watched};
 use crate::store::Store;
 use crate::tally::{Found, Tally};
 use crate::watch::Watch;
@@ -238,22 +238,36 @@ impl Staging {
         if self.over {
             return;
         }
-        if self.active && self.way == Way::Quicker && self.pace.gives_up() {
+        if workers.iter().any(|w| w.trial.is_some_and(|t| t.over)) {
             self.end(tally, workers);
             model.pays.store(false, Ordering::Relaxed);
             return;
         }
-        if self.active || !(self.way == Way::Staged || self.pace.tries(frontier)) {
-            return;
+        if !self.active && (self.way == Way::Staged || self.pace.tries(frontier)) {
+            self.begin(model, properties, open, tally, workers);
         }
+    }
+
+    /// Gives the workers the stages of the system.
+    fn begin<'m, O: Origin, K: Key, L>(
+        &mut self,
+        model: &'m Model<'_, O, K>,
+        properties: &[Property],
+        open: &[usize],
+        tally: &mut Tally<K>,
+        workers: &mut [Worker<'m, O::Process, K, L>],
+    ) {
         // What is known of a property already is not looked for.
         let shown = |p: usize| (tally.signs[p].first.is_some(), tally.signs[p].met);
         let Some(watched) = Watched::new(properties, open, shown) else {
             // More may be known when the next level is over.
             return;
         };
+        let threads = workers.len();
+        let quicker = self.way == Way::Quicker;
         for worker in workers.iter_mut() {
             worker.staged = model.staged(&watched.conditions);
+            worker.trial = quicker.then(|| Trial::new(&self.pace, threads));
         }
         if workers.iter().any(|worker| worker.staged.is_none()) {
             self.end(tally, workers);
@@ -267,6 +281,7 @@ impl Staging {
     /// Takes the stages away for good.
     fn end<K: Key, P, L>(&mut self, tally: &mut Tally<K>, workers: &mut [Worker<'_, P, K, L>]) {
         for worker in workers {
+            worker.trial = None;
             if let Some(mut staged) = worker.staged.take() {
                 staged.count(&mut tally.coverage);
             }

@@ -15,7 +15,7 @@ mod table;
 mod watched;
 mod ways;
 
-pub(crate) use pace::Pace;
+pub(crate) use pace::{Pace, Trial};
 pub(crate) use watched::{Event, Watched, waits};
 
 use crate::pack::{Key, Opened, Packer};

@@ -82,17 +82,15 @@ impl Desk {
 
     /// What a step leaves in a cell.
     pub(super) fn left(&self, stage: &Stage, cell: Cell) -> Part {
-        let places = &stage.places;
-        match cell {
-            Cell::Now(k) => self.after(stage, k),
-            Cell::Input(k) => match self.choices[..self.at].iter().find(|(i, _)| *i == k) {
-                Some((_, value)) => Part::Own(*value),
-                None => Part::Given(places.inputs[k]),
-            },
-            Cell::Named(k) => match self.log.iter().any(|(name, _)| *name == k) {
-                true => Part::Own(self.names[k]),
-                false => Part::Given(places.names[k]),
-            },
+        let (place, own) = match cell {
+            Cell::Now(k) => return self.after(stage, k),
+            Cell::Input(k) => (stage.places.inputs[k], self.inputs[k]),
+            Cell::Named(k) => (stage.places.names[k], self.names[k]),
+        };
+        // What was given and asked for is the same wherever this is recalled.
+        match place == NONE || !self.unasked[place as usize] {
+            true => Part::Own(own),
+            false => Part::Given(place),
         }
     }
 

@@ -4,9 +4,11 @@
 //! of a path of answers.
 
 use std::collections::HashMap;
+use std::hash::{BuildHasher, Hasher};
 use std::ops::Range;
 
 use foldhash::fast::FixedState;
+use hashbrown::HashTable;
 use stillpoint_lang::eval::UNSET;
 use stillpoint_model::Fault;
 
@@ -17,7 +19,7 @@ const MOST: usize = 16 << 20;
 const FEW: usize = 8;
 
 /// A value that a stage has left: one of its own, or one that it was given and has not changed, by its place.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Part {
     Own(i32),
     Given(u32),
@@ -65,6 +67,8 @@ pub(super) struct Recall {
     /// So many of them belong to an end.
     noted: usize,
     parts: Vec<Part>,
+    /// Those that belong to no end yet, by what they leave and their rule.
+    fresh: HashTable<u32>,
 }
 
 impl Recall {
@@ -116,19 +120,37 @@ impl Recall {
         }
     }
 
-    /// One of the outcomes that are made now.
+    /// One of the outcomes that are made now. Equal ones become one.
     pub(super) fn push(
         &mut self,
         parts: impl Iterator<Item = Part>,
         rule: Option<usize>,
         share: u64,
     ) {
-        self.made.push(Made {
-            parts: self.parts.len() as u32,
+        let from = self.parts.len();
+        self.parts.extend(parts);
+        let (before, row) = self.parts.split_at(from);
+        let made = &mut self.made;
+        let same = |n: &u32| {
+            let one = &made[*n as usize];
+            one.rule == rule && before[one.parts as usize..].starts_with(row)
+        };
+        let hash = hash_of(rule, row);
+        if let Some(n) = self.fresh.find(hash, same) {
+            made[*n as usize].share += share;
+            self.parts.truncate(from);
+            return;
+        }
+        let again = |n: &u32| {
+            let one = &made[*n as usize];
+            hash_of(one.rule, &before[one.parts as usize..][..row.len()])
+        };
+        self.fresh.insert_unique(hash, made.len() as u32, again);
+        made.push(Made {
+            parts: from as u32,
             rule,
             share,
         });
-        self.parts.extend(parts);
     }
 
     /// The outcomes pushed since the last call were made after these questions and answers, unless there was a fault.
@@ -140,6 +162,7 @@ impl Recall {
             self.made.truncate(from);
         }
         self.noted = self.made.len();
+        self.fresh.clear();
         self.ends.push(match fault {
             Some(fault) => Err(fault),
             None => Ok(from as u32..self.noted as u32),
@@ -184,6 +207,19 @@ impl Recall {
             + self.parts.capacity() * size_of::<Part>();
         bytes as u64
     }
+}
+
+/// A number for what an outcome leaves, and its rule.
+fn hash_of(rule: Option<usize>, parts: &[Part]) -> u64 {
+    let mut hasher = FixedState::default().build_hasher();
+    hasher.write_usize(rule.map_or(0, |rule| rule + 1));
+    for part in parts {
+        hasher.write_u64(match part {
+            Part::Own(value) => u64::from(*value as u32),
+            Part::Given(place) => 1 << 32 | u64::from(*place),
+        });
+    }
+    hasher.finish()
 }
 
 /// The places of the values that a stage is given: the state variables that it reads, then what is kept before it.
