@@ -7,6 +7,11 @@ use std::time::Duration;
 const TRIED: u64 = 512;
 const MANY: u64 = 1 << 14;
 const WORTH: u64 = 12;
+/// So many input vectors are not made one by one where few states have told how many a state has. Else it is worth to wait: the more is
+/// known of the properties, the less the stages have to tell apart.
+const TOO_MANY: u64 = 1 << 17;
+/// So many states have told how many input vectors a state has, unless they had many.
+const FEW: u64 = 64;
 /// So many states that were made one by one tell how long one takes.
 const SAMPLES: u64 = 32;
 /// States in stages before they are judged, or the time they took.
@@ -62,7 +67,12 @@ impl Pace {
         let states = self.plain.states.max(1);
         let each = self.vectors / states;
         let all = states.saturating_add(further);
-        let many = all >= TRIED || all.saturating_mul(each) >= MANY;
+        let vectors = all.saturating_mul(each);
+        let known = states >= FEW || self.vectors >= MANY;
+        let many = match known {
+            true => all >= TRIED || vectors >= MANY,
+            false => vectors >= TOO_MANY,
+        };
         many && each >= WORTH
     }
 }
@@ -146,8 +156,14 @@ mod tests {
     #[test]
     fn tries_where_many_vectors_are_to_come() {
         assert!(!Pace::default().tries(u64::MAX));
-        assert!(!begun().tries(31));
-        assert!(begun().tries(32));
+        assert!(!begun().tries(261));
+        assert!(begun().tries(262), "131 500 vectors by one state");
+        let mut known = Pace::default();
+        known.plain(MS, 64, 64 * 20);
+        assert!(!known.tries(447));
+        assert!(known.tries(448), "512 states");
+        known.plain(MS, 1, 64 * 500);
+        assert!(known.tries(0), "more than 16 384 vectors");
         let mut few = Pace::default();
         few.plain(MS, 1, 11);
         assert!(!few.tries(u64::MAX));
