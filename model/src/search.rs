@@ -162,6 +162,8 @@ pub(crate) fn search<'m, O: Origin, T: Store>(
             break;
         }
     }
+    // What follows the search uses them only where they pay.
+    staging.judge(model, &mut found.tally, &mut workers);
     if let Some(parts) = &parts {
         for joined in workers.iter_mut().filter_map(|w| w.joined.as_mut()) {
             parts.count(joined, &mut found.tally.coverage);
@@ -238,13 +240,24 @@ impl Staging {
         if self.over {
             return;
         }
-        if workers.iter().any(|w| w.trial.is_some_and(|t| t.over)) {
+        self.judge(model, tally, workers);
+        if !self.over && !self.active && (self.way == Way::Staged || self.pace.tries(frontier)) {
+            self.begin(model, properties, open, tally, workers);
+        }
+    }
+
+    /// Takes the stages away if a worker has given them up, and all together lose by them: one that has joined late may have learned too
+    /// little, and goes on alone.
+    fn judge<O: Origin, K: Key, L>(
+        &mut self,
+        model: &Model<'_, O, K>,
+        tally: &mut Tally<K>,
+        workers: &mut [Worker<'_, O::Process, K, L>],
+    ) {
+        let trials = || workers.iter().filter_map(|w| w.trial);
+        if trials().any(|t| t.over) && trials().map(|t| t.lost()).sum::<i128>() > 0 {
             self.end(tally, workers);
             model.pays.store(false, Ordering::Relaxed);
-            return;
-        }
-        if !self.active && (self.way == Way::Staged || self.pace.tries(frontier)) {
-            self.begin(model, properties, open, tally, workers);
         }
     }
 

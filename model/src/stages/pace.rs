@@ -134,9 +134,14 @@ impl Trial {
         }
         let (plain, rate) = (self.plain.rate(), std::mem::take(&mut self.recent).rate());
         let improves = self.last.is_none_or(|last| rate * 5 < last * 3);
-        let due = plain * u128::from(self.staged.states) + LOST.as_nanos();
         self.last = Some(rate);
-        self.over = rate > plain && !improves && self.staged.time.as_nanos() > due;
+        self.over = rate > plain && !improves && self.lost() > LOST.as_nanos() as i128;
+    }
+
+    /// Nanoseconds that were lost with stages so far; less than nothing where they were won.
+    pub(crate) fn lost(&self) -> i128 {
+        let plain = self.plain.rate() * u128::from(self.staged.states);
+        self.staged.time.as_nanos() as i128 - plain as i128
     }
 }
 
@@ -215,7 +220,8 @@ mod tests {
         assert_eq!(trial.stride(), MOST);
         trial.made(300 * MS, 100);
         assert!(!trial.over, "far less was lost than won");
+        assert_eq!(trial.lost(), -733 * 1_000_000);
         trial.made(1200 * MS, 100);
-        assert!(trial.over);
+        assert!(trial.over && trial.lost() > 0);
     }
 }

@@ -15,6 +15,9 @@ use stillpoint_model::Fault;
 /// With more bytes it begins anew, which costs little.
 const MOST: usize = 16 << 20;
 
+/// With room for more a table is not cleared, which takes as long as it is large, but made anew.
+const LARGE: usize = 1024;
+
 /// So many answers to one question stand in a list.
 const FEW: usize = 8;
 
@@ -162,7 +165,10 @@ impl Recall {
             self.made.truncate(from);
         }
         self.noted = self.made.len();
-        self.fresh.clear();
+        match self.fresh.capacity() > LARGE {
+            true => self.fresh = HashTable::new(),
+            false => self.fresh.clear(),
+        }
         self.ends.push(match fault {
             Some(fault) => Err(fault),
             None => Ok(from as u32..self.noted as u32),
