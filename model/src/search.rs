@@ -237,9 +237,6 @@ impl Staging {
         tally: &mut Tally<K>,
         workers: &mut [Worker<'m, O::Process, K, L>],
     ) {
-        if self.over {
-            return;
-        }
         self.judge(model, tally, workers);
         if !self.over && !self.active && (self.way == Way::Staged || self.pace.tries(frontier)) {
             self.begin(model, properties, open, tally, workers);

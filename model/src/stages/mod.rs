@@ -107,6 +107,8 @@ pub(crate) struct Staged<'a, K> {
     combinations: u128,
     opened: Opened,
     after: Vec<i32>,
+    /// The one way that comes to the first group.
+    first: Vec<Way<K>>,
     /// One for each group; of so many groups they are those of the state looked at.
     prefixes: Vec<Prefix<K>>,
     valid: usize,
@@ -174,6 +176,7 @@ impl<'a, K: Key> Staged<'a, K> {
             combinations: origin.combinations(),
             opened: packer.opened(),
             after: vec![0; domains.len()],
+            first: vec![Way::begin(0, origin.combinations())],
             prefixes,
             valid: 0,
             readers: vec![usize::MAX; domains.len()],

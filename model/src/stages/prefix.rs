@@ -34,20 +34,24 @@ impl<K> Prefix<K> {
 }
 
 impl<K: Key> Staged<'_, K> {
-    /// The ways that come to a group, to be put back.
+    /// The ways that come to a group.
+    #[inline]
+    fn ways(&mut self, group: usize) -> &mut Vec<Way<K>> {
+        match group.checked_sub(1) {
+            Some(before) => &mut self.prefixes[before].ways,
+            None => &mut self.first,
+        }
+    }
+
+    /// Takes them, to be put back.
     #[inline]
     pub(super) fn take_ways(&mut self, group: usize) -> Vec<Way<K>> {
-        match group.checked_sub(1) {
-            Some(before) => std::mem::take(&mut self.prefixes[before].ways),
-            None => vec![Way::begin(0, self.combinations)],
-        }
+        std::mem::take(self.ways(group))
     }
 
     #[inline]
     pub(super) fn put_back(&mut self, group: usize, ways: Vec<Way<K>>) {
-        if let Some(before) = group.checked_sub(1) {
-            self.prefixes[before].ways = ways;
-        }
+        *self.ways(group) = ways;
     }
 
     /// Tells the places of a group's prefix for how many states they were looked up.

@@ -1,5 +1,7 @@
 //! Where the step of one instance is made: the cells that it may read, and all combinations of the inputs that it reads.
 
+use std::sync::Arc;
+
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::eval::{Memory, UNSET};
 
@@ -24,7 +26,7 @@ pub(super) struct Desk {
     /// The state variables assigned in this combination.
     assigned: Vec<bool>,
     /// The places of the given values, and which of them were not asked for yet.
-    places: Places,
+    places: Arc<Places>,
     unasked: Vec<bool>,
     /// What was asked for in all combinations, in this order, and the answers.
     asked: Vec<(u32, i32)>,
@@ -44,7 +46,7 @@ impl Desk {
             log: Vec::new(),
             rule: 0,
             assigned: vec![false; bound.states.len()],
-            places: Places::default(),
+            places: Arc::default(),
             unasked: Vec::new(),
             asked: Vec::new(),
         }
@@ -74,18 +76,18 @@ impl Desk {
         }
         self.found.copy_from_slice(&self.now);
         self.assigned.fill(false);
-        self.places.clone_from(&stage.places);
+        self.places = Arc::clone(&stage.places);
         self.unasked.clear();
         self.unasked.resize(stage.reads.len() + cells.len(), true);
         self.asked.clear();
     }
 
     /// What a step leaves in a cell.
-    pub(super) fn left(&self, stage: &Stage, cell: Cell) -> Part {
+    pub(super) fn left(&self, cell: Cell) -> Part {
         let (place, own) = match cell {
-            Cell::Now(k) => return self.after(stage, k),
-            Cell::Input(k) => (stage.places.inputs[k], self.inputs[k]),
-            Cell::Named(k) => (stage.places.names[k], self.names[k]),
+            Cell::Now(k) => return self.after(k),
+            Cell::Input(k) => (self.places.inputs[k], self.inputs[k]),
+            Cell::Named(k) => (self.places.names[k], self.names[k]),
         };
         // What was given and asked for is the same wherever this is recalled.
         match place == NONE || !self.unasked[place as usize] {
@@ -95,10 +97,10 @@ impl Desk {
     }
 
     /// What a step leaves in a state variable.
-    pub(super) fn after(&self, stage: &Stage, k: usize) -> Part {
+    pub(super) fn after(&self, k: usize) -> Part {
         match self.assigned[k] {
             true => Part::Own(self.now[k]),
-            false => Part::Given(stage.places.now[k]),
+            false => Part::Given(self.places.now[k]),
         }
     }
 

@@ -126,9 +126,9 @@ impl Staged {
                 plan.bound.value_over(name, desk);
             }
             vectors += 1;
-            let after = own.writes.iter().map(|k| desk.after(own, *k));
+            let after = own.writes.iter().map(|k| desk.after(*k));
             let left = plan.boundaries[stage + 1].iter();
-            let left = left.map(|cell| desk.left(own, *cell));
+            let left = left.map(|cell| desk.left(*cell));
             let rule = desk.rule().map(|rule| own.first_rule + rule);
             let share = own.combinations / desk.combinations();
             recall.push(after.chain(left), rule, share);

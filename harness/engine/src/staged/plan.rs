@@ -1,6 +1,7 @@
 //! Live variables between the steps of the instances: what has to be known before each of them, and what may be forgotten.
 
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::fold::folded;
@@ -33,7 +34,7 @@ pub(super) struct Stage {
     pub(super) combinations: u64,
     /// The number of its first rule.
     pub(super) first_rule: usize,
-    pub(super) places: Places,
+    pub(super) places: Arc<Places>,
 }
 
 impl Places {
@@ -121,7 +122,7 @@ impl Plan {
             live = needs.cells;
             let kept: Vec<Cell> = live.iter().copied().collect();
             stages.push(Stage {
-                places: Places::new(&bound, &reads, &kept),
+                places: Arc::new(Places::new(&bound, &reads, &kept)),
                 reads,
                 writes: own.collect(),
                 forced,

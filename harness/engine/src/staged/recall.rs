@@ -229,7 +229,7 @@ fn hash_of(rule: Option<usize>, parts: &[Part]) -> u64 {
 }
 
 /// The places of the values that a stage is given: the state variables that it reads, then what is kept before it.
-#[derive(Clone, Default)]
+#[derive(Default)]
 pub(super) struct Places {
     pub(super) before: Vec<u32>,
     pub(super) now: Vec<u32>,
