@@ -4,6 +4,7 @@
 //! `tests/peers/certificates.rs` checks that they still are what that command writes.
 
 use std::path::{Path, PathBuf};
+use std::slice::from_ref;
 
 use stillpoint_certify::format::Verdict;
 use stillpoint_certify::proof::clause::{Clause, Literal};
@@ -168,11 +169,27 @@ fn altered(literal: &Literal) -> Vec<Literal> {
                 equal,
             },
         ],
-        Literal::Most { name, other, shift } => vec![Literal::Most {
-            name,
-            other,
-            shift: shift - 1,
-        }],
+        Literal::Most { sum, most, shift } => {
+            let mut list = vec![Literal::Most {
+                sum: sum.clone(),
+                most: most.clone(),
+                shift: shift - 1,
+            }];
+            // One more of the last, and another one in its place; the last of the other side is not there.
+            if let [.., last] = &sum[..] {
+                let more = [&sum[..], from_ref(last)].concat();
+                list.extend([more, vec!["nothing".into()]].map(|sum| Literal::Most {
+                    sum,
+                    most: most.clone(),
+                    shift,
+                }));
+            }
+            if let [fewer @ .., _] = &most[..] {
+                let most = fewer.to_vec();
+                list.push(Literal::Most { sum, most, shift });
+            }
+            list
+        }
     }
 }
 

@@ -3,14 +3,13 @@
 //! What depends on them becomes an expression over these variables: ranges, start values, bounds of responses. Which values may stand
 //! together is told by conditions, as further atoms of the system. The result is a system like any other.
 
-use std::collections::BTreeSet;
-
 use stillpoint_lang::bind::{Bound, Bounds};
 use stillpoint_lang::condition::Condition;
 use stillpoint_lang::ir::{BinaryOp, Form, Node, Param, Property, Space, State, Stmt, Ty, Var};
 use stillpoint_lang::twice::twice;
 use stillpoint_model::Trace;
 
+use super::linear::Linear;
 use crate::export::range_of;
 
 /// A parameter and the values that it is to have.
@@ -49,8 +48,8 @@ pub struct Every {
     pub(super) assumed: Vec<usize>,
     /// By property the state variable that has its bound, where that depends on the parameters.
     pub(super) within: Vec<Option<usize>>,
-    /// By property the parameters that its bound is about.
-    pub(super) about: Vec<Vec<usize>>,
+    /// By property what its bound is made of.
+    pub(super) about: Vec<Linear>,
 }
 
 impl Every {
@@ -94,7 +93,7 @@ impl Every {
             start: of_both(&self.start),
             assumed: of_both(&self.assumed),
             within: vec![None],
-            about: vec![Vec::new()],
+            about: vec![Linear::default()],
             bound: both.bound,
         };
         Some((every, both.pairs))
@@ -179,7 +178,7 @@ impl<'a> Builder<'a> {
                 start: Vec::new(),
                 assumed: Vec::new(),
                 within: vec![None; old.system.properties.len()],
-                about: vec![Vec::new(); old.system.properties.len()],
+                about: vec![Linear::default(); old.system.properties.len()],
             },
             places: vec![None; old.system.params.len()],
             spans: vec![None; old.system.params.len()],
@@ -405,18 +404,7 @@ impl<'a> Builder<'a> {
             if lo == hi {
                 continue;
             }
-            let mut about = BTreeSet::new();
-            within.visit(&mut |node| match node {
-                Node::Cell(Space::Before, cell) => about.extend([*cell as usize]),
-                Node::Element {
-                    space: Space::Before,
-                    base,
-                    len,
-                    ..
-                } => about.extend((*base..base + len).map(|cell| cell as usize)),
-                _ => (),
-            });
-            self.every.about[k] = about.into_iter().collect();
+            self.every.about[k] = Linear::of(&within);
             let place = self.every.bound.states.len();
             let cell = Node::Cell(Space::Before, place as u32);
             let is = Node::Binary(BinaryOp::Eq, Box::new(cell), Box::new(within));

@@ -2,11 +2,14 @@
 //!
 //! An engine would learn "while the duty is open, the timer is at most the cycles left" value by value. Here such sentences are
 //! candidates, and those that hold by induction with each other are known beforehand. Where parameters are part of the state, so are
-//! "the timer is at most this parameter" and "this parameter is at most the cycles left".
+//! "the timer is at most this parameter", "these parameters together are at most the cycles left", and of a timer that counts up "this
+//! parameter is at most the cycles left and the timer".
 
 use std::collections::HashMap;
+use std::ops::RangeInclusive;
 
 use stillpoint_certify::proof::clause::{Clause, Literal};
+use stillpoint_lang::ir::Ty;
 use stillpoint_model::proof::{Budget, Candidates, Graph, Lit, Netlist, Spent, Word, inductive};
 
 use super::monitor::Duty;
@@ -21,36 +24,60 @@ const PHASE: i64 = 16;
 /// A variable of at least so many values may be a timer, a parameter of more its start.
 const TIMER: i64 = 4;
 
-/// What the cycles left may be short of, or have over; the strongest first.
-const SHIFTS: [i64; 4] = [-2, -1, 0, 1];
+/// What the cycles left may be short of, or have over, where the bound has no more or less cycles beside its parameters.
+const SHIFTS: (i64, i64) = (-2, 1);
+
+/// The most cycles beside the parameters of a bound that are told apart.
+const BESIDE: i64 = 16;
+
+/// The most sums of parameters.
+const SUMS: i64 = 128;
 
 /// What may be known beforehand; of the parameters those that the bound is about. The first two are about the time in which the duty is open.
-#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Clone, PartialEq, Eq, Hash)]
 enum Candidate {
     /// A variable has not this value.
     Excluded(usize, i64),
-    /// Where a variable has a value, or always: a timer or a parameter is at most the cycles left and this shift.
-    Below(Phase, Number, i64),
+    /// Where a variable has a value, or always: a sum is at most the cycles left and this shift.
+    Below(Phase, Sum, i64),
     /// Where a variable has a value, or always, duty or not: a timer is at most a parameter.
     Limited(Phase, usize, usize),
+    /// Two variables differ while the duty is open.
+    Differ(usize, usize),
 }
 
 /// A variable and its value, or always.
 type Phase = Option<(usize, i64)>;
 
 /// What may be compared with the cycles left.
+#[derive(Clone, PartialEq, Eq, Hash)]
+struct Sum {
+    timer: Timer,
+    /// By parameter how often it is in it.
+    times: Vec<i64>,
+}
+
+/// The timer of a sum.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
-enum Number {
-    Timer(usize),
-    Parameter(usize),
+enum Timer {
+    None,
+    /// It counts down: what is left of it is part of the sum.
+    Down(usize),
+    /// It counts up: what it has counted is taken off.
+    Up(usize),
 }
 
 /// State variables with more than one value that are no parameters, and parameters, as numbers with their ranges and names.
 struct Variables {
     own: Vec<(Word, (i64, i64))>,
+    /// Whether it counts, and is not one of some states.
+    counts: Vec<bool>,
     own_names: Vec<String>,
     parameters: Vec<Word>,
     parameter_names: Vec<String>,
+    /// By parameter the multiple that the bound has of it.
+    multiples: Vec<i64>,
+    shifts: RangeInclusive<i64>,
 }
 
 /// A system with what helps among its invariants.
@@ -67,29 +94,43 @@ pub(super) fn helped(asked: &Asked, duty: &Duty, budget: &Budget) -> Result<Opti
     }
     let translated = &asked.translated;
     let named = |k: usize| (translated.variable(k), asked.name(k));
-    let own = (0..asked.own)
-        .map(named)
-        .filter(|((_, (lo, hi)), _)| lo < hi);
-    let parameters = (duty.about.iter().map(|k| named(*k)))
-        .filter(|((_, (lo, hi)), _)| hi - lo >= TIMER)
-        .map(|((word, _), name)| (word, name));
-    let (own, own_names) = own.unzip();
-    let (parameters, parameter_names) = parameters.unzip();
-    let variables = Variables {
+    let places = (0..asked.own).filter(|k| {
+        let (lo, hi) = translated.variable(*k).1;
+        lo < hi
+    });
+    let states = &translated.bound.system.states;
+    let counts = places
+        .clone()
+        .map(|k| states[k].var.ty == Ty::Int)
+        .collect();
+    let (own, own_names) = places.map(named).unzip();
+    let beside = duty.about.number.clamp(-BESIDE, BESIDE);
+    let mut variables = Variables {
         own,
+        counts,
         own_names,
-        parameters,
-        parameter_names,
+        parameters: Vec::new(),
+        parameter_names: Vec::new(),
+        multiples: Vec::new(),
+        shifts: SHIFTS.0 - (beside - 1).max(0)..=SHIFTS.1 + (-beside).max(0),
     };
+    for (k, times) in &duty.about.parameters {
+        let ((word, (lo, hi)), name) = named(*k);
+        if lo >= 0 && hi - lo >= TIMER {
+            variables.parameters.push(word);
+            variables.parameter_names.push(name);
+            variables.multiples.push(*times.max(&1));
+        }
+    }
     let all = candidates(&variables);
     let mut netlist = translated.netlist.clone();
     let (mut offered, mut numbers) = (Candidates::default(), HashMap::new());
     for candidate in &all {
         let lit = build(&mut netlist, &variables, duty, candidate);
-        let stronger = stronger(candidate);
+        let stronger = stronger(&variables, candidate);
         let stronger = stronger.iter().filter_map(|s| numbers.get(s).copied());
         let number = offered.add(lit, stronger.collect());
-        numbers.insert(*candidate, number);
+        numbers.insert(candidate.clone(), number);
     }
     let kept = inductive(&netlist, &offered, budget)?;
     // Without the functions of all the others.
@@ -120,26 +161,40 @@ fn sentence(variables: &Variables, candidate: &Candidate) -> Clause {
         value,
         equal: false,
     };
-    let most = |number: Number, other: &str, shift: i64| Literal::Most {
-        name: match number {
-            Number::Timer(timer) => variables.own_names[timer].clone(),
-            Number::Parameter(parameter) => variables.parameter_names[parameter].clone(),
-        },
-        other: Some(other.to_owned()),
-        shift,
-    };
     let mut literals = Vec::new();
     match candidate {
         Candidate::Excluded(k, value) => literals.extend([open(), other((*k, *value))]),
-        Candidate::Below(phase, number, shift) => {
+        Candidate::Below(phase, total, shift) => {
             literals.push(open());
             literals.extend(phase.map(other));
-            literals.push(most(*number, "@rest", *shift));
+            let parameters = total.times.iter().zip(&variables.parameter_names);
+            let parameters =
+                parameters.flat_map(|(times, name)| vec![name.clone(); *times as usize]);
+            let (mut sum, mut most) = (Vec::new(), vec!["@rest".to_owned()]);
+            match total.timer {
+                Timer::None => (),
+                Timer::Down(timer) => sum.push(variables.own_names[timer].clone()),
+                Timer::Up(timer) => most.push(variables.own_names[timer].clone()),
+            }
+            sum.extend(parameters);
+            let shift = *shift;
+            literals.push(Literal::Most { sum, most, shift });
         }
         Candidate::Limited(phase, timer, parameter) => {
             literals.extend(phase.map(other));
-            let parameter = &variables.parameter_names[*parameter];
-            literals.push(most(Number::Timer(*timer), parameter, 0));
+            let sum = vec![variables.own_names[*timer].clone()];
+            let most = vec![variables.parameter_names[*parameter].clone()];
+            let shift = 0;
+            literals.push(Literal::Most { sum, most, shift });
+        }
+        Candidate::Differ(a, b) => {
+            literals.push(open());
+            literals.extend([(a, b), (b, a)].map(|(less, more)| {
+                let sum = vec![variables.own_names[*less].clone()];
+                let most = vec![variables.own_names[*more].clone()];
+                let shift = -1;
+                Literal::Most { sum, most, shift }
+            }));
         }
     }
     Clause(literals)
@@ -158,43 +213,94 @@ fn candidates(variables: &Variables) -> Vec<Candidate> {
             }
         }
     }
-    let parameters = || 0..variables.parameters.len();
     for (k, (_, range)) in variables.own.iter().enumerate() {
-        if size(range) >= TIMER && range.0 >= 0 {
-            for phase in &phases {
-                let below = SHIFTS.map(|shift| Candidate::Below(*phase, Number::Timer(k), shift));
-                list.extend(below);
-                // What a variable says of itself is nothing new.
-                if phase.is_none_or(|(own, _)| own != k) {
-                    list.extend(parameters().map(|p| Candidate::Limited(*phase, k, p)));
-                }
-            }
+        let alike = |other: &usize| variables.own[*other].1 == *range;
+        let others = (k + 1..variables.own.len()).filter(alike);
+        if size(range) <= PHASE {
+            list.extend(others.map(|other| Candidate::Differ(k, other)));
         }
     }
-    // What has not begun yet has all its time before it.
-    for phase in &phases {
-        for number in parameters().map(Number::Parameter) {
-            list.extend(SHIFTS.map(|shift| Candidate::Below(*phase, number, shift)));
+    let timers = || {
+        let timer = |(_, range): &(Word, (i64, i64))| size(range) >= TIMER && range.0 >= 0;
+        (0..variables.own.len()).filter(move |k| variables.counts[*k] && timer(&variables.own[*k]))
+    };
+    for sum in sums(variables, timers()) {
+        for phase in &phases {
+            let shifts = variables.shifts.clone();
+            list.extend(shifts.map(|shift| Candidate::Below(*phase, sum.clone(), shift)));
+        }
+    }
+    for k in timers() {
+        // What a variable says of itself is nothing new.
+        for phase in phases.iter().filter(|p| p.is_none_or(|(own, _)| own != k)) {
+            let parameters = 0..variables.parameters.len();
+            list.extend(parameters.map(|p| Candidate::Limited(*phase, k, p)));
         }
     }
     list
 }
 
+/// What may be compared with the cycles left, each behind those that it follows from.
+fn sums(variables: &Variables, timers: impl Iterator<Item = usize> + Clone) -> Vec<Sum> {
+    let mut times = vec![Vec::new()];
+    let all: i64 = variables.multiples.iter().map(|most| most + 1).product();
+    for most in &variables.multiples {
+        let most = if all > SUMS { 1 } else { *most };
+        times = (times.into_iter())
+            .flat_map(|sum| (0..=most).rev().map(move |n| [&sum[..], &[n]].concat()))
+            .collect();
+    }
+    let some = |times: &Vec<i64>| times.iter().any(|n| *n > 0);
+    let mut list = Vec::new();
+    for timer in timers.clone().map(Timer::Down) {
+        list.extend(times.iter().map(|times| Sum {
+            timer,
+            times: times.clone(),
+        }));
+    }
+    // What has not begun yet has all its time before it.
+    for timer in [Timer::None].into_iter().chain(timers.map(Timer::Up)) {
+        let times = times.iter().filter(|times| some(times));
+        list.extend(times.map(|times| Sum {
+            timer,
+            times: times.clone(),
+        }));
+    }
+    list
+}
+
 /// What a candidate follows from: the same always, or with less time left; that the phase does not occur.
-fn stronger(candidate: &Candidate) -> Vec<Candidate> {
-    match *candidate {
-        Candidate::Excluded(..) => Vec::new(),
-        Candidate::Below(phase, number, shift) => {
-            let always = phase.map(|_| Candidate::Below(None, number, shift));
+fn stronger(variables: &Variables, candidate: &Candidate) -> Vec<Candidate> {
+    match candidate {
+        Candidate::Excluded(..) | Candidate::Differ(..) => Vec::new(),
+        Candidate::Below(phase, sum, shift) => {
+            let always = phase.map(|_| Candidate::Below(None, sum.clone(), *shift));
             let never = phase.map(|(k, value)| Candidate::Excluded(k, value));
-            let less = Candidate::Below(phase, number, shift - 1);
-            always.into_iter().chain(never).chain([less]).collect()
+            let less = Candidate::Below(*phase, sum.clone(), shift - 1);
+            let larger = larger(variables, sum).into_iter();
+            let larger = larger.map(|sum| Candidate::Below(*phase, sum, *shift));
+            (always.into_iter().chain(never).chain([less]).chain(larger)).collect()
         }
         Candidate::Limited(phase, timer, parameter) => {
-            let always = phase.map(|_| Candidate::Limited(None, timer, parameter));
+            let always = phase.map(|_| Candidate::Limited(None, *timer, *parameter));
             always.into_iter().collect()
         }
     }
+}
+
+/// The next larger sums.
+fn larger(variables: &Variables, sum: &Sum) -> Vec<Sum> {
+    let mut list = Vec::new();
+    for k in 0..variables.parameters.len() {
+        let mut more = sum.clone();
+        more.times[k] += 1;
+        list.push(more);
+    }
+    if let Timer::Up(_) = sum.timer {
+        let (timer, times) = (Timer::None, sum.times.clone());
+        list.push(Sum { timer, times });
+    }
+    list
 }
 
 fn build(netlist: &mut Netlist, variables: &Variables, duty: &Duty, candidate: &Candidate) -> Lit {
@@ -205,14 +311,19 @@ fn build(netlist: &mut Netlist, variables: &Variables, duty: &Duty, candidate: &
     let mut open = duty.pending;
     let against = match candidate {
         Candidate::Excluded(k, value) => has(graph, (*k, *value)),
-        Candidate::Below(phase, number, shift) => {
+        Candidate::Below(phase, sum, shift) => {
             let phase = phase.map_or(Lit::TRUE, |phase| has(graph, phase));
-            let limit = duty.rest.plus(graph, &Word::constant(*shift));
-            let number = match number {
-                Number::Timer(timer) => &variables.own[*timer].0,
-                Number::Parameter(parameter) => &variables.parameters[*parameter],
-            };
-            let above = limit.less(graph, number);
+            let mut limit = duty.rest.plus(graph, &Word::constant(*shift));
+            let mut total = Word::constant(0);
+            match sum.timer {
+                Timer::None => (),
+                Timer::Down(timer) => total = variables.own[timer].0.clone(),
+                Timer::Up(timer) => limit = limit.plus(graph, &variables.own[timer].0),
+            }
+            for (parameter, times) in variables.parameters.iter().zip(&sum.times) {
+                total = (0..*times).fold(total, |total, _| total.plus(graph, parameter));
+            }
+            let above = limit.less(graph, &total);
             graph.and(phase, above)
         }
         Candidate::Limited(phase, timer, parameter) => {
@@ -221,6 +332,7 @@ fn build(netlist: &mut Netlist, variables: &Variables, duty: &Duty, candidate: &
             let above = variables.parameters[*parameter].less(graph, &variables.own[*timer].0);
             graph.and(phase, above)
         }
+        Candidate::Differ(a, b) => variables.own[*a].0.equals(graph, &variables.own[*b].0),
     };
     !graph.and(open, against)
 }

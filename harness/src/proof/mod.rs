@@ -10,6 +10,7 @@ mod explored;
 mod forever;
 mod help;
 mod judged;
+mod linear;
 mod monitor;
 mod pairs;
 mod question;

@@ -5,6 +5,8 @@
 use stillpoint_certify::proof::clause::{Clause, Literal};
 use stillpoint_model::proof::{Graph, Lit, Netlist, Word};
 
+use super::linear::Linear;
+
 /// The latches of a bounded response: whether a duty is open, and the cycles left to it.
 #[derive(Clone)]
 pub(super) struct Duty {
@@ -12,16 +14,16 @@ pub(super) struct Duty {
     pub rest: Word,
     /// The greatest number of cycles left.
     pub most: i64,
-    /// The parameters that its bound is about: places of their state variables.
-    pub about: Vec<usize>,
+    /// What its bound is made of.
+    pub about: Linear,
 }
 
 impl Duty {
     /// That the cycles left keep to their range, for a certificate.
     pub(super) fn keeps(&self) -> Clause {
-        let (name, other) = ("@rest".to_owned(), None);
+        let (sum, most) = (vec!["@rest".to_owned()], Vec::new());
         let shift = self.most;
-        Clause(vec![Literal::Most { name, other, shift }])
+        Clause(vec![Literal::Most { sum, most, shift }])
     }
 }
 
@@ -76,13 +78,12 @@ pub(super) fn until(
     broken
 }
 
-/// A bound in cycles, known or over parameters that are part of the state, and the greatest value that it can have.
+/// A bound in cycles, known or over parameters that are part of the state, the greatest value that it can have, and what it is made of.
 #[derive(Clone)]
 pub(super) struct Cycles {
     pub word: Word,
     pub most: i64,
-    /// These parameters: places of their state variables.
-    pub about: Vec<usize>,
+    pub about: Linear,
 }
 
 impl Cycles {
@@ -90,7 +91,7 @@ impl Cycles {
         Cycles {
             word: Word::constant(cycles),
             most: cycles,
-            about: Vec::new(),
+            about: Linear::default(),
         }
     }
 }
@@ -200,7 +201,7 @@ pub(super) fn measured(
         pending,
         rest,
         most: rounds,
-        about: Vec::new(),
+        about: Linear::default(),
     };
     (broken, duty)
 }

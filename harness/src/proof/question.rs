@@ -8,6 +8,7 @@ use stillpoint_model::Trace;
 use stillpoint_model::proof::{Bounded, Budget, Lit, Problem, Run};
 
 use super::every::{Every, begins};
+use super::linear::Linear;
 use super::monitor::{self, Cycles, Duty, Forever};
 use crate::export::{Translated, Unsupported};
 
@@ -68,8 +69,8 @@ pub(super) struct Asked<'a> {
     pub own: usize,
     /// By property the state variable that has its bound, if there is such.
     bounds: Vec<Option<usize>>,
-    /// By property the parameters that its bound is about.
-    about: Vec<Vec<usize>>,
+    /// By property what its bound is made of.
+    about: Vec<Linear>,
     /// With conditions on the parameters: by latch the start of a run in one of the configurations.
     such: Vec<Option<bool>>,
 }
@@ -84,7 +85,7 @@ impl<'a> Asked<'a> {
             parameters: &[],
             own: bound.states.len(),
             bounds: vec![None; bound.system.properties.len()],
-            about: vec![Vec::new(); bound.system.properties.len()],
+            about: vec![Linear::default(); bound.system.properties.len()],
             such: Vec::new(),
         };
         asked.ask();

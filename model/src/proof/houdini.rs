@@ -1,9 +1,16 @@
 //! Candidates for invariants, and those of them that hold together (Houdini: C. Flanagan and K. R. M. Leino, 2001).
 
-use super::graph::{Lit, value};
+use std::collections::HashSet;
+
+use super::graph::{Graph, Lit, value};
 use super::netlist::{Netlist, Problem, after};
 use super::sat::{Budget, Encoding, Solver, Spent, Term};
-use super::simulate::unbroken;
+use super::simulate::Runs;
+
+/// How many clauses may be learnt for an answer about candidates before fewer of them are asked about, and for one about a single one when
+/// nothing else is left to ask.
+const SOON: u64 = 150;
+const LATE: u64 = 2000;
 
 /// Candidates, conditions on latches, some of which follow from others.
 #[derive(Clone, Debug, Default)]
@@ -42,9 +49,11 @@ pub fn inductive(
 ) -> Result<Vec<usize>, Spent> {
     // Whatever one of them depends on.
     let problem = Problem::with(netlist, Lit::FALSE, &candidates.lits);
-    let mut left = unbroken(&problem, &candidates.lits, budget)?;
+    let mut left = vec![true; candidates.lits.len()];
+    let mut runs = Runs::new(&problem, &candidates.lits);
+    runs.drawn(&mut left, budget)?;
     at_start(&problem, candidates, &mut left, budget)?;
-    kept_by_cycles(&problem, candidates, left, budget)
+    kept_by_cycles(&problem, candidates, left, &mut runs, budget)
 }
 
 /// Leaves those that hold in every start state.
@@ -81,7 +90,8 @@ fn at_start(
 fn kept_by_cycles(
     problem: &Problem,
     candidates: &Candidates,
-    mut left: Vec<bool>,
+    left: Vec<bool>,
+    runs: &mut Runs,
     budget: &Budget,
 ) -> Result<Vec<usize>, Spent> {
     let netlist = problem.netlist();
@@ -93,33 +103,116 @@ fn kept_by_cycles(
         let term = encoding.term(&mut solver, &graph, *lit);
         solver.clause([term]);
     }
+    let mut cycles = Cycles {
+        graph,
+        moved,
+        solver,
+        encoding,
+        left,
+        doubtful: HashSet::new(),
+        runs,
+        budget,
+    };
     loop {
-        // The solvers of small questions hardly ever look at the time.
-        if budget.spent() {
-            return Err(Spent);
-        }
-        let strongest = candidates.strongest(&left);
-        let given: Vec<Term> = (strongest.iter())
-            .map(|k| encoding.term(&mut solver, &graph, candidates.lits[*k]))
-            .collect();
-        let after: Vec<Term> = (strongest.iter())
-            .map(|k| encoding.term(&mut solver, &graph, moved[*k]))
-            .collect();
+        let strongest = candidates.strongest(&cycles.left);
         // One assumption for all of them: each by itself would be a level of the search, begun anew with every restart.
-        let switch = solver.variable();
-        for term in given {
-            solver.clause([!switch, term]);
+        let given = cycles.solver.variable();
+        for k in &strongest {
+            let term = cycles.term(candidates.lits[*k]);
+            cycles.solver.clause([!given, term]);
         }
-        solver.clause([!switch].into_iter().chain(after.into_iter().map(|t| !t)));
-        if !solver.solve(&[switch])? {
+        let sure = strongest.iter().filter(|k| !cycles.doubtful.contains(k));
+        let sure: Vec<usize> = sure.copied().collect();
+        let all = cycles.keep(given, sure, false)? && cycles.keep_doubtful(given, &strongest)?;
+        cycles.solver.clause([!given]);
+        if all {
             return Ok(strongest);
         }
-        // Of all that are left those that this cycle does not keep, not only of the strongest.
-        let bit = |node| encoding.value(&solver, Lit::of(node)).unwrap_or(false);
-        let values = graph.values(bit);
-        for (left, moved) in left.iter_mut().zip(&moved) {
+    }
+}
+
+/// A cycle from a state in which candidates hold.
+struct Cycles<'a, 'b> {
+    graph: Graph,
+    /// By candidate what it says after the cycle.
+    moved: Vec<Lit>,
+    solver: Solver,
+    encoding: Encoding,
+    left: Vec<bool>,
+    doubtful: HashSet<usize>,
+    runs: &'a mut Runs<'b>,
+    budget: &'a Budget,
+}
+
+impl Cycles<'_, '_> {
+    fn term(&mut self, lit: Lit) -> Term {
+        self.encoding.term(&mut self.solver, &self.graph, lit)
+    }
+
+    /// Whether a cycle keeps all of these candidates where all that are given hold. Those that it does not keep are no longer left; those
+    /// of which that is not soon found out are doubtful from now on.
+    fn keep(&mut self, given: Term, mut asked: Vec<usize>, through: bool) -> Result<bool, Spent> {
+        let mut all = true;
+        loop {
+            asked.retain(|k| self.left[*k]);
+            match (self.ask(given, &asked, SOON)?, &asked[..]) {
+                (Some(true), _) => return Ok(all),
+                (Some(false), _) if !through => return Ok(false),
+                (Some(false), _) => all = false,
+                (None, [one]) => {
+                    self.doubtful.insert(*one);
+                    return Ok(all);
+                }
+                (None, _) => {
+                    let others = asked.split_off(asked.len() / 2);
+                    let some = self.keep(given, asked, true)?;
+                    let others = self.keep(given, others, true)?;
+                    return Ok(all && some && others);
+                }
+            }
+        }
+    }
+
+    /// The same of the doubtful ones, up to the first that it does not keep, or of which that is not found out.
+    fn keep_doubtful(&mut self, given: Term, candidates: &[usize]) -> Result<bool, Spent> {
+        for k in candidates {
+            if self.doubtful.contains(k) && self.ask(given, &[*k], LATE)? != Some(true) {
+                self.left[*k] = false;
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+
+    /// Whether a cycle keeps these, if so many clauses are enough to know. Of all that are left those that it does not keep are dropped.
+    fn ask(&mut self, given: Term, asked: &[usize], clauses: u64) -> Result<Option<bool>, Spent> {
+        // The solvers of small questions hardly ever look at the time.
+        if self.budget.spent() {
+            return Err(Spent);
+        }
+        let switch = self.solver.variable();
+        let broken: Vec<Term> = asked.iter().map(|k| !self.term(self.moved[*k])).collect();
+        self.solver.clause([!switch].into_iter().chain(broken));
+        let found = self.solver.attempt(&[given, switch], clauses)?;
+        if found == Some(true) {
+            self.drop_broken()?;
+        }
+        self.solver.clause([!switch]);
+        Ok(found.map(|found| !found))
+    }
+
+    /// Of all that are left those that the cycle found does not keep, nor a run from its first state.
+    fn drop_broken(&mut self) -> Result<(), Spent> {
+        let bit = |node| {
+            self.encoding
+                .value(&self.solver, Lit::of(node))
+                .unwrap_or(false)
+        };
+        let values = self.graph.values(bit);
+        for (left, moved) in self.left.iter_mut().zip(&self.moved) {
             *left &= value(&values, *moved);
         }
-        solver.clause([!switch]);
+        self.runs
+            .around(|lit| value(&values, lit), &mut self.left, self.budget)
     }
 }

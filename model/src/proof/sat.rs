@@ -38,6 +38,8 @@ pub(super) struct Watch {
     budget: Budget,
     asked: Cell<u32>,
     over: Cell<bool>,
+    /// Clauses that may still be learnt.
+    clauses: u64,
 }
 
 impl Watch {
@@ -46,12 +48,20 @@ impl Watch {
             budget: budget.clone(),
             asked: Cell::new(0),
             over: Cell::new(false),
+            clauses: u64::MAX,
         }
     }
 }
 
 impl Callbacks for Watch {
+    fn on_new_clause(&mut self, _: &[Term], _: batsat::clause::Kind) {
+        self.clauses = self.clauses.saturating_sub(1);
+    }
+
     fn stop(&self) -> bool {
+        if self.clauses == 0 {
+            return true;
+        }
         let asked = self.asked.get().wrapping_add(1);
         self.asked.set(asked);
         let over = self.over.get() || (asked % 16 == 0 && self.budget.spent());
@@ -105,6 +115,21 @@ impl Solver {
             Ok(false)
         } else {
             Err(Spent)
+        }
+    }
+
+    /// The same if no more clauses than these have to be learnt for it; else none.
+    pub(super) fn attempt(
+        &mut self,
+        assumptions: &[Term],
+        clauses: u64,
+    ) -> Result<Option<bool>, Spent> {
+        self.inner.cb_mut().clauses = clauses;
+        let answer = self.solve(assumptions);
+        let weary = std::mem::replace(&mut self.inner.cb_mut().clauses, u64::MAX) == 0;
+        match answer {
+            Err(Spent) if weary => Ok(None),
+            answer => answer.map(Some),
         }
     }
 
@@ -183,6 +208,47 @@ mod tests {
     use std::time::Duration;
 
     use super::*;
+
+    /// No place for each of so many birds, of which each needs one.
+    fn birds(solver: &mut Solver, birds: usize) {
+        let places: Vec<Vec<Term>> = (0..birds)
+            .map(|_| (1..birds).map(|_| solver.variable()).collect())
+            .collect();
+        for bird in &places {
+            solver.clause(bird.iter().copied());
+        }
+        for (first, one) in places.iter().enumerate() {
+            for other in &places[..first] {
+                for (a, b) in one.iter().zip(other) {
+                    solver.clause([!*a, !*b]);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn an_attempt_that_takes_too_many_clauses_has_no_answer_and_does_no_harm() {
+        let mut solver = Solver::new(&Budget::default());
+        birds(&mut solver, 6);
+        assert_eq!(solver.attempt(&[], 3), Ok(None));
+        assert_eq!(
+            solver.attempt(&[], 3),
+            Ok(None),
+            "the limit is that of each attempt"
+        );
+        assert_eq!(solver.attempt(&[], 100_000), Ok(Some(false)));
+        let over = Budget {
+            until: Some(Instant::now()),
+            ..Budget::default()
+        };
+        let mut solver = Solver::new(&over);
+        birds(&mut solver, 9);
+        assert_eq!(
+            solver.attempt(&[], 100_000),
+            Err(Spent),
+            "time is no such limit"
+        );
+    }
 
     #[test]
     fn answers_under_assumptions_name_those_that_are_enough() {

@@ -30,12 +30,12 @@ pub enum Literal {
         /// Whether it has it.
         equal: bool,
     },
-    /// `NAME<=OTHER`, `NAME<=OTHER+SHIFT`, `NAME<=OTHER-SHIFT`, or `NAME<=VALUE`.
+    /// `NAME<=OTHER`, `NAME<=OTHER+SHIFT`, `NAME<=OTHER-SHIFT`, or `NAME<=VALUE`; several names with `+` between stand for their sum.
     Most {
-        /// The number.
-        name: String,
-        /// What it is compared with; none for 0.
-        other: Option<String>,
+        /// The numbers, one at least.
+        sum: Vec<String>,
+        /// What their sum is compared with; none for 0.
+        most: Vec<String>,
         /// What is added to that.
         shift: i64,
     },
@@ -44,17 +44,19 @@ pub enum Literal {
 impl Literal {
     /// Reads one.
     pub fn read(text: &str) -> Option<Literal> {
-        if let Some((name, rest)) = text.split_once("<=") {
+        if let Some((sum, rest)) = text.split_once("<=") {
+            let sum = names(sum)?;
             if let Ok(shift) = rest.parse() {
-                let (name, other) = (name.to_owned(), None);
-                return Some(Literal::Most { name, other, shift });
+                let most = Vec::new();
+                return Some(Literal::Most { sum, most, shift });
             }
-            let (other, shift) = match rest.rfind(['+', '-']) {
-                Some(at) => (&rest[..at], rest[at..].parse().ok()?),
-                None => (rest, 0),
+            let at = rest.rfind(['+', '-']).unwrap_or(rest.len());
+            let (most, shift) = match rest[at..].parse() {
+                Ok(shift) => (&rest[..at], shift),
+                Err(_) => (rest, 0),
             };
-            let (name, other) = (name.to_owned(), Some(other.to_owned()));
-            return Some(Literal::Most { name, other, shift });
+            let most = names(most)?;
+            return Some(Literal::Most { sum, most, shift });
         }
         if let Some((name, value)) = text.split_once('=') {
             let (name, equal) = match name.strip_suffix('!') {
@@ -74,6 +76,14 @@ impl Literal {
     }
 }
 
+/// The names of a sum; none if one of them is empty.
+fn names(sum: &str) -> Option<Vec<String>> {
+    let names = sum
+        .split('+')
+        .map(|name| (!name.is_empty()).then(|| name.to_owned()));
+    names.collect()
+}
+
 impl fmt::Display for Literal {
     fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
         match self {
@@ -83,11 +93,14 @@ impl fmt::Display for Literal {
             Literal::Is { name, value, equal } => {
                 write!(out, "{name}{}{value}", if *equal { "=" } else { "!=" })
             }
-            Literal::Most { name, other, shift } => match (other, shift) {
-                (None, shift) => write!(out, "{name}<={shift}"),
-                (Some(other), 0) => write!(out, "{name}<={other}"),
-                (Some(other), shift) => write!(out, "{name}<={other}{shift:+}"),
-            },
+            Literal::Most { sum, most, shift } => {
+                write!(out, "{}<={}", sum.join("+"), most.join("+"))?;
+                match (most.is_empty(), shift) {
+                    (true, _) => write!(out, "{shift}"),
+                    (false, 0) => Ok(()),
+                    (false, _) => write!(out, "{shift:+}"),
+                }
+            }
         }
     }
 }
@@ -112,11 +125,11 @@ mod tests {
 
     #[test]
     fn what_is_read_is_written_again() {
-        let line = "!X.on/0 limit[0]/12 a=-3 a!=0 a.t<=b a.t<=@rest+1 a.t<=t_b-20 @rest<=59 a<=-1";
+        let line = "!X.on/0 limit[0]/12 a=-3 a!=0 a.t<=b a.t<=@rest+1 a.t<=t_b-20 @rest<=59 a<=-1 a+b+b<=@rest+c-2 a<=b+c a+b<=0";
         let clause = Clause::read(line.split(' ')).expect("clause");
-        assert_eq!((clause.to_string().as_str(), clause.0.len()), (line, 9));
+        assert_eq!((clause.to_string().as_str(), clause.0.len()), (line, 12));
         for wrong in [
-            "X.on", "X.on/x", "X.on/-1", "a=", "a=b", "a<=b+", "a<=b+c", "",
+            "X.on", "X.on/x", "X.on/-1", "a=", "a=b", "a<=b+", "a<=", "+a<=b", "<=b", "a<=b++1", "",
         ] {
             assert_eq!(Literal::read(wrong), None, "{wrong}");
         }

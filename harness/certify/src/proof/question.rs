@@ -3,6 +3,7 @@
 //! A duty over several cycles is told by numbers beside the state, see [`super::duty`]. `@within:ID` is the bound of a response.
 
 use std::collections::BTreeMap;
+use std::slice::from_ref;
 
 use stillpoint_lang::ir::Form;
 
@@ -142,14 +143,14 @@ impl<'a> Question<'a> {
     /// The first clause, by its number, that speaks of something that there is not, and what is wrong with it.
     pub fn unknown(&self) -> Option<(usize, String)> {
         let names = |literal: &'a Literal| match literal {
-            Literal::Bit { name, .. } | Literal::Is { name, .. } => (name, None),
-            Literal::Most { name, other, .. } => (name, other.as_ref()),
+            Literal::Bit { name, .. } | Literal::Is { name, .. } => (from_ref(name), &[][..]),
+            Literal::Most { sum, most, .. } => (&sum[..], &most[..]),
         };
         let known =
             |name: &String| Duty::none().number(name).is_some() || self.names.contains_key(name);
         self.clauses.iter().enumerate().find_map(|(k, clause)| {
             let all = clause.0.iter().map(names);
-            let mut all = all.flat_map(|(one, other)| [Some(one), other]).flatten();
+            let mut all = all.flat_map(|(sum, most)| sum.iter().chain(most));
             let name = all.find(|name| !known(name))?;
             Some((k, format!("there is no `{name}`")))
         })
@@ -320,15 +321,19 @@ impl<'a> Question<'a> {
                 let same = number.equals(self.gates(), &Word::constant(*value));
                 if *equal { same } else { !same }
             }
-            Literal::Most { name, other, shift } => {
-                let number = self.number(name, place)?;
-                let other = match other {
-                    Some(other) => self.number(other, place)?,
-                    None => Word::constant(0),
-                };
-                let most = other.plus(self.gates(), &Word::constant(*shift));
-                !most.less(self.gates(), &number)
+            Literal::Most { sum, most, shift } => {
+                let sum = self.sum(Word::constant(0), sum, place)?;
+                let most = self.sum(Word::constant(*shift), most, place)?;
+                !most.less(self.gates(), &sum)
             }
+        })
+    }
+
+    /// A number and all of these.
+    fn sum(&mut self, first: Word, names: &[String], place: &Place) -> Result<Word, String> {
+        names.iter().try_fold(first, |sum, name| {
+            let number = self.number(name, place)?;
+            Ok(sum.plus(self.gates(), &number))
         })
     }
 
