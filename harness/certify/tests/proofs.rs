@@ -175,7 +175,7 @@ fn altered(literal: &Literal) -> Vec<Literal> {
                 most: most.clone(),
                 shift: shift - 1,
             }];
-            // One more of the last, and another one in its place; the last of the other side is not there.
+            // The last once more, another number than the sum, the other side without its last.
             if let [.., last] = &sum[..] {
                 let more = [&sum[..], from_ref(last)].concat();
                 list.extend([more, vec!["nothing".into()]].map(|sum| Literal::Most {

@@ -3,7 +3,7 @@
 //! An engine would learn "while the duty is open, the timer is at most the cycles left" value by value. Here such sentences are
 //! candidates, and those that hold by induction with each other are known beforehand. Where parameters are part of the state, so are
 //! "the timer is at most this parameter", "these parameters together are at most the cycles left", and of a timer that counts up "this
-//! parameter is at most the cycles left and the timer".
+//! parameter is at most the cycles left and the timer". That two variables differ is what a comparison of channels waits for.
 
 use std::collections::HashMap;
 use std::ops::RangeInclusive;
@@ -33,7 +33,7 @@ const BESIDE: i64 = 16;
 /// The most sums of parameters.
 const SUMS: i64 = 128;
 
-/// What may be known beforehand; of the parameters those that the bound is about. The first two are about the time in which the duty is open.
+/// What may be known beforehand; of the parameters those that the bound is about. Only limits hold without an open duty.
 #[derive(Clone, PartialEq, Eq, Hash)]
 enum Candidate {
     /// A variable has not this value.
@@ -78,6 +78,24 @@ struct Variables {
     /// By parameter the multiple that the bound has of it.
     multiples: Vec<i64>,
     shifts: RangeInclusive<i64>,
+}
+
+impl Variables {
+    /// By parameter how often it is in a sum at most: as in the bound, or once, or never, as there are not too many sums then.
+    fn times(&self) -> Vec<i64> {
+        let few = |all: &Vec<i64>| {
+            let mut sums = all.iter().map(|most| most.saturating_add(1));
+            sums.try_fold(1, |all: i64, one| {
+                Some(all.saturating_mul(one)).filter(|n| *n <= SUMS)
+            })
+            .is_some()
+        };
+        let [once, never] = [1, 0].map(|times| vec![times; self.multiples.len()]);
+        [self.multiples.clone(), once]
+            .into_iter()
+            .find(few)
+            .unwrap_or(never)
+    }
 }
 
 /// A system with what helps among its invariants.
@@ -240,33 +258,20 @@ fn candidates(variables: &Variables) -> Vec<Candidate> {
     list
 }
 
-/// What may be compared with the cycles left, each behind those that it follows from.
+/// What may be compared with the cycles left, each behind those that it follows from. Of too many parameters none is in a sum.
 fn sums(variables: &Variables, timers: impl Iterator<Item = usize> + Clone) -> Vec<Sum> {
-    let mut times = vec![Vec::new()];
-    let all: i64 = variables.multiples.iter().map(|most| most + 1).product();
-    for most in &variables.multiples {
-        let most = if all > SUMS { 1 } else { *most };
-        times = (times.into_iter())
+    let mut all = vec![Vec::new()];
+    for most in variables.times() {
+        all = (all.into_iter())
             .flat_map(|sum| (0..=most).rev().map(move |n| [&sum[..], &[n]].concat()))
             .collect();
     }
-    let some = |times: &Vec<i64>| times.iter().any(|n| *n > 0);
-    let mut list = Vec::new();
-    for timer in timers.clone().map(Timer::Down) {
-        list.extend(times.iter().map(|times| Sum {
-            timer,
-            times: times.clone(),
-        }));
-    }
     // What has not begun yet has all its time before it.
-    for timer in [Timer::None].into_iter().chain(timers.map(Timer::Up)) {
-        let times = times.iter().filter(|times| some(times));
-        list.extend(times.map(|times| Sum {
-            timer,
-            times: times.clone(),
-        }));
-    }
-    list
+    let (down, up) = (timers.clone().map(Timer::Down), timers.map(Timer::Up));
+    let timers = down.chain([Timer::None]).chain(up);
+    let sums = timers.flat_map(|timer| all.iter().cloned().map(move |times| Sum { timer, times }));
+    sums.filter(|sum| matches!(sum.timer, Timer::Down(_)) || sum.times.iter().any(|n| *n > 0))
+        .collect()
 }
 
 /// What a candidate follows from: the same always, or with less time left; that the phase does not occur.
@@ -296,10 +301,16 @@ fn larger(variables: &Variables, sum: &Sum) -> Vec<Sum> {
         more.times[k] += 1;
         list.push(more);
     }
-    if let Timer::Up(_) = sum.timer {
-        let (timer, times) = (Timer::None, sum.times.clone());
-        list.push(Sum { timer, times });
-    }
+    let timers = 0..variables.own.len();
+    let timers: Vec<Timer> = match sum.timer {
+        Timer::Down(_) => Vec::new(),
+        Timer::None => timers.map(Timer::Down).collect(),
+        Timer::Up(_) => vec![Timer::None],
+    };
+    list.extend(timers.into_iter().map(|timer| Sum {
+        timer,
+        times: sum.times.clone(),
+    }));
     list
 }
 

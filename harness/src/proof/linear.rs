@@ -44,7 +44,7 @@ impl Linear {
         }
     }
 
-    /// What is not linear has once what it is about, such as the longest of several times.
+    /// What is not linear, such as the longest of several times, has each parameter as often as it stands there.
     fn about(&mut self, node: &Node, times: i64) {
         node.visit(&mut |part| {
             let cells = match part {

@@ -7,17 +7,27 @@ use super::netlist::{Netlist, Problem, after};
 use super::sat::{Budget, Encoding, Solver, Spent, Term};
 use super::simulate::Runs;
 
-/// How many clauses may be learnt for an answer about candidates before fewer of them are asked about, and for one about a single one when
-/// nothing else is left to ask.
-const SOON: u64 = 150;
-const LATE: u64 = 2000;
-
 /// Candidates, conditions on latches, some of which follow from others.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Candidates {
     lits: Vec<Lit>,
     /// By candidate those that it follows from.
     stronger: Vec<Vec<usize>>,
+    /// How many clauses may be learnt for an answer about some of them before fewer are asked about.
+    pub soon: u64,
+    /// How many for one about a single one, when nothing else is left to ask, before it is dropped.
+    pub late: u64,
+}
+
+impl Default for Candidates {
+    fn default() -> Self {
+        Candidates {
+            lits: Vec::new(),
+            stronger: Vec::new(),
+            soon: 150,
+            late: 2000,
+        }
+    }
 }
 
 impl Candidates {
@@ -37,8 +47,8 @@ impl Candidates {
     }
 }
 
-/// The candidates that hold in every reachable state by induction with each other, the largest such set, without those that follow from
-/// others of it: their numbers.
+/// Candidates that hold in every reachable state by induction with each other, without those that follow from others of them: their
+/// numbers. Of such sets it is the largest one, but for candidates about which the solver finds out too little.
 ///
 /// # Errors
 /// The budget is spent.
@@ -104,6 +114,7 @@ fn kept_by_cycles(
         solver.clause([term]);
     }
     let mut cycles = Cycles {
+        candidates,
         graph,
         moved,
         solver,
@@ -133,6 +144,7 @@ fn kept_by_cycles(
 
 /// A cycle from a state in which candidates hold.
 struct Cycles<'a, 'b> {
+    candidates: &'a Candidates,
     graph: Graph,
     /// By candidate what it says after the cycle.
     moved: Vec<Lit>,
@@ -149,13 +161,16 @@ impl Cycles<'_, '_> {
         self.encoding.term(&mut self.solver, &self.graph, lit)
     }
 
-    /// Whether a cycle keeps all of these candidates where all that are given hold. Those that it does not keep are no longer left; those
-    /// of which that is not soon found out are doubtful from now on.
+    /// Whether none of these candidates was dropped, as a cycle keeps all of them where all that are given hold, but for those of which
+    /// that is not soon found out: they are doubtful from now on. It ends with the first answer that drops some, or goes through all.
     fn keep(&mut self, given: Term, mut asked: Vec<usize>, through: bool) -> Result<bool, Spent> {
         let mut all = true;
         loop {
             asked.retain(|k| self.left[*k]);
-            match (self.ask(given, &asked, SOON)?, &asked[..]) {
+            if asked.is_empty() {
+                return Ok(all);
+            }
+            match (self.ask(given, &asked, self.candidates.soon)?, &asked[..]) {
                 (Some(true), _) => return Ok(all),
                 (Some(false), _) if !through => return Ok(false),
                 (Some(false), _) => all = false,
@@ -173,10 +188,12 @@ impl Cycles<'_, '_> {
         }
     }
 
-    /// The same of the doubtful ones, up to the first that it does not keep, or of which that is not found out.
+    /// Whether a cycle keeps the doubtful ones of these, up to the first that it does not keep, or of which that is not found out either.
     fn keep_doubtful(&mut self, given: Term, candidates: &[usize]) -> Result<bool, Spent> {
         for k in candidates {
-            if self.doubtful.contains(k) && self.ask(given, &[*k], LATE)? != Some(true) {
+            if self.doubtful.contains(k)
+                && self.ask(given, &[*k], self.candidates.late)? != Some(true)
+            {
                 self.left[*k] = false;
                 return Ok(false);
             }

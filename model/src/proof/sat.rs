@@ -209,27 +209,10 @@ mod tests {
 
     use super::*;
 
-    /// No place for each of so many birds, of which each needs one.
-    fn birds(solver: &mut Solver, birds: usize) {
-        let places: Vec<Vec<Term>> = (0..birds)
-            .map(|_| (1..birds).map(|_| solver.variable()).collect())
-            .collect();
-        for bird in &places {
-            solver.clause(bird.iter().copied());
-        }
-        for (first, one) in places.iter().enumerate() {
-            for other in &places[..first] {
-                for (a, b) in one.iter().zip(other) {
-                    solver.clause([!*a, !*b]);
-                }
-            }
-        }
-    }
-
     #[test]
     fn an_attempt_that_takes_too_many_clauses_has_no_answer_and_does_no_harm() {
         let mut solver = Solver::new(&Budget::default());
-        birds(&mut solver, 6);
+        pigeons(&mut solver, 5);
         assert_eq!(solver.attempt(&[], 3), Ok(None));
         assert_eq!(
             solver.attempt(&[], 3),
@@ -242,7 +225,7 @@ mod tests {
             ..Budget::default()
         };
         let mut solver = Solver::new(&over);
-        birds(&mut solver, 9);
+        pigeons(&mut solver, 8);
         assert_eq!(
             solver.attempt(&[], 100_000),
             Err(Spent),

@@ -127,7 +127,6 @@ impl<'a> Runs<'a> {
             // Most are broken soon.
             let cycles = if round == 0 { CYCLES / 16 } else { CYCLES };
             self.run(state, cycles, left, budget)?;
-            self.only_kept();
             idle = if self.kept.len() == before {
                 idle + 1
             } else {
@@ -150,9 +149,7 @@ impl<'a> Runs<'a> {
     ) -> Result<(), Spent> {
         let latches = self.problem.cone();
         let state = latches.map(|latch| if holds(latch.lit) { u64::MAX } else { 0 });
-        self.run(state.collect(), AROUND, left, budget)?;
-        self.only_kept();
-        Ok(())
+        self.run(state.collect(), AROUND, left, budget)
     }
 
     fn run(
@@ -170,6 +167,7 @@ impl<'a> Runs<'a> {
                 (rare, self.draw.next() % 4 == 0, self.draw.next() % 2 == 0)
             })
             .collect();
+        let asked = self.kept.len();
         let mut before: Vec<u64> = rare.iter().map(|_| self.draw.next()).collect();
         for _ in 0..cycles {
             if budget.spent() {
@@ -200,6 +198,9 @@ impl<'a> Runs<'a> {
             for (latch, bits) in problem.cone().zip(&mut state) {
                 *bits = lanes.of(latch.next) & goes | *bits & !goes;
             }
+        }
+        if self.kept.len() < asked {
+            self.only_kept();
         }
         Ok(())
     }
