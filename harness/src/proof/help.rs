@@ -30,6 +30,9 @@ const SHIFTS: (i64, i64) = (-2, 1);
 /// The most cycles beside the parameters of a bound that are told apart.
 const BESIDE: i64 = 16;
 
+/// The most values of which pairs are looked at.
+const APART: usize = 96;
+
 /// The most sums of parameters.
 const SUMS: i64 = 128;
 
@@ -44,6 +47,8 @@ enum Candidate {
     Limited(Phase, usize, usize),
     /// Two variables differ while the duty is open.
     Differ(usize, usize),
+    /// Two variables do not have these values together while it is open.
+    Apart((usize, i64), (usize, i64)),
 }
 
 /// A variable and its value, or always.
@@ -205,6 +210,10 @@ fn sentence(variables: &Variables, candidate: &Candidate) -> Clause {
             let shift = 0;
             literals.push(Literal::Most { sum, most, shift });
         }
+        Candidate::Apart(one, another) => {
+            literals.push(open());
+            literals.extend([one, another].map(|phase| other(*phase)));
+        }
         Candidate::Differ(a, b) => {
             literals.push(open());
             literals.extend([(a, b), (b, a)].map(|(less, more)| {
@@ -236,6 +245,13 @@ fn candidates(variables: &Variables) -> Vec<Candidate> {
         let others = (k + 1..variables.own.len()).filter(alike);
         if size(range) <= PHASE {
             list.extend(others.map(|other| Candidate::Differ(k, other)));
+        }
+    }
+    let values: Vec<(usize, i64)> = phases.iter().flatten().copied().collect();
+    if values.len() <= APART {
+        for (k, one) in values.iter().enumerate() {
+            let others = values[..k].iter().filter(|other| other.0 != one.0);
+            list.extend(others.map(|other| Candidate::Apart(*one, *other)));
         }
     }
     let timers = || {
@@ -278,6 +294,9 @@ fn sums(variables: &Variables, timers: impl Iterator<Item = usize> + Clone) -> V
 fn stronger(variables: &Variables, candidate: &Candidate) -> Vec<Candidate> {
     match candidate {
         Candidate::Excluded(..) | Candidate::Differ(..) => Vec::new(),
+        Candidate::Apart(one, other) => [one, other]
+            .map(|(k, value)| Candidate::Excluded(*k, *value))
+            .into(),
         Candidate::Below(phase, sum, shift) => {
             let always = phase.map(|_| Candidate::Below(None, sum.clone(), *shift));
             let never = phase.map(|(k, value)| Candidate::Excluded(k, value));
@@ -344,6 +363,10 @@ fn build(netlist: &mut Netlist, variables: &Variables, duty: &Duty, candidate: &
             graph.and(phase, above)
         }
         Candidate::Differ(a, b) => variables.own[*a].0.equals(graph, &variables.own[*b].0),
+        Candidate::Apart(one, other) => {
+            let (one, other) = (has(graph, *one), has(graph, *other));
+            graph.and(one, other)
+        }
     };
     !graph.and(open, against)
 }
