@@ -268,7 +268,7 @@ fn another_subject_is_refused() {
     rejected("other parameter values", pdr, |f| {
         f.header.task[0].parameters.insert("burn".into(), 2);
     });
-    rejected("proofs for 2 systems", pdr, |f| drop(f.systems.pop()));
+    rejected("proofs for 3 systems", pdr, |f| drop(f.systems.pop()));
     rejected("must stand here", pdr, |f| f.systems.swap(0, 1));
     rejected("missing or not in its place", pdr, |f| {
         f.systems[0].claims.swap(0, 1)
@@ -371,7 +371,7 @@ fn a_run_that_does_something_else_is_refused() {
             change(&|run| run.with.push(("burn".into(), 3)));
             if !run.with.is_empty() {
                 change(&|run| run.with.clear());
-                change(&|run| run.with[0].1 = 5);
+                change(&|run| run.with[0].1 = 99);
             }
             let why = refused(stored, |f| f.systems[s].claims[k].run = None);
             assert!(why.is_some(), "{}", claim.id);
