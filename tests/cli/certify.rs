@@ -26,7 +26,7 @@ fn a_certificate_is_written_and_confirmed() {
     assert_eq!(told(&["check", FORMS, "--certificate", &file]).0, 1);
     let (status, text) = told(&["certify", &file]);
     assert_eq!(status, 0, "{text}");
-    let head = "tests/certified/forms.toml: CONFIRMED, 27 claims, 9 of them violations, \
+    let head = "tests/certified/forms.toml: CONFIRMED, 25 claims, 9 of them violations, \
                 1 of them missing witnesses, 1 properties not certified\n";
     assert!(text.starts_with(head), "{text}");
     for line in [
@@ -43,7 +43,7 @@ fn a_certificate_is_written_and_confirmed() {
     assert_eq!(json["result"], "confirmed");
     assert_eq!(
         (&json["confirmed"], &json["not_certified"]),
-        (&26.into(), &1.into())
+        (&24.into(), &1.into())
     );
     assert_eq!(json["tasks"][0]["properties"][4]["bound"], 3);
     let kept = std::fs::read_dir(&folder.0).expect("a folder").count();
@@ -150,7 +150,7 @@ fn a_proof_is_written_confirmed_and_refused_when_altered() {
     let (status, text) = told(&["certify", &file]);
     assert_eq!(status, 0, "{text}");
     for line in [
-        "tests/certified/forms.toml: CONFIRMED, 22 claims",
+        "tests/certified/forms.toml: CONFIRMED, 19 claims",
         "  burn = 1 .. 4, every value\n",
         "  holds          ALWAYS: never longer than the burning time [invariant of ",
         "  violated       NEVER: the last two values are not used [run of 1 cycles]\n",

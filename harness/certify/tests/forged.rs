@@ -191,7 +191,7 @@ fn another_property_or_subject_is_rejected() {
         h.task[LAMP].property.push(last);
         b[LAMP].proofs.push(proof);
     });
-    rejected("speaks of 3 systems", |h, b| {
+    rejected("speaks of 2 systems", |h, b| {
         h.task.pop();
         b.pop();
     });

@@ -72,34 +72,46 @@ enum Timer {
     Up(usize),
 }
 
-/// State variables with more than one value that are no parameters, and parameters, as numbers with their ranges and names.
+/// What candidates are made of.
 struct Variables {
-    own: Vec<(Word, (i64, i64))>,
-    /// Whether it counts, and is not one of some states.
-    counts: Vec<bool>,
-    own_names: Vec<String>,
-    parameters: Vec<Word>,
-    parameter_names: Vec<String>,
-    /// By parameter the multiple that the bound has of it.
-    multiples: Vec<i64>,
+    /// State variables with more than one value that are no parameters.
+    own: Vec<Variable>,
+    /// Which of them may be timers.
+    timers: Vec<usize>,
+    parameters: Vec<Parameter>,
     shifts: RangeInclusive<i64>,
+}
+
+struct Variable {
+    word: Word,
+    range: (i64, i64),
+    name: String,
+}
+
+impl Variable {
+    /// How many values it has.
+    fn size(&self) -> i64 {
+        self.range.1 - self.range.0 + 1
+    }
+}
+
+struct Parameter {
+    word: Word,
+    name: String,
+    /// The multiple that the bound has of it.
+    multiple: i64,
 }
 
 impl Variables {
     /// By parameter how often it is in a sum at most: as in the bound, or once, or never, as there are not too many sums then.
     fn times(&self) -> Vec<i64> {
         let few = |all: &Vec<i64>| {
-            let mut sums = all.iter().map(|most| most.saturating_add(1));
-            sums.try_fold(1, |all: i64, one| {
-                Some(all.saturating_mul(one)).filter(|n| *n <= SUMS)
-            })
-            .is_some()
+            let sums = |sums: i64, most: &i64| sums.saturating_mul(most.saturating_add(1));
+            all.iter().fold(1, sums) <= SUMS
         };
-        let [once, never] = [1, 0].map(|times| vec![times; self.multiples.len()]);
-        [self.multiples.clone(), once]
-            .into_iter()
-            .find(few)
-            .unwrap_or(never)
+        let multiples = self.parameters.iter().map(|p| p.multiple).collect();
+        let [once, never] = [1, 0].map(|times| vec![times; self.parameters.len()]);
+        [multiples, once].into_iter().find(few).unwrap_or(never)
     }
 }
 
@@ -116,35 +128,33 @@ pub(super) fn helped(asked: &Asked, duty: &Duty, budget: &Budget) -> Result<Opti
         return Ok(None);
     }
     let translated = &asked.translated;
-    let named = |k: usize| (translated.variable(k), asked.name(k));
-    let places = (0..asked.own).filter(|k| {
-        let (lo, hi) = translated.variable(*k).1;
-        lo < hi
-    });
+    let variable = |k: usize| {
+        let (word, range) = translated.variable(k);
+        let name = asked.name(k);
+        Variable { word, range, name }
+    };
     let states = &translated.bound.system.states;
-    let counts = places
-        .clone()
-        .map(|k| states[k].var.ty == Ty::Int)
-        .collect();
-    let (own, own_names) = places.map(named).unzip();
+    let own = (0..asked.own).map(|k| (variable(k), states[k].var.ty));
+    let own: Vec<(Variable, Ty)> = own.filter(|(v, _)| v.size() > 1).collect();
+    // What is one of some states does not count.
+    let timer = |(v, ty): &(Variable, Ty)| *ty == Ty::Int && v.size() >= TIMER && v.range.0 >= 0;
+    let timers = (0..own.len()).filter(|k| timer(&own[*k])).collect();
+    let parameters = duty.about.parameters.iter().filter_map(|(k, times)| {
+        let Variable { word, range, name } = variable(*k);
+        let multiple = *times.max(&1);
+        (range.0 >= 0 && range.1 - range.0 >= TIMER).then_some(Parameter {
+            word,
+            name,
+            multiple,
+        })
+    });
     let beside = duty.about.number.clamp(-BESIDE, BESIDE);
-    let mut variables = Variables {
-        own,
-        counts,
-        own_names,
-        parameters: Vec::new(),
-        parameter_names: Vec::new(),
-        multiples: Vec::new(),
+    let variables = Variables {
+        timers,
+        parameters: parameters.collect(),
+        own: own.into_iter().map(|(variable, _)| variable).collect(),
         shifts: SHIFTS.0 - (beside - 1).max(0)..=SHIFTS.1 + (-beside).max(0),
     };
-    for (k, times) in &duty.about.parameters {
-        let ((word, (lo, hi)), name) = named(*k);
-        if lo >= 0 && hi - lo >= TIMER {
-            variables.parameters.push(word);
-            variables.parameter_names.push(name);
-            variables.multiples.push(*times.max(&1));
-        }
-    }
     let all = candidates(&variables);
     let mut netlist = translated.netlist.clone();
     let (mut offered, mut numbers) = (Candidates::default(), HashMap::new());
@@ -180,9 +190,14 @@ fn sentence(variables: &Variables, candidate: &Candidate) -> Clause {
         set: false,
     };
     let other = |(k, value): (usize, i64)| Literal::Is {
-        name: variables.own_names[k].clone(),
+        name: variables.own[k].name.clone(),
         value,
         equal: false,
+    };
+    let most = |name: &String, other: &String, shift: i64| Literal::Most {
+        sum: vec![name.clone()],
+        most: vec![other.clone()],
+        shift,
     };
     let mut literals = Vec::new();
     match candidate {
@@ -190,14 +205,13 @@ fn sentence(variables: &Variables, candidate: &Candidate) -> Clause {
         Candidate::Below(phase, total, shift) => {
             literals.push(open());
             literals.extend(phase.map(other));
-            let parameters = total.times.iter().zip(&variables.parameter_names);
-            let parameters =
-                parameters.flat_map(|(times, name)| vec![name.clone(); *times as usize]);
+            let parameters = total.times.iter().zip(&variables.parameters);
+            let parameters = parameters.flat_map(|(n, p)| vec![p.name.clone(); *n as usize]);
             let (mut sum, mut most) = (Vec::new(), vec!["@rest".to_owned()]);
             match total.timer {
                 Timer::None => (),
-                Timer::Down(timer) => sum.push(variables.own_names[timer].clone()),
-                Timer::Up(timer) => most.push(variables.own_names[timer].clone()),
+                Timer::Down(timer) => sum.push(variables.own[timer].name.clone()),
+                Timer::Up(timer) => most.push(variables.own[timer].name.clone()),
             }
             sum.extend(parameters);
             let shift = *shift;
@@ -205,10 +219,8 @@ fn sentence(variables: &Variables, candidate: &Candidate) -> Clause {
         }
         Candidate::Limited(phase, timer, parameter) => {
             literals.extend(phase.map(other));
-            let sum = vec![variables.own_names[*timer].clone()];
-            let most = vec![variables.parameter_names[*parameter].clone()];
-            let shift = 0;
-            literals.push(Literal::Most { sum, most, shift });
+            let (timer, parameter) = (&variables.own[*timer], &variables.parameters[*parameter]);
+            literals.push(most(&timer.name, &parameter.name, 0));
         }
         Candidate::Apart(one, another) => {
             literals.push(open());
@@ -216,12 +228,8 @@ fn sentence(variables: &Variables, candidate: &Candidate) -> Clause {
         }
         Candidate::Differ(a, b) => {
             literals.push(open());
-            literals.extend([(a, b), (b, a)].map(|(less, more)| {
-                let sum = vec![variables.own_names[*less].clone()];
-                let most = vec![variables.own_names[*more].clone()];
-                let shift = -1;
-                Literal::Most { sum, most, shift }
-            }));
+            let [a, b] = [a, b].map(|k| &variables.own[*k].name);
+            literals.extend([most(a, b, -1), most(b, a, -1)]);
         }
     }
     Clause(literals)
@@ -229,53 +237,43 @@ fn sentence(variables: &Variables, candidate: &Candidate) -> Clause {
 
 /// All candidates, each behind those that it follows from.
 fn candidates(variables: &Variables) -> Vec<Candidate> {
-    let size = |range: &(i64, i64)| range.1 - range.0 + 1;
-    let mut list = Vec::new();
-    let mut phases = vec![None];
-    for (k, (_, range)) in variables.own.iter().enumerate() {
-        if size(range) <= PHASE {
-            for value in range.0..=range.1 {
-                list.push(Candidate::Excluded(k, value));
-                phases.push(Some((k, value)));
-            }
-        }
-    }
-    for (k, (_, range)) in variables.own.iter().enumerate() {
-        let alike = |other: &usize| variables.own[*other].1 == *range;
+    let few = |(_, own): &(usize, &Variable)| own.size() <= PHASE;
+    let few = || variables.own.iter().enumerate().filter(few);
+    let values = few().flat_map(|(k, own)| (own.range.0..=own.range.1).map(move |v| (k, v)));
+    let values: Vec<(usize, i64)> = values.collect();
+    let excluded = values.iter().map(|(k, v)| Candidate::Excluded(*k, *v));
+    let mut list: Vec<Candidate> = excluded.collect();
+    for (k, own) in few() {
+        let alike = |other: &usize| variables.own[*other].range == own.range;
         let others = (k + 1..variables.own.len()).filter(alike);
-        if size(range) <= PHASE {
-            list.extend(others.map(|other| Candidate::Differ(k, other)));
-        }
+        list.extend(others.map(|other| Candidate::Differ(k, other)));
     }
-    let values: Vec<(usize, i64)> = phases.iter().flatten().copied().collect();
     if values.len() <= APART {
         for (k, one) in values.iter().enumerate() {
             let others = values[..k].iter().filter(|other| other.0 != one.0);
             list.extend(others.map(|other| Candidate::Apart(*one, *other)));
         }
     }
-    let timers = || {
-        let timer = |(_, range): &(Word, (i64, i64))| size(range) >= TIMER && range.0 >= 0;
-        (0..variables.own.len()).filter(move |k| variables.counts[*k] && timer(&variables.own[*k]))
-    };
-    for sum in sums(variables, timers()) {
+    let always = std::iter::once(None);
+    let phases: Vec<Phase> = always.chain(values.into_iter().map(Some)).collect();
+    for sum in sums(variables) {
         for phase in &phases {
             let shifts = variables.shifts.clone();
             list.extend(shifts.map(|shift| Candidate::Below(*phase, sum.clone(), shift)));
         }
     }
-    for k in timers() {
+    for k in &variables.timers {
         // What a variable says of itself is nothing new.
-        for phase in phases.iter().filter(|p| p.is_none_or(|(own, _)| own != k)) {
+        for phase in phases.iter().filter(|p| p.is_none_or(|(own, _)| own != *k)) {
             let parameters = 0..variables.parameters.len();
-            list.extend(parameters.map(|p| Candidate::Limited(*phase, k, p)));
+            list.extend(parameters.map(|p| Candidate::Limited(*phase, *k, p)));
         }
     }
     list
 }
 
 /// What may be compared with the cycles left, each behind those that it follows from. Of too many parameters none is in a sum.
-fn sums(variables: &Variables, timers: impl Iterator<Item = usize> + Clone) -> Vec<Sum> {
+fn sums(variables: &Variables) -> Vec<Sum> {
     let mut all = vec![Vec::new()];
     for most in variables.times() {
         all = (all.into_iter())
@@ -283,6 +281,7 @@ fn sums(variables: &Variables, timers: impl Iterator<Item = usize> + Clone) -> V
             .collect();
     }
     // What has not begun yet has all its time before it.
+    let timers = variables.timers.iter().copied();
     let (down, up) = (timers.clone().map(Timer::Down), timers.map(Timer::Up));
     let timers = down.chain([Timer::None]).chain(up);
     let sums = timers.flat_map(|timer| all.iter().cloned().map(move |times| Sum { timer, times }));
@@ -290,7 +289,7 @@ fn sums(variables: &Variables, timers: impl Iterator<Item = usize> + Clone) -> V
         .collect()
 }
 
-/// What a candidate follows from: the same always, or with less time left; that the phase does not occur.
+/// What a candidate follows from: the same always, or with less time left, or of a larger sum; that the phase does not occur.
 fn stronger(variables: &Variables, candidate: &Candidate) -> Vec<Candidate> {
     match candidate {
         Candidate::Excluded(..) | Candidate::Differ(..) => Vec::new(),
@@ -320,10 +319,9 @@ fn larger(variables: &Variables, sum: &Sum) -> Vec<Sum> {
         more.times[k] += 1;
         list.push(more);
     }
-    let timers = 0..variables.own.len();
     let timers: Vec<Timer> = match sum.timer {
         Timer::Down(_) => Vec::new(),
-        Timer::None => timers.map(Timer::Down).collect(),
+        Timer::None => variables.timers.iter().copied().map(Timer::Down).collect(),
         Timer::Up(_) => vec![Timer::None],
     };
     list.extend(timers.into_iter().map(|timer| Sum {
@@ -336,7 +334,7 @@ fn larger(variables: &Variables, sum: &Sum) -> Vec<Sum> {
 fn build(netlist: &mut Netlist, variables: &Variables, duty: &Duty, candidate: &Candidate) -> Lit {
     let graph = &mut netlist.graph;
     let has = |graph: &mut Graph, (k, value): (usize, i64)| {
-        variables.own[k].0.equals(graph, &Word::constant(value))
+        variables.own[k].word.equals(graph, &Word::constant(value))
     };
     let mut open = duty.pending;
     let against = match candidate {
@@ -347,11 +345,11 @@ fn build(netlist: &mut Netlist, variables: &Variables, duty: &Duty, candidate: &
             let mut total = Word::constant(0);
             match sum.timer {
                 Timer::None => (),
-                Timer::Down(timer) => total = variables.own[timer].0.clone(),
-                Timer::Up(timer) => limit = limit.plus(graph, &variables.own[timer].0),
+                Timer::Down(timer) => total = variables.own[timer].word.clone(),
+                Timer::Up(timer) => limit = limit.plus(graph, &variables.own[timer].word),
             }
             for (parameter, times) in variables.parameters.iter().zip(&sum.times) {
-                total = (0..*times).fold(total, |total, _| total.plus(graph, parameter));
+                total = (0..*times).fold(total, |total, _| total.plus(graph, &parameter.word));
             }
             let above = limit.less(graph, &total);
             graph.and(phase, above)
@@ -359,10 +357,14 @@ fn build(netlist: &mut Netlist, variables: &Variables, duty: &Duty, candidate: &
         Candidate::Limited(phase, timer, parameter) => {
             open = Lit::TRUE;
             let phase = phase.map_or(Lit::TRUE, |phase| has(graph, phase));
-            let above = variables.parameters[*parameter].less(graph, &variables.own[*timer].0);
+            let above = variables.parameters[*parameter]
+                .word
+                .less(graph, &variables.own[*timer].word);
             graph.and(phase, above)
         }
-        Candidate::Differ(a, b) => variables.own[*a].0.equals(graph, &variables.own[*b].0),
+        Candidate::Differ(a, b) => variables.own[*a]
+            .word
+            .equals(graph, &variables.own[*b].word),
         Candidate::Apart(one, other) => {
             let (one, other) = (has(graph, *one), has(graph, *other));
             graph.and(one, other)

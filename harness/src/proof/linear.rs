@@ -37,27 +37,14 @@ impl Linear {
                 }
                 _ => self.about(node, times),
             },
-            Node::Cell(Space::Before, cell) => {
-                *self.parameters.entry(*cell as usize).or_default() += times;
-            }
             _ => self.about(node, times),
         }
     }
 
-    /// What is not linear, such as the longest of several times, has each parameter as often as it stands there.
+    /// A parameter by itself; what is not linear, such as the longest of several times, has each as often as it stands there.
     fn about(&mut self, node: &Node, times: i64) {
         node.visit(&mut |part| {
-            let cells = match part {
-                Node::Cell(Space::Before, cell) => *cell..*cell + 1,
-                Node::Element {
-                    space: Space::Before,
-                    base,
-                    len,
-                    ..
-                } => *base..*base + *len,
-                _ => return,
-            };
-            for cell in cells {
+            for cell in part.cells(Space::Before) {
                 *self.parameters.entry(cell as usize).or_default() += times;
             }
         });

@@ -159,7 +159,7 @@ impl<'a> Runs<'a> {
         left: &mut [bool],
         budget: &Budget,
     ) -> Result<(), Spent> {
-        let problem = self.problem;
+        let (problem, asked) = (self.problem, self.kept.len());
         // Each input is seldom set, or often, or seldom not; or it stays for some cycles as it is, so that times run out.
         let rare: Vec<(u32, bool, bool)> = (problem.inputs.iter())
             .map(|_| {
@@ -167,7 +167,6 @@ impl<'a> Runs<'a> {
                 (rare, self.draw.next() % 4 == 0, self.draw.next() % 2 == 0)
             })
             .collect();
-        let asked = self.kept.len();
         let mut before: Vec<u64> = rare.iter().map(|_| self.draw.next()).collect();
         for _ in 0..cycles {
             if budget.spent() {

@@ -1,5 +1,7 @@
 //! A system after name resolution: flat cells, typed expressions, rules in the order they step.
 
+use std::ops::Range;
+
 pub use crate::syntax::ast::BinaryOp;
 
 /// Type of a scalar value. Times are integers of cycles.
@@ -130,6 +132,17 @@ impl Node {
         let mut size = 0;
         self.visit(&mut |_| size += 1);
         size
+    }
+
+    /// The cells of a space that it may read itself, without its parts.
+    pub fn cells(&self, of: Space) -> Range<u32> {
+        match self {
+            Node::Cell(space, k) if *space == of => *k..*k + 1,
+            Node::Element {
+                space, base, len, ..
+            } if *space == of => *base..*base + *len,
+            _ => 0..0,
+        }
     }
 
     /// Visits this expression and all its parts.

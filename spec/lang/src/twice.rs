@@ -173,16 +173,12 @@ fn ordered(bound: &Bound, holds: Option<&Node>, copies: &[Instance]) -> Vec<Inst
 /// The state variables whose new values an expression reads.
 fn settling(bound: &Bound, node: &Node, names: &mut BTreeSet<u32>, cells: &mut BTreeSet<u32>) {
     let mut more = Vec::new();
-    node.visit(&mut |node| match node {
-        Node::Cell(Space::Now, k) => _ = cells.insert(*k),
-        Node::Element {
-            space: Space::Now,
-            base,
-            len,
-            ..
-        } => cells.extend(*base..*base + *len),
-        Node::Lazy(k) if names.insert(*k) => more.push(*k),
-        _ => {}
+    node.visit(&mut |node| {
+        cells.extend(node.cells(Space::Now));
+        match node {
+            Node::Lazy(k) if names.insert(*k) => more.push(*k),
+            _ => {}
+        }
     });
     for k in more {
         settling(bound, &bound.system.lazies[k as usize].value, names, cells);

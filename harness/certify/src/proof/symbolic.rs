@@ -463,19 +463,8 @@ impl<'a> Symbolic<'a> {
         let lazy = &bound.system.lazies[k];
         let mut early = cycle.named.len() <= k;
         lazy.value.visit(&mut |node| {
-            let read = match node {
-                Node::Cell(Space::Now, k) => *k..*k + 1,
-                Node::Element {
-                    space: Space::Now,
-                    base,
-                    len,
-                    ..
-                } => *base..base + len,
-                _ => 0..0,
-            };
-            early |= read
-                .into_iter()
-                .any(|k| cycle.stepped.get(k as usize) != Some(&true));
+            let mut read = node.cells(Space::Now);
+            early |= read.any(|k| cycle.stepped.get(k as usize) != Some(&true));
         });
         if early {
             return Err(format!(
