@@ -2,8 +2,9 @@
 
 use std::time::{Duration, Instant};
 
-use stillpoint_engine::check::{By, Checked, Settings};
+use stillpoint_engine::check::{Checked, Settings};
 use stillpoint_engine::subject::{Readings, Subject, Task, of_runs};
+use stillpoint_engine::theorems::Cited;
 use stillpoint_engine::{Evaluator, Outcome};
 use stillpoint_lang::diag::Result;
 use stillpoint_model::{FaultReport, Judgement, Progress, Verdict};
@@ -28,26 +29,31 @@ pub fn products(subject: &Subject, readings: &Readings) -> Result<Option<Subject
     }
 }
 
-/// Judges products of a machine; `begin` is told of each.
+/// Judges products of a machine, what is a theorem of its family apart; `begin` is told of each.
 pub fn judged(
     tasks: Vec<Task>,
     settings: &Settings,
     begin: &mut dyn FnMut(&Task) -> Box<dyn Progress>,
 ) -> Vec<(Task, Checked)> {
     let start = Instant::now();
-    let one = |task: Task| {
+    let one = |mut task: Task| {
         let shown = begin(&task);
-        let settings = proof::Settings {
+        let mut cited = Cited::take(settings.theorems.as_deref(), &mut task);
+        let engines = proof::Settings {
             time: (settings.time).map(|time| time.saturating_sub(start.elapsed())),
             each: Some(EACH),
             memory: settings.memory,
             interrupt: settings.interrupt.clone(),
             ..proof::Settings::default()
         };
-        let judged = judge(&task.bound, &settings);
+        let judged = match cited.all {
+            true => Vec::new(),
+            false => judge(&task.bound, &engines),
+        };
         drop(shown);
-        let outcome = outcome(&task, judged);
-        (task, Checked::without(outcome, By::Proofs))
+        let mut outcome = outcome(&task, judged);
+        cited.put_back(&mut task, &mut outcome);
+        (task, Checked::of_product(outcome, cited))
     };
     tasks.into_iter().map(one).collect()
 }

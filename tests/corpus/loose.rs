@@ -44,7 +44,7 @@ fn what_holds_with_open_times_holds_with_their_own() {
             let told = task
                 .abstractions
                 .iter()
-                .any(|text| text.contains("left open"));
+                .any(|one| one.text.contains("left open"));
             assert!(told, "{}: not decided loosely", task.title);
             let verdicts = a
                 .outcome

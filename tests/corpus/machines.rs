@@ -7,6 +7,8 @@ use std::sync::LazyLock;
 use stillpoint_engine::check::{Checked, Settings, Unfired, check, exit_status, summarise};
 use stillpoint_engine::subject::{self, Readings, Subject, Task};
 use stillpoint_engine::theorems::Theorems;
+use stillpoint_harness::product::{judged, products};
+use stillpoint_harness::report;
 use stillpoint_model::Verdict;
 use stillpoint_tests::{exceptions, root};
 
@@ -20,8 +22,15 @@ fn load(file: &str) -> Subject {
 pub(crate) type Whole = (Subject, Vec<Checked>);
 
 fn whole(mut subject: Subject) -> Whole {
-    let checked = check(&mut subject, &Settings::default(), &mut |_| Box::new(()))
+    let settings = Settings::default();
+    let mut checked = check(&mut subject, &settings, &mut |_| Box::new(()))
         .unwrap_or_else(|(t, e)| panic!("{t}: {e}"));
+    let products = products(&subject, &Readings::new()).unwrap_or_else(|e| panic!("{e}"));
+    let products = products.map_or(Vec::new(), |products| products.tasks);
+    for (task, done) in judged(products, &settings, &mut |_| Box::new(())) {
+        subject.tasks.push(task);
+        checked.push(done);
+    }
     (subject, checked)
 }
 
@@ -114,6 +123,28 @@ fn the_pages_show_the_numbers_of_the_milling_machine() {
         assert!(cited > 0, "{page}: {citing}");
         let all = cited + text.matches(&whole).count();
         assert_eq!(all, shown, "{page}: {whole}");
+    }
+    let summaries = summarise(&MILLING.0, &MILLING.1);
+    let report = report::text(&MILLING.0, &MILLING.1, &summaries, false);
+    let report: String = report.chars().filter(|c| !c.is_whitespace()).collect();
+    for page in [
+        "README.md",
+        "docs/src/tutorial.md",
+        "docs/src/machine-files.md",
+    ] {
+        let text = std::fs::read_to_string(root().join(page)).expect("a page");
+        let text: String = text.chars().filter(|c| !c.is_whitespace()).collect();
+        let told = text.split("axesX,Y:inatmost").skip(1);
+        let told = told.filter_map(|after| after.split_once("mm/min").map(|(bound, _)| bound));
+        let told: BTreeSet<&str> = told.collect();
+        assert!(
+            !told.is_empty(),
+            "{page} shows no bound of the milling machine"
+        );
+        for bound in told {
+            let line = format!("axesX,Y:inatmost{bound}mm/min");
+            assert!(report.contains(&line), "{page}: {line}");
+        }
     }
 }
 

@@ -70,7 +70,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
             task.title, task.bound.system.name
         );
         for item in &task.abstractions {
-            let _ = writeln!(out, "    abstraction: {item}");
+            let _ = writeln!(out, "    abstraction: {}", item.text);
         }
     }
     if let Some(machine) = &subject.machine {

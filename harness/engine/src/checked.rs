@@ -33,6 +33,8 @@ pub struct Checked {
     pub ended: f64,
     /// What its verdicts rest on.
     pub by: By,
+    /// It is about a product of parts of the machine, too large to be explored, which is no system of its file.
+    pub product: bool,
     /// Properties that are theorems of the family, by number: their verdict is no exploration's.
     pub cited: Vec<usize>,
     /// Rules that never fired: (name, why).
@@ -60,14 +62,18 @@ impl Checked {
         self.by == By::Exploration
     }
 
-    /// What is known of a task that nobody has explored.
-    pub fn without(outcome: Outcome, by: By) -> Self {
+    /// What is known of a product.
+    pub fn of_product(outcome: Outcome, cited: Cited) -> Self {
         Checked {
             outcome,
             again: false,
             ended: 0.0,
-            by,
-            cited: Vec::new(),
+            by: match cited.all {
+                true => By::Theorems,
+                false => By::Proofs,
+            },
+            product: true,
+            cited: cited.properties,
             unfired: Vec::new(),
             excluded: BTreeMap::new(),
             decisive: BTreeMap::new(),
@@ -130,6 +136,7 @@ pub(crate) fn told(
             true => By::Theorems,
             false => By::Exploration,
         },
+        product: false,
         cited: answer.cited.properties,
     })
 }

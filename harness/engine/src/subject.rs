@@ -10,7 +10,7 @@ use stillpoint_lang::bind::{BindError, Bound};
 use stillpoint_lang::diag::{Diagnostic, Diagnostics, Result};
 use stillpoint_lang::ir::Form;
 use stillpoint_lang::{Spec, read_text};
-use stillpoint_machine::{self as machine, Machine, Run, families};
+use stillpoint_machine::{self as machine, Abstraction, Machine, Run, families};
 
 /// Chosen options of readings, by id; what is missing has the recommended one.
 pub type Readings = BTreeMap<String, String>;
@@ -33,7 +33,7 @@ pub struct Task {
     /// A way in base units that is added to the one at that speed.
     pub window: i64,
     /// Where it is coarser than the machine.
-    pub abstractions: Vec<String>,
+    pub abstractions: Vec<Abstraction>,
     /// The system with its parameter values.
     pub bound: Bound,
     /// What static analysis found.

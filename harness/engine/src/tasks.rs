@@ -4,6 +4,7 @@ use std::collections::HashMap;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
+use stillpoint_machine::Abstraction;
 use stillpoint_model::{Beside, Error, Options, Progress, Until, Verdict};
 
 use crate::checked::{Answer, Checked, told};
@@ -266,7 +267,7 @@ impl<'t, Q: Iterator<Item = (usize, &'t mut Task)>> Ways<'_, '_, Q> {
             task.change();
             return Ok(None);
         }
-        task.abstractions.push(text);
+        task.abstractions.push(Abstraction::of_system(text));
         Ok(Some(found))
     }
 }

@@ -156,19 +156,19 @@ impl Theorems {
     }
 }
 
-/// What of a task need not be explored.
-pub(crate) struct Cited {
+/// What of a task need not be asked, as it is known.
+pub struct Cited {
     /// Its properties that are theorems, by number.
-    pub(crate) properties: Vec<usize>,
+    pub properties: Vec<usize>,
     /// Whether there is nothing else to be known about it.
-    pub(crate) all: bool,
+    pub all: bool,
     /// All properties of the task, while some are taken out.
     whole: Vec<Property>,
 }
 
 impl Cited {
     /// Takes out of a task what is known of it; its own guarantees never are.
-    pub(crate) fn take(theorems: Option<&Theorems>, task: &mut Task) -> Self {
+    pub fn take(theorems: Option<&Theorems>, task: &mut Task) -> Self {
         let own = task.guarantee.is_some() || task.loose.is_some();
         let known = theorems.filter(|_| !own).map(|all| all.of(&task.bound));
         let (properties, range) = known.unwrap_or_default();
@@ -189,7 +189,7 @@ impl Cited {
     }
 
     /// Puts back what was taken out, with its verdict.
-    pub(crate) fn put_back(&mut self, task: &mut Task, outcome: &mut Outcome) {
+    pub fn put_back(&mut self, task: &mut Task, outcome: &mut Outcome) {
         if self.properties.is_empty() {
             return;
         }

@@ -9,6 +9,7 @@ use stillpoint_engine::{Cycle, label, lazy};
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::eval::UNSET;
 use stillpoint_lang::ir::{LazyKind, Ty, Var};
+use stillpoint_machine::Abstraction;
 use stillpoint_model::Fault;
 use stillpoint_show::diagram::{Diagram, Mark};
 
@@ -52,7 +53,7 @@ pub fn systems(walks: &Walks) -> Value {
         let inputs: Vec<Value> = inputs.collect();
         json!({
             "name": name, "recordable": recordable(walks.subject().machine.as_ref(), task), "title": task.title, "system": bound.system.name, "hash": hash,
-            "axes": task.axes, "abstractions": task.abstractions,
+            "axes": task.axes, "abstractions": Abstraction::texts(&task.abstractions),
             "cycle_us": bound.system.cycle_us, "scaled": bound.system.scaled && walks.subject().machine.is_some(),
             "parameters": params(bound), "readings": bound.readings(),
             "inputs": inputs, "rules": rules, "properties": properties.collect::<Vec<_>>(),

@@ -129,25 +129,43 @@ impl Every {
             return "no parameter: one configuration".to_owned();
         }
         let mut count = 1.0_f64;
-        let one = |k: &usize| {
+        // Cells of an array with the same range are told together.
+        let mut alike: Vec<(&Var, &Var, String)> = Vec::new();
+        for k in &self.parameters {
             let (lo, hi) = self.bound.states[*k];
             count *= f64::from(hi.abs_diff(lo)) + 1.0;
             let var = &self.bound.system.states[*k].var;
-            match var.ty {
-                Ty::Bool if lo < hi => format!("{} any", var.name),
+            let range = match var.ty {
+                Ty::Bool if lo < hi => "any".to_owned(),
                 ty => {
                     let show = |v: i32| self.bound.system.show(ty, i64::from(v));
-                    format!("{} = {} .. {}", var.name, show(lo), show(hi))
+                    format!("= {} .. {}", show(lo), show(hi))
                 }
+            };
+            match alike.last_mut() {
+                Some((_, last, same)) if last.array() == var.array() && *same == range => {
+                    *last = var;
+                }
+                _ => alike.push((var, var, range)),
             }
-        };
-        let list: Vec<String> = self.parameters.iter().map(one).collect();
+        }
+        let list: Vec<String> = (alike.into_iter())
+            .map(|(first, last, range)| match (index(first), index(last)) {
+                (Some(a), Some(b)) if a != b => format!("{}[{a}..{b}] {range}", first.array()),
+                _ => format!("{} {range}", first.name),
+            })
+            .collect();
         let count = match count < 1e6 {
             true => format!("{count}"),
             false => format!("{count:.1e}"),
         };
         format!("{}: {count} configurations", list.join(", "))
     }
+}
+
+/// The index of an array's cell, as it is written.
+fn index(var: &Var) -> Option<&str> {
+    var.name.split_once('[')?.1.strip_suffix(']')
 }
 
 /// The value with which a state variable starts in a run.

@@ -4,9 +4,7 @@ use std::collections::BTreeMap;
 use std::time::Instant;
 
 use stillpoint_certify::format::Source;
-use stillpoint_engine::check::{
-    By, Checked, Settings, Summary, Violation, exit_status, violations,
-};
+use stillpoint_engine::check::{Checked, Settings, Summary, Violation, exit_status, violations};
 use stillpoint_engine::lines;
 use stillpoint_engine::readings::Compared;
 use stillpoint_engine::subject::{Subject, Task};
@@ -16,8 +14,8 @@ use stillpoint_show::document::{Block, Document, Inline, Table, Tone};
 use stillpoint_show::graph::Graph;
 
 use super::{
-    configuration, counted, counts, exploration, findings, grouped, inventory, properties, result,
-    topics, values, word,
+    coarser, configuration, counted, counts, exploration, findings, grouped, inventory, properties,
+    result, topics, values, word,
 };
 use crate::certificate::read_again;
 use crate::guarantees::{answers, time, unasked};
@@ -61,7 +59,7 @@ impl About {
         begin: &mut dyn FnMut(&Task),
     ) -> Result<Self, String> {
         // A product of a machine is no task of its file.
-        let own = checked.iter().filter(|done| done.by != By::Proofs).count();
+        let own = checked.iter().filter(|done| !done.product).count();
         let mut out = Self {
             sources: read_again(subject, &subject.tasks[..own])?.header.file,
             ..Self::default()
@@ -82,7 +80,7 @@ fn drawn(
     start: Instant,
 ) -> Result<Control, String> {
     let report = &done.outcome.report;
-    if done.by == By::Proofs {
+    if done.product {
         let why = "not drawn, since its states were not enumerated";
         return Ok(Control::Omitted(why.to_owned()));
     }
@@ -244,15 +242,15 @@ fn verdict(subject: &Subject, checked: &[Checked], summaries: &[Summary]) -> Blo
         let properties = counted(summaries.len() as u64, "property");
         text = format!("{properties}: {counts}. ");
     }
-    let (whole, parts): (Vec<_>, Vec<_>) = checked.iter().partition(|c| c.by == By::Proofs);
+    let (whole, parts): (Vec<_>, Vec<_>) = checked.iter().partition(|c| c.product);
     let complete = |all: &[&Checked]| all.iter().all(|c| c.outcome.report.complete);
     text.push_str(match (complete(&parts), complete(&whole)) {
         (true, _) if whole.is_empty() => "Every reachable state was explored.",
         (true, true) => {
-            "Every reachable state of the parts was explored; the machine as a whole was judged by proof engines."
+            "Every reachable state of the parts was explored; what they do together was judged by proof engines."
         }
         (true, false) => {
-            "Every reachable state of the parts was explored; about the machine as a whole not all was decided in time."
+            "Every reachable state of the parts was explored; of what they do together not all was decided in time."
         }
         (false, _) => "Not every reachable state was explored: a limit was reached first.",
     });
@@ -263,7 +261,8 @@ fn verdict(subject: &Subject, checked: &[Checked], summaries: &[Summary]) -> Blo
             " Finding: {rules} without effect, and nothing says why."
         ));
     }
-    if subject.tasks.iter().any(|t| !t.abstractions.is_empty()) {
+    let mut pairs = subject.tasks.iter().zip(checked);
+    if pairs.any(|(task, done)| coarser(task, done).next().is_some()) {
         text.push_str(
             " The explorations are coarser than the machine where their abstractions say so.",
         );
@@ -278,7 +277,7 @@ fn verdict(subject: &Subject, checked: &[Checked], summaries: &[Summary]) -> Blo
 fn figures(checked: &[Checked], summaries: &[Summary]) -> Block {
     let reports = || checked.iter().map(|c| &c.outcome.report);
     let figure = |n: u128, name: &str| (grouped(n), name.to_owned());
-    let explored = checked.iter().filter(|done| done.by != By::Proofs).count();
+    let explored = checked.iter().filter(|done| !done.product).count();
     Block::Figures(vec![
         figure(summaries.len() as u128, "properties"),
         figure(explored as u128, "explorations"),

@@ -7,7 +7,7 @@ use stillpoint_show::document::{Block, Inline, Tone};
 use stillpoint_show::graph::Graph;
 
 use super::document::{Control, code, ids, paragraph, table, words};
-use super::{counted, grouped, params, reduced, reduction, storage_name, theorems};
+use super::{coarser, counted, grouped, params, reduced, reduction, storage_name, theorems};
 
 /// One row of figures for each exploration, then its parameters and abstractions.
 pub(super) fn blocks(subject: &Subject, checked: &[Checked]) -> Vec<Block> {
@@ -74,18 +74,15 @@ fn about(n: usize, task: &Task, done: &Checked) -> Block {
         Inline::Text(".".to_owned()),
     ])];
     let mut points: Vec<Vec<Inline>> = Vec::new();
-    let kinds = [
-        ("Abstraction: ", &task.abstractions),
-        ("Warning: ", &task.bound.system.warnings),
-    ];
+    let coarse = coarser(task, done).map(|item| ("Abstraction: ", item));
     // A theorem is about the tables as they are.
-    for (kind, items) in kinds.into_iter().filter(|_| done.by != By::Theorems) {
-        points.extend(
-            items
-                .iter()
-                .map(|item| vec![Inline::Strong(kind.to_owned()), Inline::Text(item.clone())]),
-        );
-    }
+    let warnings = task.bound.system.warnings.iter();
+    let warnings = warnings.filter(|_| done.by != By::Theorems);
+    let warnings = warnings.map(|item| ("Warning: ", item.as_str()));
+    points.extend(coarse.chain(warnings).map(|(kind, item)| {
+        let (kind, item) = (kind.to_owned(), item.to_owned());
+        vec![Inline::Strong(kind), Inline::Text(item)]
+    }));
     points.extend(task.analysis.skipped.iter().map(|skipped| {
         words(format!(
             "Not analysed: guards of {skipped} read too many values"
@@ -113,7 +110,7 @@ fn about(n: usize, task: &Task, done: &Checked) -> Block {
             .map(|(name, value)| vec![code(name), words(value)]);
         inside.push(table(&["parameter", "#value"], rows.collect()));
     }
-    let coarse = match task.abstractions.len() as u64 {
+    let coarse = match coarser(task, done).count() as u64 {
         0 => String::new(),
         n => format!(", {}", counted(n, "abstraction")),
     };

@@ -11,9 +11,10 @@ use stillpoint_engine::subject::Subject;
 use stillpoint_engine::verdict_name;
 use stillpoint_lang::bind::Bound;
 use stillpoint_lang::ir::Topic;
+use stillpoint_machine::Abstraction;
 use stillpoint_model::{Trace, Verdict};
 
-use super::{params, reduced, reduction, topics, values};
+use super::{coarser, params, reduced, reduction, topics, values};
 use crate::guarantees::{Answer, answers};
 
 /// The whole report as JSON: the design's keys at the top, details under `runs`.
@@ -70,7 +71,7 @@ pub fn to_json(subject: &Subject, checked: &[Checked], summaries: &[Summary]) ->
                 .collect();
             json!({
                 "title": task.title, "system": system.name, "axes": task.axes,
-                "abstractions": task.abstractions,
+                "abstractions": coarser(task, done).collect::<Vec<_>>(),
                 "parameters": params(&task.bound).into_iter().collect::<BTreeMap<_, _>>(),
                 "readings": task.bound.readings().into_iter().collect::<BTreeMap<_, _>>(),
                 "states": report.states, "transitions": number(report.transitions),
@@ -123,7 +124,7 @@ pub fn guarantees(subject: &Subject, checked: &[Checked]) -> Vec<Value> {
             json!({
                 "axes": run.task.axes, "title": run.task.title, "faults": run.task.faults, "verdict": verdict_name(run.verdict), "bound_us": run.bound,
                 "way": run.way.as_ref().map(|(way, _)| way), "way_at": run.way.as_ref().map(|(_, speed)| speed),
-                "values": values.collect::<Vec<_>>(), "abstractions": run.task.abstractions,
+                "values": values.collect::<Vec<_>>(), "abstractions": Abstraction::texts(&run.task.abstractions),
             })
         });
         let asked = answer.guarantee;

@@ -16,7 +16,7 @@ mod words;
 use std::collections::BTreeMap;
 
 use stillpoint_engine::check::{By, Checked, Summary, Unfired, exit_status};
-use stillpoint_engine::subject::Subject;
+use stillpoint_engine::subject::{Subject, Task};
 use stillpoint_engine::{replay, verdict_name};
 use stillpoint_lang::bind::Bound;
 use stillpoint_model::{Storage, Trace, Verdict};
@@ -76,11 +76,19 @@ fn cited(subject: &Subject, checked: &[Checked]) -> usize {
     all.into_values().filter(|cited| *cited).count()
 }
 
+/// Where the verdicts about a task are coarser than the machine: a theorem is about every value of the parameters.
+fn coarser<'a>(task: &'a Task, done: &Checked) -> impl Iterator<Item = &'a str> {
+    let known = done.by == By::Theorems;
+    let all = task.abstractions.iter();
+    all.filter(move |one| !(known && one.of_values))
+        .map(|one| one.text.as_str())
+}
+
 /// What of a run was not explored, as a sentence; empty if all was.
 fn theorems(done: &Checked) -> String {
     let all = done.outcome.report.properties.len();
     match (done.by, done.cited.len()) {
-        (By::Proofs, _) => {
+        (By::Proofs, cited) => {
             let judged = done.outcome.report.properties.iter();
             let open = judged.filter(|one| one.verdict == Verdict::Inconclusive);
             let more = "--engine pdr --whole has more time";
@@ -89,9 +97,17 @@ fn theorems(done: &Checked) -> String {
                 0 => format!("; whether a value leaves its range is not decided: {more}"),
                 n => format!("; {n} not decided: {more}"),
             };
+            let known = match cited {
+                0 => String::new(),
+                n if n == all => "all its properties are theorems of the family, ".to_owned(),
+                n => format!("{n} of its {all} properties are theorems of the family, "),
+            };
+            let asked = match all - cited {
+                0 => "whether a value leaves its range".to_owned(),
+                n => counted(n as u64, "property"),
+            };
             format!(
-                "not explored: {} asked of property-directed reachability, for all reachable states, in {:.2} s{open}",
-                counted(all as u64, "property"),
+                "not explored: {known}{asked} asked of property-directed reachability, for all reachable states, in {:.2} s{open}",
                 done.outcome.report.seconds
             )
         }

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-use stillpoint_engine::check::{By, Checked, Settings, Summary, Unfired, violations};
+use stillpoint_engine::check::{Checked, Settings, Summary, Unfired, violations};
 use stillpoint_engine::excluded::Decisive;
 use stillpoint_engine::lines::{self, Line};
 use stillpoint_engine::subject::{Subject, Task};
@@ -14,8 +14,8 @@ use stillpoint_model::{Storage, Verdict};
 use super::properties::{Row, rows};
 use super::words::wrapped;
 use super::{
-    cited, counted, counts, diagram, findings, grouped, params, reduced, reduction, result,
-    storage_name, theorems, topics, values, word,
+    cited, coarser, counted, counts, diagram, findings, grouped, params, reduced, reduction,
+    result, storage_name, theorems, topics, values, word,
 };
 use crate::guarantees::{answers, time, unasked};
 
@@ -241,8 +241,7 @@ fn run(out: &mut String, n: usize, task: &Task, done: &Checked, all: bool) {
     if !params.is_empty() && all {
         wrapped(out, "  with ", &params.join(", "));
     }
-    // A theorem is about the tables as they are.
-    for item in task.abstractions.iter().filter(|_| done.by != By::Theorems) {
+    for item in coarser(task, done) {
         wrapped(out, "  abstraction: ", item);
     }
     let storage = storage_name(report.storage);
@@ -331,7 +330,7 @@ fn unfired(out: &mut String, done: &Checked) {
 
 /// What would help where a limit was reached; nothing if none was.
 pub fn further(checked: &[Checked], settings: &Settings) -> String {
-    let explored = || checked.iter().filter(|done| done.by != By::Proofs);
+    let explored = || checked.iter().filter(|done| !done.product);
     let short: Vec<_> = explored()
         .map(|c| &c.outcome.report)
         .filter(|r| !r.complete)

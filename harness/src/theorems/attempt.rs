@@ -31,7 +31,7 @@ const FEWER: [(i64, i64); 3] = [(1 << 20, 16), (256, 256), (16, 16)];
 /// What is known of a system, with its certificates.
 pub(super) type Own = (OfSystem, Vec<Certificate>);
 
-/// The theorems about the one system of a subject.
+/// The theorems about the one system of a subject, whose file has this place in the family's folder.
 pub(super) fn of_system(
     subject: &Subject,
     file: &Path,
@@ -40,9 +40,8 @@ pub(super) fn of_system(
     told: &mut dyn FnMut(&str),
 ) -> Result<Own, Failed> {
     let bound = &subject.tasks[0].bound;
-    let name = file.file_name().unwrap_or_default();
     let own = OfSystem {
-        file: name.to_string_lossy().into_owned(),
+        file: file.to_string_lossy().into_owned(),
         readings: bound.readings().into_iter().collect(),
         proved: Vec::new(),
         open: prints(&bound.system),

@@ -84,7 +84,8 @@ pub fn prove(
             (own.clone(), certificates.cloned().unwrap_or_default())
         });
         let known = known.filter(|(own, certificates)| whole(own, certificates));
-        let own = of_system(&subject, &file, known.as_ref(), proving, told)?;
+        let place = file.strip_prefix(folder).unwrap_or(&file);
+        let own = of_system(&subject, place, known.as_ref(), proving, told)?;
         if known.as_ref() != Some(&own) {
             all.0.systems.insert(full.clone(), own.0);
             all.1.systems.insert(full, own.1);

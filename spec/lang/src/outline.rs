@@ -241,11 +241,26 @@ fn machine(name: &str, spec: &str, def: &schema::Machine) -> Machine {
     }
 }
 
+/// A default as it is written.
+fn default(value: &schema::Default) -> String {
+    match value {
+        schema::Default::All(value) => scalar(value),
+        schema::Default::Each(numbers) => {
+            let numbers: Vec<String> = numbers.iter().map(i64::to_string).collect();
+            numbers.join(", ")
+        }
+    }
+}
+
 fn ports(of: &schema::Map<schema::Short<schema::Port>>) -> Vec<Port> {
+    let value = |port: &schema::Port| match &port.default {
+        Some(value) => Some(default(value.get_ref())),
+        None => port.init.as_ref().map(|value| scalar(value.get_ref())),
+    };
     let port = |(name, port): (&schema::Text, &schema::Short<schema::Port>)| Port {
         name: name.get_ref().clone(),
         ty: port.0.ty.get_ref().clone(),
-        value: (port.0.default.as_ref().or(port.0.init.as_ref())).map(|v| scalar(v.get_ref())),
+        value: value(&port.0),
         text: port.0.text.clone(),
         ids: port.0.id.clone(),
     };

@@ -88,12 +88,20 @@ pub(crate) struct Machine {
 pub(crate) struct Port {
     #[serde(rename = "type")]
     pub ty: Text,
-    pub default: Option<Spanned<Scalar>>,
+    pub default: Option<Spanned<Default>>,
     pub init: Option<Spanned<Scalar>>,
     #[serde(default)]
     pub text: String,
     #[serde(default, deserialize_with = "crate::catalogue::once")]
     pub id: Vec<String>,
+}
+
+/// The default of a parameter; that of an array for all its cells, or a number for each.
+#[derive(Deserialize, Clone, Debug)]
+#[serde(untagged)]
+pub(crate) enum Default {
+    All(Scalar),
+    Each(Vec<i64>),
 }
 
 /// A number, truth value or text where an expression is meant.

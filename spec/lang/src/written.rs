@@ -3,7 +3,7 @@
 use serde::Deserialize;
 use toml::Spanned;
 
-use crate::schema::{Machine, Map, Output, Port, Rule, Scalar, Short, Text};
+use crate::schema::{Default, Machine, Map, Output, Port, Rule, Scalar, Short, Text};
 
 /// A machine as it is written: of the right form, not yet looked at.
 ///
@@ -40,7 +40,7 @@ impl Written {
 
     /// Adds a parameter with its type and default.
     pub fn add_param(&mut self, name: Text, ty: Text, default: i64, text: &str) {
-        let default = Spanned::new(name.span(), Scalar::Int(default));
+        let default = Spanned::new(name.span(), Default::All(Scalar::Int(default)));
         let port = port(ty, Some(default), None, text);
         self.0.param.insert(name, Short(port));
     }
@@ -82,7 +82,7 @@ impl Written {
 
 fn port(
     ty: Text,
-    default: Option<Spanned<Scalar>>,
+    default: Option<Spanned<Default>>,
     init: Option<Spanned<Scalar>>,
     text: &str,
 ) -> Port {

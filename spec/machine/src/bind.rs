@@ -3,10 +3,11 @@
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-use super::family::{BEFORE, Binding, Explore, Family, Rounding};
+use super::eval::Values;
+use super::family::{BEFORE, Binding, Explore, Family, MEMBERS, Rounding, Target};
 use super::plausible::evaluate;
 use super::runs::{Declared, Planned, Subject};
-use super::{Run, Wiring};
+use super::{Abstraction, Run, Wiring};
 use stillpoint_lang::diag::Result;
 
 /// A scaled system has at most this many steps in its longest time.
@@ -15,9 +16,21 @@ const STEPS: i64 = 2;
 /// A time bound to a parameter, before and after rounding.
 struct Time {
     name: String,
+    /// The member whose cell it is; none: the parameter is no array.
+    member: Option<usize>,
     exact: bool,
     cycles: i64,
     rounding: Rounding,
+}
+
+impl Time {
+    /// Its name, of an array that of the cell.
+    fn shown(&self) -> String {
+        match self.member {
+            Some(k) => format!("{}[{}]", self.name, k + 1),
+            None => self.name.clone(),
+        }
+    }
 }
 
 /// The run of `explore` for a subject, with the values of the member at `of`.
@@ -51,51 +64,67 @@ pub(super) fn bind(
     let planned = |run| Planned {
         run,
         each: explore.each,
-        of_member: explore.members > 0,
+        of_member: explore.members.is_some(),
         names: members.iter().map(|(name, _)| (*name).to_owned()).collect(),
     };
     let Some((_, values)) = members.get(of) else {
         return Ok(planned(run));
     };
-    let mut values = Cow::Borrowed(*values);
+    let values = *values;
     let cycle = match &explore.cycle {
-        Some(formula) => evaluate(family, formula, &values, cycle)?.max(1),
+        Some(formula) => evaluate(family, formula, values, cycle)?.max(1),
         None => cycle,
     };
     run.cycle = cycle;
+    let mut beside = Vec::new();
     if let Some(formula) = &explore.before {
-        run.before = evaluate(family, formula, &values, cycle)?;
-        let before = vec![run.before];
-        values.to_mut().insert(BEFORE.to_owned(), before);
+        run.before = evaluate(family, formula, values, cycle)?;
+        beside.push((BEFORE, run.before));
+    }
+    if explore.members.is_some() {
+        let count = i64::try_from(members.len()).unwrap_or(i64::MAX);
+        beside.push((MEMBERS, count));
     }
     if let Some(formula) = &explore.travel {
-        run.travel = evaluate(family, formula, &values, cycle)?;
+        run.travel = evaluate(family, formula, values, cycle)?;
     }
     if let Some(formula) = &explore.window {
-        run.window = evaluate(family, formula, &values, cycle)?;
+        run.window = evaluate(family, formula, values, cycle)?;
     }
-    if !explore.note.is_empty() {
-        run.abstractions.push(explore.note.clone());
+    let all = members.iter().map(|(_, values)| *values);
+    let all: Vec<Cow<'_, Values>> = all.map(|values| with(values, &beside)).collect();
+    let of_target = |target: &Target| if target.each { &all[..] } else { &all[of..=of] };
+    let notes = [
+        (&explore.note, Abstraction::of_system as fn(String) -> _),
+        (&explore.chosen, Abstraction::of_values),
+    ];
+    for (text, kind) in notes.into_iter().filter(|(text, _)| !text.is_empty()) {
+        run.abstractions.push(kind(text.clone()));
     }
     let mut times = Vec::new();
     for binding in &explore.params {
         match binding {
-            Binding::Value(name, formula) => {
-                let value = evaluate(family, formula, &values, cycle)?;
-                run.params.insert(name.clone(), vec![value]);
+            Binding::Value(target, formula) => {
+                let values = of_target(target).iter();
+                let values = values.map(|v| evaluate(family, formula, v, cycle));
+                let values = values.collect::<Result<Vec<i64>>>()?;
+                run.params.insert(target.name.clone(), values);
                 let source = formula.text.get_ref().clone();
-                run.sources.insert(name.clone(), source);
+                run.sources.insert(target.name.clone(), source);
             }
-            Binding::Time(name, formula, rounding) => {
-                let time = evaluate(family, formula, &values, cycle)?;
+            Binding::Time(target, formula, rounding) => {
                 let source = formula.text.get_ref().clone();
-                run.sources.insert(name.clone(), source);
-                times.push(Time {
-                    name: name.clone(),
-                    exact: time % cycle == 0,
-                    cycles: rounding.cycles(time, cycle),
-                    rounding: *rounding,
-                });
+                run.sources.insert(target.name.clone(), source);
+                for (k, values) in of_target(target).iter().enumerate() {
+                    let time = evaluate(family, formula, values, cycle)?;
+                    times.push(Time {
+                        name: target.name.clone(),
+                        member: target.each.then_some(k),
+                        exact: time % cycle == 0,
+                        cycles: rounding.cycles(time, cycle),
+                        rounding: *rounding,
+                    });
+                }
             }
             Binding::Rank(list, names) => {
                 let ranks = ranks(values.get(list).map_or(&[], Vec::as_slice));
@@ -104,15 +133,7 @@ pub(super) fn bind(
                 let sources = names.iter().map(|name| (name.clone(), list.clone()));
                 run.sources.extend(sources);
                 let text = format!("{list} by the order of its values only");
-                run.abstractions.push(text);
-            }
-            Binding::Member(formula, names) => {
-                for (name, (_, values)) in names.iter().zip(members) {
-                    let value = evaluate(family, formula, values, cycle)?;
-                    run.params.insert(name.clone(), vec![value]);
-                    let source = formula.text.get_ref().clone();
-                    run.sources.insert(name.clone(), source);
-                }
+                run.abstractions.push(Abstraction::of_values(text));
             }
         }
     }
@@ -123,6 +144,7 @@ pub(super) fn bind(
         run.sources.insert(name.clone(), format!("T#{us}us"));
         times.push(Time {
             name: name.clone(),
+            member: None,
             exact: time % cycle == 0,
             cycles: Rounding::Up.cycles(time, cycle),
             rounding: Rounding::Up,
@@ -134,12 +156,35 @@ pub(super) fn bind(
     } else {
         1
     };
-    run.abstractions.extend(times_text(&times, step, cycle));
-    let steps = times
-        .into_iter()
-        .map(|t| (t.name, vec![up(t.cycles, step)]));
-    run.params.extend(steps);
+    let coarser = times_text(&times, step, cycle).map(Abstraction::of_values);
+    run.abstractions.extend(coarser);
+    for time in times {
+        let cells = run.params.entry(time.name).or_default();
+        cells.push(up(time.cycles, step));
+    }
+    if let Some(most) = explore.members.as_ref().map(|members| *members.end()) {
+        // Where there is no member its cells say nothing: those of the first one are in every range.
+        for binding in &explore.params {
+            let (Binding::Value(target, _) | Binding::Time(target, ..)) = binding else {
+                continue;
+            };
+            let cells = run.params.get_mut(&target.name);
+            if let Some(cells) = cells.filter(|_| target.each) {
+                let first = cells.first().copied().unwrap_or_default();
+                cells.resize(most, first);
+            }
+        }
+    }
     Ok(planned(run))
+}
+
+/// The values of a member, and those that stand beside them under names of their own.
+fn with<'v>(values: &'v Values, beside: &[(&str, i64)]) -> Cow<'v, Values> {
+    let mut all = Cow::Borrowed(values);
+    for (name, value) in beside {
+        all.to_mut().insert((*name).to_owned(), vec![*value]);
+    }
+    all
 }
 
 /// `a / b`, rounded up; both positive or 0.
@@ -152,7 +197,8 @@ fn times_text(times: &[Time], step: i64, cycle: i64) -> Option<String> {
     let cycle = super::units::Dimension::Time.show(cycle);
     let list = |times: &mut dyn Iterator<Item = String>| times.collect::<Vec<_>>().join(", ");
     if step > 1 {
-        let entry = |t: &Time| format!("{} {} cycles = {}", t.name, t.cycles, up(t.cycles, step));
+        let entry =
+            |t: &Time| format!("{} {} cycles = {}", t.shown(), t.cycles, up(t.cycles, step));
         return Some(format!(
             "times in steps of {step} cycles of {cycle}, rounded up: {}",
             list(&mut times.iter().map(entry))
@@ -161,7 +207,7 @@ fn times_text(times: &[Time], step: i64, cycle: i64) -> Option<String> {
     let mut texts = Vec::new();
     for (rounding, word) in [(Rounding::Up, "up"), (Rounding::Down, "down")] {
         let rounded = times.iter().filter(|t| !t.exact && t.rounding == rounding);
-        let text = list(&mut rounded.map(|t| format!("{} = {} cycles", t.name, t.cycles)));
+        let text = list(&mut rounded.map(|t| format!("{} = {} cycles", t.shown(), t.cycles)));
         if !text.is_empty() {
             texts.push(format!("times rounded {word} to cycles of {cycle}: {text}"));
         }

@@ -42,13 +42,7 @@ pub(super) fn not_explored(
             ));
         }
     }
-    let sizes: Vec<usize> = family
-        .explore
-        .iter()
-        .map(|e| e.members)
-        .filter(|n| *n > 0)
-        .collect();
-    let unfit = |group: &&Vec<String>| !declares && !sizes.contains(&group.len());
+    let unfit = |group: &&Vec<String>| !declares && !together(family, group.len());
     for group in plan.groups.iter().filter(unfit) {
         list.push(format!(
             "group {}: its axes are explored one by one; there is no system for {} together",
@@ -72,13 +66,21 @@ pub(super) fn not_explored(
     list
 }
 
+/// Whether a system of the family is for so many axes, each with values of its own.
+fn together(family: &Family, size: usize) -> bool {
+    let mut all = family.explore.iter().chain(&family.products);
+    all.any(|e| e.members.as_ref().is_some_and(|m| m.contains(&size)))
+}
+
 impl Machine {
-    /// What is explored together and what apart, one sentence each; [`Machine::not_explored`] has the rest.
+    /// What is judged together and what apart, one sentence each; [`Machine::not_explored`] has the rest.
     pub fn coverage(&self) -> Vec<String> {
         let mut list = Vec::new();
         if self.axis_groups.is_empty() {
-            let coupled = self.groups.iter().map(|group| group.join(", "));
-            list.extend(coupled.map(|group| format!("Coupled, explored together: {group}.")));
+            let fit = |group: &&Vec<String>| together(&self.basis.family, group.len());
+            for group in self.groups.iter().filter(fit) {
+                list.push(format!("Coupled, judged together: {}.", group.join(", ")));
+            }
             let coupled = |axis: &&Axis| self.groups.iter().any(|g| g.contains(&axis.name));
             let alone = self.axes.iter().filter(|axis| !coupled(axis));
             let alone: Vec<&str> = alone.map(|a| a.name.as_str()).collect();

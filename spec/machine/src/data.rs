@@ -83,15 +83,16 @@ pub struct Allowed {
     pub default: String,
 }
 
-/// The systems that every machine of the family in `folder` is explored with, whatever it guarantees: the specification file and the
-/// system's name in it.
+/// The systems that the machines of the family in `folder` are checked with, whatever they guarantee, explored or asked of the proof engines:
+/// the specification file and the system's name in it.
 ///
 /// # Errors
 /// Everything that is wrong in its `family.toml`.
 pub fn explored(folder: &Path) -> Result<Vec<(String, String)>> {
     let family = family_file::load(folder)?;
     let pair = |explore: &Explore| (explore.file.clone(), explore.system.clone());
-    Ok(family.explore.iter().map(pair).collect())
+    let all = family.explore.iter().chain(&family.products);
+    Ok(all.map(pair).collect())
 }
 
 /// Reads the data of the family in `folder`.

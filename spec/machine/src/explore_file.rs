@@ -1,10 +1,14 @@
 //! Reads what a family explores: entries of `[[explore]]` and of `[[pattern.NAME.explore]]`.
 
+use std::ops::{Range, RangeInclusive};
+
 use indexmap::IndexMap;
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::family::{BEFORE, Binding, Explore, Formula, Known, Rounding, Scope, Wire};
+use super::family::{
+    BEFORE, Binding, Explore, Formula, Known, MEMBERS, Rounding, Scope, Target, Wire,
+};
 use super::family_file::Check;
 
 /// Bindings that several entries have in common, under a name: `[share.NAME]`.
@@ -42,10 +46,7 @@ pub(super) struct ExploreData {
     param: IndexMap<String, Spanned<String>>,
     #[serde(default)]
     rank: IndexMap<Spanned<String>, Vec<String>>,
-    #[serde(default)]
-    member: IndexMap<Spanned<String>, Vec<String>>,
-    #[serde(default)]
-    members: usize,
+    members: Option<Members>,
     cycle: Option<Spanned<String>>,
     before: Option<Spanned<String>>,
     scan: Option<Spanned<String>>,
@@ -57,6 +58,25 @@ pub(super) struct ExploreData {
     covers: IndexMap<Spanned<String>, Spanned<String>>,
     #[serde(default)]
     note: String,
+    #[serde(default)]
+    chosen: String,
+}
+
+/// For how many axes a system of a group is.
+#[derive(Deserialize, Clone, Copy)]
+#[serde(untagged)]
+enum Members {
+    Exactly(usize),
+    Between(usize, usize),
+}
+
+impl From<Members> for RangeInclusive<usize> {
+    fn from(members: Members) -> Self {
+        match members {
+            Members::Exactly(n) => n..=n,
+            Members::Between(least, most) => least..=most,
+        }
+    }
 }
 
 impl ExploreData {
@@ -102,13 +122,23 @@ impl Check {
             let message = "no systems are explored for the control alone";
             self.findings.add(data.when.span(), message, "", help);
         }
-        if data.each == Scope::Group && data.members == 0 && !known.groups {
+        let members: Option<RangeInclusive<usize>> = data.members.map(Into::into);
+        let of_group = data.each == Scope::Group;
+        if of_group && members.is_none() && !known.groups {
             let help = "write members = 3, or declare the parameters of a group";
             let message = "how many axes has the system?";
             self.findings.add(data.when.span(), message, "", help);
         }
+        if members
+            .as_ref()
+            .is_some_and(|m| !of_group || m.is_empty() || *m.start() < 2)
+        {
+            let help = "write members = 3 or members = [2, 12], with each = \"group\"";
+            let message = "a group of how many axes?";
+            self.findings.add(data.when.span(), message, "", help);
+        }
         let roundings = |formula: &Formula| known.roundings(formula);
-        let known = known.of_explored(data.each, data.members);
+        let known = known.of_explored(data.each, members.is_some());
         let mut optional = |text: Option<Spanned<String>>| match text {
             Some(text) => self.formula(text, known).map(Some),
             None => Some(None),
@@ -153,12 +183,12 @@ impl Check {
             covers.push((name.into_inner(), self.formula(text, known)?));
         }
         let mut params = Vec::new();
-        let of_param = match &before {
-            Some(_) => &[known, &[BEFORE.to_owned()]].concat(),
-            None => known,
-        };
+        let mut of_param = known.to_vec();
+        of_param.extend(before.iter().map(|_| BEFORE.to_owned()));
+        of_param.extend(members.iter().map(|_| MEMBERS.to_owned()));
         for (name, text) in data.param {
-            params.push(Binding::Value(name, self.formula(text, of_param)?));
+            let target = self.target(&name, members.is_some(), text.span());
+            params.push(Binding::Value(target, self.formula(text, &of_param)?));
         }
         for name in &data.down {
             if !data.time.contains_key(name.get_ref()) {
@@ -187,7 +217,8 @@ impl Check {
                     return None;
                 }
             };
-            params.push(Binding::Time(name, formula, rounding));
+            let target = self.target(&name, members.is_some(), span);
+            params.push(Binding::Time(target, formula, rounding));
         }
         for (list, names) in data.rank {
             if !known.contains(list.get_ref()) {
@@ -197,9 +228,6 @@ impl Check {
             }
             params.push(Binding::Rank(list.into_inner(), names));
         }
-        for (text, names) in data.member {
-            params.push(Binding::Member(self.formula(text, known)?, names));
-        }
         Some(Explore {
             file: data.file,
             system: data.system,
@@ -207,7 +235,8 @@ impl Check {
             when: self.formula(data.when, known)?,
             text: data.text,
             note: data.note,
-            members: data.members,
+            chosen: data.chosen,
+            members,
             cycle,
             before,
             scan,
@@ -217,5 +246,18 @@ impl Check {
             covers,
             params,
         })
+    }
+    /// The parameter of a key: `name`, or `name[]` with a cell for each member.
+    fn target(&mut self, key: &str, of_members: bool, span: Range<usize>) -> Target {
+        let array = key.strip_suffix("[]");
+        if array.is_some() && !of_members {
+            let help = "leave [] out, or say how many members the group has: members = 3";
+            let message = format!("'{key}' has a cell for each member, and there are none");
+            self.findings.add(span, message, "", help);
+        }
+        Target {
+            name: array.unwrap_or(key).to_owned(),
+            each: array.is_some(),
+        }
     }
 }

@@ -2,6 +2,7 @@
 //! They stand in `<family>/family.toml`; nothing of them is known to the code.
 
 use std::collections::BTreeMap;
+use std::ops::RangeInclusive;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -45,6 +46,8 @@ pub(super) struct Family {
     pub group_lets: Vec<(String, Formula)>,
     pub rules: Vec<Rule>,
     pub explore: Vec<Explore>,
+    /// What is too large to be enumerated, and asked of the proof engines beside it.
+    pub products: Vec<Explore>,
     /// The names that expressions may read.
     pub known: Known,
     /// Machines of the tables that a machine file may replace by its own `[logic]`.
@@ -162,10 +165,10 @@ impl Known {
     }
 
     /// The names for what is explored.
-    pub fn of_explored(&self, each: Scope, members: usize) -> &[String] {
+    pub fn of_explored(&self, each: Scope, of_members: bool) -> &[String] {
         match each {
             Scope::Axis => &self.axis,
-            Scope::Group if members > 0 => &self.axis,
+            Scope::Group if of_members => &self.axis,
             _ => &self.whole,
         }
     }
@@ -426,6 +429,9 @@ pub(super) struct Rule {
 /// The name under which the parameters of an explored system read the time that passes beside it.
 pub(super) const BEFORE: &str = "before";
 
+/// The name under which those of a system for a group of axes read how many these are.
+pub(super) const MEMBERS: &str = "members";
+
 /// A system to explore for an axis, a group of axes, a door or the machine.
 #[derive(Debug)]
 pub(super) struct Explore {
@@ -434,10 +440,12 @@ pub(super) struct Explore {
     pub each: Scope,
     pub when: Formula,
     pub text: String,
-    /// Where the system is coarser than the axis beside its times; may be empty.
+    /// Where the system is coarser than what it stands for; may be empty.
     pub note: String,
-    /// For a group: how many axes the system has, each with values of its own; 0: any, the group has one value of each.
-    pub members: usize,
+    /// Which values its parameters have in place of those of the machine; may be empty.
+    pub chosen: String,
+    /// For a group of axes, each with values of its own: how many of them the system is for. None: the group has one value of each.
+    pub members: Option<RangeInclusive<usize>>,
     /// The length of a cycle of the system, where it is not the monitoring cycle.
     pub cycle: Option<Formula>,
     /// A time that passes beside what is explored, and that a bound found there does not have. The expressions under `param` read it as `before`.
@@ -466,16 +474,22 @@ pub(super) struct Wire {
     pub optional: bool,
 }
 
+/// The parameter of a system that takes a value.
+#[derive(Debug, Clone)]
+pub(super) struct Target {
+    pub name: String,
+    /// Whether it is an array with a cell for each member of the group; `name[]` in the data.
+    pub each: bool,
+}
+
 /// How parameters of a system follow from the values of an axis.
 #[derive(Debug)]
 pub(super) enum Binding {
     /// The parameter is the value of the expression.
-    Value(String, Formula),
+    Value(Target, Formula),
     /// A time: whole monitoring cycles, rounded as its parameters say, up where there are none; divided by the common step
     /// where the system is scaled.
-    Time(String, Formula, Rounding),
+    Time(Target, Formula, Rounding),
     /// Each of the parameters is the position of one value of a list among its different values, from 0.
     Rank(String, Vec<String>),
-    /// Each of the parameters is the value of the expression for one member of the group.
-    Member(Formula, Vec<String>),
 }

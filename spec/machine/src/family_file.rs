@@ -15,6 +15,7 @@ use super::family::{
     Family, Formula, Function, Known, Limits, Param, Quantity, Rounding, Rule, Scope, Slot,
 };
 use super::guarantee;
+use super::products;
 use super::signal::{Bits, Signals};
 use super::value::{Raw, number};
 use super::whole::before;
@@ -160,6 +161,7 @@ pub(super) fn load(folder: &Path) -> Result<Family> {
         return Err(check.findings.into_diagnostics());
     };
     (family.patterns, family.faults) = guarantee::load(folder, &family.known, &family.group_lets)?;
+    family.products = products::load(folder, &family.known)?;
     check.findings.finish(family)
 }
 
@@ -270,6 +272,7 @@ impl Check {
             group_lets,
             rules,
             explore,
+            products: Vec::new(),
             known,
             logic: data.logic,
             patterns: IndexMap::new(),

@@ -218,8 +218,40 @@ pub struct Run {
     pub params: BTreeMap<String, Vec<i64>>,
     /// For each parameter the expression over the values of the file that it was computed from.
     pub sources: BTreeMap<String, String>,
-    /// Where the run is coarser than the machine: what was rounded, scaled or replaced by its order. Empty: exact.
-    pub abstractions: Vec<String>,
+    /// Where the run is coarser than the machine. Empty: exact.
+    pub abstractions: Vec<Abstraction>,
+}
+
+/// Where a run is coarser than the machine.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Abstraction {
+    /// In words.
+    pub text: String,
+    /// It is about the values of the parameters alone, which were rounded, scaled, chosen or replaced by their order: no matter for what holds
+    /// whatever they are.
+    pub of_values: bool,
+}
+
+impl Abstraction {
+    /// All of them in words.
+    pub fn texts(list: &[Self]) -> Vec<&str> {
+        list.iter().map(|one| one.text.as_str()).collect()
+    }
+
+    pub(crate) fn of_values(text: String) -> Self {
+        Self {
+            text,
+            of_values: true,
+        }
+    }
+
+    /// One of the system itself, which stands for more than it has.
+    pub fn of_system(text: String) -> Self {
+        Self {
+            text,
+            of_values: false,
+        }
+    }
 }
 
 /// What the values of a machine were judged with, for further data of its family.

@@ -1,8 +1,11 @@
-//! Products of a whole machine, which are too large to be enumerated: what the proof engines are asked beside the explorations.
+//! Products of parts of a machine, which are too large to be enumerated: what the proof engines are asked beside the explorations.
+
+use std::path::Path;
 
 use serde::Deserialize;
 
 use super::explore_file::ExploreData;
+use super::family::{Explore, Known};
 use super::ground::DataFile;
 use super::{Machine, Run, runs};
 use stillpoint_lang::diag::Result;
@@ -18,22 +21,29 @@ struct FileData {
     explore: Vec<ExploreData>,
 }
 
+/// The products of the family in `folder`; none where it has no `product.toml`.
+///
+/// # Errors
+/// The file is wrong.
+pub(super) fn load(folder: &Path, known: &Known) -> Result<Vec<Explore>> {
+    if !files::is_file(&folder.join(FILE)) {
+        return Ok(Vec::new());
+    }
+    let file = DataFile::read(folder, FILE, "products")?;
+    let data: FileData = file.parse()?;
+    let mut check = file.check();
+    let explore = check.explores(data.explore, known);
+    check.findings.finish(explore)
+}
+
 impl Machine {
-    /// The products of this machine; none where the family has no `product.toml`.
+    /// The products of this machine; none where the family has none for it.
     ///
     /// # Errors
-    /// The file is wrong.
+    /// Faults of the family's data.
     pub fn products(&self) -> Result<Vec<Run>> {
         let family = &self.basis.family;
-        if !files::is_file(&family.folder.join(FILE)) {
-            return Ok(Vec::new());
-        }
-        let file = DataFile::read(&family.folder, FILE, "products")?;
-        let data: FileData = file.parse()?;
-        let mut check = file.check();
-        let explore = check.explores(data.explore, &family.known);
-        check.findings.finish(())?;
         let (judged, logic) = (&self.basis.judged, &self.basis.logic);
-        Ok(runs::plan(family, &explore, self.parts(), judged, logic)?.runs)
+        Ok(runs::plan(family, &family.products, self.parts(), judged, logic)?.runs)
     }
 }

@@ -286,7 +286,7 @@ fn subjects<'a>(
     let all = parts.axes.iter().map(|a| a.name.clone()).collect();
     let names = |list: &[toml::Spanned<String>]| list.iter().map(|a| a.get_ref().clone()).collect();
     let wholes: Vec<(Member<'a>, Vec<String>)> = match explore.each {
-        Scope::Group if explore.members == 0 => (parts.groups.iter().zip(&judged.groups))
+        Scope::Group if explore.members.is_none() => (parts.groups.iter().zip(&judged.groups))
             .map(|(group, values)| ((group.name.as_str(), values), names(&group.axes)))
             .collect(),
         Scope::Door => (parts.doors.iter().zip(&judged.doors))
@@ -303,17 +303,17 @@ fn subjects<'a>(
         }
     }
     let singles: Vec<Vec<usize>>;
-    let (candidates, size) = match explore.each {
-        Scope::Group => (coupled, explore.members),
-        Scope::Axis => {
+    let (candidates, sizes) = match (explore.each, &explore.members) {
+        (Scope::Group, Some(sizes)) => (coupled, sizes),
+        (Scope::Axis, _) => {
             singles = (0..parts.axes.len()).map(|k| vec![k]).collect();
-            (&singles[..], 1)
+            (&singles[..], &(1..=1))
         }
-        _ => (&[][..], 0),
+        _ => (&[][..], &(1..=1)),
     };
     for candidate in candidates {
         let members = members(family, explore, parts.axes, judged, candidate)?;
-        if members.len() == size && size > 0 {
+        if sizes.contains(&members.len()) {
             let axes = members.iter().map(|(name, _)| (*name).to_owned()).collect();
             list.push(Subject { members, axes });
         }
@@ -450,15 +450,17 @@ fn merge(list: &mut Vec<Planned>, new: Planned) {
         list.push(new);
         return;
     };
-    let add = |into: &mut Vec<String>, from: Vec<String>| {
-        for text in from {
-            if !into.contains(&text) {
-                into.push(text);
-            }
-        }
-    };
     add(&mut known.names, new.names);
     add(&mut known.run.axes, new.run.axes);
     add(&mut known.run.faults, new.run.faults);
     add(&mut known.run.abstractions, new.run.abstractions);
+}
+
+/// Adds what is not there yet.
+fn add<T: PartialEq>(into: &mut Vec<T>, from: Vec<T>) {
+    for one in from {
+        if !into.contains(&one) {
+            into.push(one);
+        }
+    }
 }

@@ -113,9 +113,9 @@ pub(super) fn of_system(explore: &Explore, read: &dyn Fn(&Expr) -> Vec<String>) 
     names.extend(times.flat_map(|f| read(&f.expr)));
     for binding in &explore.params {
         match binding {
-            Binding::Value(_, formula)
-            | Binding::Time(_, formula, _)
-            | Binding::Member(formula, _) => names.extend(read(&formula.expr)),
+            Binding::Value(_, formula) | Binding::Time(_, formula, _) => {
+                names.extend(read(&formula.expr))
+            }
             Binding::Rank(list, _) => names.push(list.clone()),
         }
     }

@@ -123,7 +123,7 @@ fn each_run_fits_its_system() {
             if let Err(error) = Bound::new(system, &run.params, &BTreeMap::new()) {
                 panic!("{}: {error}", run.title);
             }
-            let says = |text: &str| run.abstractions.iter().any(|t| t.starts_with(text));
+            let says = |text: &str| run.abstractions.iter().any(|t| t.text.starts_with(text));
             let told = says("times in steps of ");
             assert!(scaled || !told, "{}", run.title);
             // Or the family says which small times it has, whatever those of the machine are.
@@ -220,7 +220,7 @@ fn times_become_cycles_and_never_shorter() {
     assert_eq!(stop.params["enable_e"], [1]);
     let rounded = "times rounded up to cycles of 12 ms: t_d = 34 cycles, t_f = 9 cycles";
     assert!(
-        stop.abstractions.iter().any(|t| t == rounded),
+        stop.abstractions.iter().any(|t| t.text == rounded),
         "{:?}",
         stop.abstractions
     );
@@ -229,7 +229,8 @@ fn times_become_cycles_and_never_shorter() {
     let steps = ["t_b", "t_c", "t_d", "t_e", "t_f"].map(|t| pair.params[t][0]);
     assert_eq!(steps, [1, 1, 2, 2, 1]);
     assert!(pair.abstractions.iter().any(|t| {
-        t.starts_with("times in steps of 25 cycles of 12 ms, rounded up: t_b 25 cycles = 1")
+        t.text
+            .starts_with("times in steps of 25 cycles of 12 ms, rounded up: t_b 25 cycles = 1")
     }));
     assert_eq!(run(&machine, "stop_pair", "S").params["enable_e"], [0]);
     // limits by their order
@@ -285,6 +286,69 @@ fn coupling_follows_the_stop_group() {
         groups(&[axis("A", alone), axis("B", ""), axis("C", alone)]),
         [["A", "B", "C"]]
     );
+}
+
+/// The axes of a group of any number up to twelve are judged together, each with its own times; what is beyond is told.
+#[test]
+fn groups_of_every_size_have_a_product() {
+    let name = |k: usize| char::from(b'A' + u8::try_from(k).expect("few axes"));
+    let of = |size: usize| {
+        let axes = (0..size).map(|k| {
+            // The last one has a setting of its own, and moves with the first.
+            let more = match k + 1 == size {
+                true => "IPO_STOP_GROUP = \"interpolating axes\"\ninterpolates_with = [\"A\"]",
+                false => "",
+            };
+            format!(
+                "[axis.{}]\nkind = \"linear\"\nfunctions = [\"SBH/SG\"]\nSTOP_SWITCH_TIME_D = \"{} ms\"\n{more}\n",
+                name(k),
+                12 * (k + 1)
+            )
+        });
+        let text = format!("family = \"sinumerik-840d\"\n{}", axes.collect::<String>());
+        load(&text).unwrap_or_else(|e| panic!("{e}"))
+    };
+    for size in 2..=12 {
+        let machine = of(size);
+        let products = machine.products().expect("products");
+        let [run] = &products[..] else {
+            panic!("{size} axes: {} products", products.len());
+        };
+        let names: Vec<String> = (0..size).map(|k| name(k).to_string()).collect();
+        assert_eq!(run.axes, names);
+        assert_eq!(run.params["axes"], [i64::try_from(size).expect("few")]);
+        let own = |k: usize| i64::from(k + 1 == size);
+        let first = |cells: Vec<i64>| -> Vec<i64> {
+            let first = cells.first().copied().unwrap_or_default();
+            cells
+                .into_iter()
+                .chain(std::iter::repeat(first))
+                .take(12)
+                .collect()
+        };
+        assert_eq!(run.params["ipo"], first((0..size).map(own).collect()));
+        let cycles = (1..=size).map(|k| i64::try_from(k).expect("few"));
+        assert_eq!(run.params["t_d"], first(cycles.collect()));
+        assert!(
+            run.abstractions
+                .iter()
+                .all(|one| !one.text.contains("steps of"))
+        );
+        let spec = machine.spec(run).unwrap_or_else(|e| panic!("{e}"));
+        let system = spec.system(&run.system, u64::try_from(run.cycle).ok());
+        let system = system.unwrap_or_else(|e| panic!("{e}"));
+        Bound::new(system, &run.params, &BTreeMap::new()).unwrap_or_else(|e| panic!("{e}"));
+        assert!(
+            !machine
+                .not_explored
+                .iter()
+                .any(|text| text.starts_with("group"))
+        );
+    }
+    let machine = of(13);
+    assert!(machine.products().expect("products").is_empty());
+    let told = "there is no system for 13 together";
+    assert!(machine.not_explored.iter().any(|text| text.ends_with(told)));
 }
 
 /// Each function is selected for each axis alone, whatever the others have; nothing else, such as an operating mode, takes

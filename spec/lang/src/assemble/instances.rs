@@ -150,26 +150,46 @@ impl Builder<'_> {
         };
         let base = self.sys.params.len() as u32;
         let (ty, len) = (vars[0].ty, vars.len() as u32);
-        let value = self.constant(file, default, ty, names)?;
+        let one = |value: Scalar| {
+            let value = toml::Spanned::new(default.span(), value);
+            self.constant(file, &value, ty, names)
+        };
+        let values = match default.get_ref() {
+            schema::Default::All(value) => vec![one(value.clone())?; vars.len()],
+            schema::Default::Each(numbers) => {
+                let numbers = numbers.iter().map(|n| one(Scalar::Int(*n)));
+                numbers.collect::<One<Vec<Node>>>()?
+            }
+        };
+        if values.len() != vars.len() {
+            let (given, cells) = (values.len(), vars.len());
+            let message = format!("{given} defaults for {cells} cells");
+            return Err(self
+                .spec
+                .error(file, default.span(), message)
+                .help("write one number for all cells, or one for each"));
+        }
         let (lo, hi) = (
             self.ranges().of(&vars[0].lo).0,
             self.ranges().of(&vars[0].hi).1,
         );
-        let range = self.ranges().of(&value);
-        if range.1 < lo || range.0 > hi {
-            return Err(self
-                .spec
-                .error(
-                    file,
-                    default.span(),
-                    format!("default {} is outside {lo}..{hi}", range.0),
-                )
-                .help(format!("give `{}` a default of its type", name.get_ref())));
+        for value in &values {
+            let range = self.ranges().of(value);
+            if range.1 < lo || range.0 > hi {
+                return Err(self
+                    .spec
+                    .error(
+                        file,
+                        default.span(),
+                        format!("default {} is outside {lo}..{hi}", range.0),
+                    )
+                    .help(format!("give `{}` a default of its type", name.get_ref())));
+            }
         }
-        for var in vars {
+        for (var, default) in vars.into_iter().zip(values) {
             self.sys.params.push(Param {
                 var,
-                default: value.clone(),
+                default,
                 reading: None,
             });
         }
