@@ -204,11 +204,39 @@ fn a_whole_machine_is_one_product() {
 
     let output = stillpoint(&[
         "check",
-        "spec/machines/milling-840d.toml",
+        "spec/machines/storage-crane.toml",
         "--engine",
         "pdr",
         "--whole",
     ]);
     assert_eq!(status(&output), 2);
     assert!(messages(&output).contains("is described by its parts alone"));
+}
+
+/// The axes of a group of any number are judged together, beside the exploration of each, as far as that is no theorem.
+#[test]
+fn a_group_of_five_axes_is_judged_together() {
+    let axes = ["X", "Y", "Z", "A", "C"];
+    let axes =
+        axes.map(|name| format!("[axis.{name}]\nkind = \"linear\"\nfunctions = [\"SBH/SG\"]\n"));
+    let text = format!("family = \"sinumerik-840d\"\n{}", axes.concat());
+    let folder = Folder::new("five-axes");
+    let path = folder.write("five.toml", &text);
+    let output = stillpoint(&["check", &path, "-v"]);
+    let text = stdout(&output);
+    assert_eq!(status(&output), 0, "{text}{}", stderr(&output));
+    for told in [
+        "\nCoupled, judged together: X, Y, Z, A, C.\n",
+        "effect of a stop on all axes of the group, axes X, Y, Z, A, C\n",
+        "not explored: 4 of its 6 properties are theorems of the family, 2 properties asked of",
+        "times rounded up to cycles of 12 ms: t_b[1..5] = 9 cycles",
+        "  with axes = 5, t_b[1..12] = 9, ",
+    ] {
+        assert!(text.contains(told), "{told}: {text}");
+    }
+    assert!(!text.contains("one by one"), "{text}");
+    let output = stillpoint(&["check", &path, "--engine", "pdr", "--whole"]);
+    let text = stdout(&output);
+    assert_eq!(status(&output), 0, "{text}{}", stderr(&output));
+    assert_eq!(lines_with(&text, "holds        pdr "), 5, "{text}");
 }

@@ -31,6 +31,8 @@ fn given(explore: &Table) -> BTreeSet<&str> {
     let table = |name: &str| explore.get(name).and_then(Value::as_table);
     let keys = ["param", "time"].into_iter().filter_map(table);
     let keys = keys.flat_map(|table| table.keys().map(String::as_str));
+    // `name[]` is the array of that name.
+    let keys = keys.map(|key| key.strip_suffix("[]").unwrap_or(key));
     let ranked = table("rank").into_iter().flat_map(Table::values);
     let ranked = ranked.filter_map(Value::as_array).flatten();
     keys.chain(ranked.filter_map(Value::as_str)).collect()
@@ -50,7 +52,7 @@ fn what_is_explored_for_a_machine_has_the_parameters_that_it_is_given() {
     let (mut wrong, mut names) = (Vec::new(), 0);
     for folder in folders.iter().filter(|f| f.join("family.toml").exists()) {
         let mut all = Vec::new();
-        for file in ["family.toml", "guarantees.toml"] {
+        for file in ["family.toml", "product.toml", "guarantees.toml"] {
             let path = folder.join(file);
             if path.exists() {
                 explored(&Value::Table(parsed(&path)), &mut all);
@@ -62,7 +64,7 @@ fn what_is_explored_for_a_machine_has_the_parameters_that_it_is_given() {
             let spec = Spec::load(&path).unwrap_or_else(|e| panic!("{e}"));
             let system = spec.system(text("system"), None);
             let system = system.unwrap_or_else(|e| panic!("{e}"));
-            let known: BTreeSet<&str> = system.params.iter().map(|p| &*p.var.name).collect();
+            let known: BTreeSet<&str> = system.params.iter().map(|p| p.var.array()).collect();
             names += known.len();
             if text("system") == "setpoint" {
                 let percent = &explore["param"]["percent"];

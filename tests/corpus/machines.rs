@@ -103,7 +103,7 @@ fn the_pages_show_the_numbers_of_the_milling_machine() {
         format!("{states}states,{transitions}transitions")
     };
     // With the theorems of the family and without.
-    let mut subject = MILLING.0.clone();
+    let mut subject = load("milling-840d.toml");
     let machine = subject.machine.as_ref().expect("a machine");
     let theorems = Theorems::load(machine.family_folder()).unwrap_or_else(|e| panic!("{e}"));
     let settings = Settings {

@@ -102,7 +102,8 @@ pub struct Arguments {
     /// be given several times
     #[arg(long = "where", value_name = "CONDITION", requires = "every")]
     conditions: Vec<String>,
-    /// Judge the whole machine as one product, which is too large to be explored, in place of its parts: of families that describe one
+    /// Judge the products of the machine, such as all of it or the axes of a group together, which are too large to be explored, in place of its
+    /// parts: of families that describe some
     #[arg(long, requires = "engine", conflicts_with = "certificate")]
     whole: bool,
     /// Explore also what is a theorem of the machine's family, see `stillpoint theorems`

@@ -4,6 +4,7 @@
 //! together is told by conditions, as further atoms of the system. The result is a system like any other.
 
 use stillpoint_lang::bind::{Bound, Bounds};
+use stillpoint_lang::cells::together;
 use stillpoint_lang::condition::Condition;
 use stillpoint_lang::ir::{BinaryOp, Form, Node, Param, Property, Space, State, Stmt, Ty, Var};
 use stillpoint_lang::twice::twice;
@@ -129,9 +130,7 @@ impl Every {
             return "no parameter: one configuration".to_owned();
         }
         let mut count = 1.0_f64;
-        // Cells of an array with the same range are told together.
-        let mut alike: Vec<(&Var, &Var, String)> = Vec::new();
-        for k in &self.parameters {
+        let one = |k: &usize| {
             let (lo, hi) = self.bound.states[*k];
             count *= f64::from(hi.abs_diff(lo)) + 1.0;
             let var = &self.bound.system.states[*k].var;
@@ -142,18 +141,11 @@ impl Every {
                     format!("= {} .. {}", show(lo), show(hi))
                 }
             };
-            match alike.last_mut() {
-                Some((_, last, same)) if last.array() == var.array() && *same == range => {
-                    *last = var;
-                }
-                _ => alike.push((var, var, range)),
-            }
-        }
-        let list: Vec<String> = (alike.into_iter())
-            .map(|(first, last, range)| match (index(first), index(last)) {
-                (Some(a), Some(b)) if a != b => format!("{}[{a}..{b}] {range}", first.array()),
-                _ => format!("{} {range}", first.name),
-            })
+            (var.name.clone(), range)
+        };
+        let list = together(self.parameters.iter().map(one));
+        let list: Vec<String> = (list.into_iter())
+            .map(|(name, range)| format!("{name} {range}"))
             .collect();
         let count = match count < 1e6 {
             true => format!("{count}"),
@@ -161,11 +153,6 @@ impl Every {
         };
         format!("{}: {count} configurations", list.join(", "))
     }
-}
-
-/// The index of an array's cell, as it is written.
-fn index(var: &Var) -> Option<&str> {
-    var.name.split_once('[')?.1.strip_suffix(']')
 }
 
 /// The value with which a state variable starts in a run.

@@ -3,6 +3,7 @@
 use stillpoint_engine::Evaluator;
 use stillpoint_engine::check::{By, Checked, Unfired};
 use stillpoint_engine::subject::{Subject, Task};
+use stillpoint_lang::cells::together;
 use stillpoint_show::document::{Block, Inline, Tone};
 use stillpoint_show::graph::Graph;
 
@@ -102,7 +103,7 @@ fn about(n: usize, task: &Task, done: &Checked) -> Block {
     if !points.is_empty() {
         inside.push(Block::List(points));
     }
-    let params = params(&task.bound);
+    let params = together(params(&task.bound));
     let count = params.len();
     if count > 0 {
         let rows = params

@@ -8,6 +8,7 @@ use stillpoint_engine::excluded::Decisive;
 use stillpoint_engine::lines::{self, Line};
 use stillpoint_engine::subject::{Subject, Task};
 use stillpoint_engine::{Evaluator, verdict_name};
+use stillpoint_lang::cells::together;
 use stillpoint_lang::ir::Topic;
 use stillpoint_model::{Storage, Verdict};
 
@@ -234,7 +235,7 @@ fn run(out: &mut String, n: usize, task: &Task, done: &Checked, all: bool) {
     let report = &done.outcome.report;
     let _ = writeln!(out, "Run {n}: {}", task.title);
     let _ = writeln!(out, "  system {}", task.bound.system.name);
-    let params: Vec<String> = params(&task.bound)
+    let params: Vec<String> = together(params(&task.bound))
         .iter()
         .map(|(n, v)| format!("{n} = {v}"))
         .collect();

@@ -9,6 +9,7 @@ pub mod analysis;
 mod assemble;
 pub mod bind;
 pub mod catalogue;
+pub mod cells;
 pub mod codegen;
 pub mod compile;
 pub mod condition;

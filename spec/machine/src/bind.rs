@@ -8,6 +8,7 @@ use super::family::{BEFORE, Binding, Explore, Family, MEMBERS, Rounding, Target}
 use super::plausible::evaluate;
 use super::runs::{Declared, Planned, Subject};
 use super::{Abstraction, Run, Wiring};
+use stillpoint_lang::cells::together;
 use stillpoint_lang::diag::Result;
 
 /// A scaled system has at most this many steps in its longest time.
@@ -25,12 +26,19 @@ struct Time {
 
 impl Time {
     /// Its name, of an array that of the cell.
-    fn shown(&self) -> String {
+    fn cell(&self) -> String {
         match self.member {
             Some(k) => format!("{}[{}]", self.name, k + 1),
             None => self.name.clone(),
         }
     }
+}
+
+/// Times with what is told of each.
+fn list<'t>(times: impl Iterator<Item = &'t Time>, told: impl Fn(&Time) -> String) -> String {
+    let all = together(times.map(|time| (time.cell(), told(time))));
+    let all: Vec<String> = all.into_iter().map(|(name, text)| name + &text).collect();
+    all.join(", ")
 }
 
 /// The run of `explore` for a subject, with the values of the member at `of`.
@@ -195,19 +203,17 @@ fn up(a: i64, b: i64) -> i64 {
 /// What the times lost, by the rule of each: `None` when each is a whole number of cycles and not scaled.
 fn times_text(times: &[Time], step: i64, cycle: i64) -> Option<String> {
     let cycle = super::units::Dimension::Time.show(cycle);
-    let list = |times: &mut dyn Iterator<Item = String>| times.collect::<Vec<_>>().join(", ");
     if step > 1 {
-        let entry =
-            |t: &Time| format!("{} {} cycles = {}", t.shown(), t.cycles, up(t.cycles, step));
+        let told = |t: &Time| format!(" {} cycles = {}", t.cycles, up(t.cycles, step));
         return Some(format!(
             "times in steps of {step} cycles of {cycle}, rounded up: {}",
-            list(&mut times.iter().map(entry))
+            list(times.iter(), told)
         ));
     }
     let mut texts = Vec::new();
     for (rounding, word) in [(Rounding::Up, "up"), (Rounding::Down, "down")] {
         let rounded = times.iter().filter(|t| !t.exact && t.rounding == rounding);
-        let text = list(&mut rounded.map(|t| format!("{} = {} cycles", t.shown(), t.cycles)));
+        let text = list(rounded, |t| format!(" = {} cycles", t.cycles));
         if !text.is_empty() {
             texts.push(format!("times rounded {word} to cycles of {cycle}: {text}"));
         }

@@ -334,6 +334,8 @@ fn groups_of_every_size_have_a_product() {
                 .iter()
                 .all(|one| !one.text.contains("steps of"))
         );
+        let alike = format!("t_b[1..{size}] = 9 cycles");
+        assert!(run.abstractions.iter().any(|one| one.text.contains(&alike)));
         let spec = machine.spec(run).unwrap_or_else(|e| panic!("{e}"));
         let system = spec.system(&run.system, u64::try_from(run.cycle).ok());
         let system = system.unwrap_or_else(|e| panic!("{e}"));

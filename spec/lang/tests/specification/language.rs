@@ -182,6 +182,18 @@ fn initial_values_and_arrays() {
 }
 
 #[test]
+fn the_default_of_an_array_is_one_or_a_list() {
+    let of = |default: &str| {
+        let body = format!(
+            "[machine.m.param]\np = {{ type = \"ARRAY[1..3] OF INT(0..9)\", default = {default} }}\n[machine.m.state]\nx = {{ type = \"INT(0..9)\", init = 0 }}\n"
+        );
+        bound(&machine("", &body, &[("TRUE", "x := p[2];")], "")).values
+    };
+    assert_eq!(of("4"), [4, 4, 4]);
+    assert_eq!(of("[4, 0, 9]"), [4, 0, 9]);
+}
+
+#[test]
 fn a_reading_is_a_constant_of_its_option() {
     let head = "[reading.A-1]\ntext = \"?\"\noptions = [\"FIRST\", \"SECOND\"]\n";
     let body = "[machine.m.state]\nx = { type = \"INT(0..9)\", init = 0 }\n";

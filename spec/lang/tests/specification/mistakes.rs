@@ -94,6 +94,9 @@ fn wrong_declarations() {
         "y = { type = \"BOOL\", init = false }\n[machine.m.let]\n@y = \"TRUE\"",
         "[machine.m.param]\n@p = \"BOOL\"",
         "[machine.m.param]\np = { type = \"INT(1..3)\", default = @9 }",
+        "[machine.m.param]\np = { type = \"ARRAY[1..3] OF INT(1..3)\", default = @[1, 2] }",
+        "[machine.m.param]\np = { type = \"ARRAY[1..2] OF INT(1..3)\", default = @[1, 4] }",
+        "[machine.m.param]\np = { type = \"INT(1..3)\", default = @[1, 2] }",
     ];
     insta::assert_snapshot!("wrong_states", mistakes(list.map(state)));
     let head = |head: &str, when: &str| machine(head, X, &[(when, "x := 1;")], "");

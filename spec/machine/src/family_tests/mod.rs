@@ -1,6 +1,7 @@
 //! The data of the shipped families against the tables of the manuals, and every plausibility rule against examples.
 
 mod examples;
+mod explored;
 mod heidenhain;
 mod modules;
 mod sinumerik;
