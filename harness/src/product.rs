@@ -66,7 +66,8 @@ fn outcome(task: &Task, judged: Vec<Judged>) -> Outcome {
         ..Outcome::nothing(system)
     };
     let report = &mut outcome.report;
-    report.seconds = judged.iter().map(|one| one.seconds).sum();
+    // The sum of nothing is -0.
+    report.seconds = judged.iter().map(|one| one.seconds).sum::<f64>() + 0.0;
     for (k, one) in judged.into_iter().enumerate() {
         report.complete &= one.verdict != Verdict::Inconclusive;
         // What holds has neither: they would be of a run that puts it to the test.

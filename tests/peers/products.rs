@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use stillpoint_harness::proof::{Choice, Every, Judged, Settings, Which, judge, judge_every};
+use stillpoint_harness::proof::{Choice, Every, Judged, Settings, Span, Which, judge, judge_every};
 use stillpoint_lang::eval::Frame;
 use stillpoint_model::Verdict;
 use stillpoint_monitors::sinumerik::group::{self, Reach, Reaction};
@@ -278,11 +278,25 @@ mod slow {
     #[test]
     #[ignore = "slow: a step of .ci/run"]
     fn it_keeps_it_in_every_configuration() {
-        for file in products() {
-            for task in &load(&file).tasks {
-                let every = Every::new(&task.bound, &Which::All).expect("free parameters");
-                all_hold(&judge_every(&every, &settings()), &file);
-            }
+        every(MACHINE, &Which::All);
+    }
+
+    /// Whatever the times are is the matter of the theorems.
+    #[test]
+    #[ignore = "slow: a step of .ci/run"]
+    fn axes_of_every_number_and_setting_keep_it() {
+        let named = ["axes", "ipo", "esr"].map(|name| Span {
+            name: name.to_owned(),
+            values: None,
+        });
+        every(AXES, &Which::Named(named.to_vec()));
+    }
+
+    fn every(file: &str, which: &Which) {
+        let file = root().join(file);
+        for task in &load(&file).tasks {
+            let every = Every::new(&task.bound, which).expect("free parameters");
+            all_hold(&judge_every(&every, &settings()), &file);
         }
     }
 }

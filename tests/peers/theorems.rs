@@ -11,7 +11,7 @@ use stillpoint_certify::proof::read::read_theorems;
 use stillpoint_engine::check::{Settings as CheckSettings, check, summarise};
 use stillpoint_engine::label;
 use stillpoint_engine::subject::{self, Readings};
-use stillpoint_engine::theorems::{OfSystem, Proved, RANGE, Theorems};
+use stillpoint_engine::theorems::{Known, OfSystem, Proved, RANGE, Theorems};
 use stillpoint_harness::proof::{Every, Settings, judge_every};
 use stillpoint_harness::theorems::certificates::{Certificates, check as check_certificates};
 use stillpoint_harness::theorems::{Proving, Ranges, is_more, prints, prove, ranges, systems};
@@ -361,7 +361,7 @@ fn a_condition_is_part_of_what_is_shown() {
         let mut params = machine.system.params.iter();
         let place = params.position(|p| p.var.name == "enabled");
         machine.values[place.expect("a parameter")] = value;
-        let (cited, _) = known.of(&machine);
+        let cited = known.of(&machine).properties;
         let cited = cited.iter().any(|k| {
             let id = label(&machine.system.properties[*k]);
             own.proved[such].holds.contains_key(&id)
@@ -408,7 +408,11 @@ fn another_table_has_other_theorems() {
     let known = theorems("sinumerik-840d");
     let file = folder("sinumerik-840d").join("axis.toml");
     let bound = bound(&file, "stop");
-    let (cited, range) = known.of(&bound);
+    let Known {
+        properties: cited,
+        range,
+        ..
+    } = known.of(&bound);
     assert!(cited.len() >= 20 && range, "{cited:?}");
     let changes: [(&str, Change); 8] = [
         ("guard", |s| {
@@ -426,23 +430,57 @@ fn another_table_has_other_theorems() {
     for (what, change) in changes {
         let mut other = bound.clone();
         change(&mut other.system);
-        assert_eq!(known.of(&other), (Vec::new(), false), "{what}");
+        assert_eq!(known.of(&other), Known::default(), "{what}");
     }
     // The property itself: what it says, and what its expressions mean.
     let number = cited[0];
     let mut other = bound.clone();
     other.system.properties[number].form = Form::Reachable { goal: 0 };
-    assert!(!known.of(&other).0.contains(&number));
+    assert!(!known.of(&other).properties.contains(&number));
     let (atoms, _) = bound.system.properties[number].form.expressions();
     let mut other = bound.clone();
     other.system.atoms[atoms[0]] = Node::Const(1);
-    assert!(!known.of(&other).0.contains(&number));
+    assert!(!known.of(&other).properties.contains(&number));
     // Another reading.
     let reading = bound.system.readings.first().expect("it has readings");
     let option = reading.options.last().expect("with options").clone();
     let chosen = BTreeMap::from([(reading.id.clone(), option)]);
     let other = Bound::new(bound.system.clone(), &BTreeMap::new(), &chosen).expect("an option");
-    assert_eq!(known.of(&other), (Vec::new(), false), "reading");
+    assert_eq!(known.of(&other), Known::default(), "reading");
+}
+
+/// What is known for fewer values or under conditions is told apart from what holds whatever the values are.
+#[test]
+fn whole_ranges_are_told_apart() {
+    let all = theorems("sinumerik-840d");
+    let file = folder("sinumerik-840d").join("axis.toml");
+    let bound = bound(&file, "stop");
+    let changed = |change: &dyn Fn(&mut Vec<Proved>)| {
+        let mut known = all.clone();
+        let own = known.systems.get_mut(&bound.system.name);
+        change(&mut own.expect("it has theorems").proved);
+        known.of(&bound)
+    };
+    let whole = |proved: &Proved| proved.within.is_empty() && proved.conditions.is_empty();
+    let known = changed(&|proved| proved.retain(whole));
+    assert!(known.everywhere && known.range, "{known:?}");
+    let within = |proved: &mut Vec<Proved>| {
+        for one in proved {
+            one.within.insert("t_b".to_owned(), (0, 480_000));
+        }
+    };
+    let conditions = |proved: &mut Vec<Proved>| {
+        for one in proved {
+            one.conditions.push("t_b >= 0".to_owned());
+        }
+    };
+    let changes: [&dyn Fn(&mut Vec<Proved>); 2] = [&within, &conditions];
+    for change in changes {
+        let fewer = changed(change);
+        assert!(!fewer.everywhere, "{fewer:?}");
+        assert_eq!(fewer.properties, all.of(&bound).properties);
+    }
+    assert!(!changed(&|proved| proved.clear()).everywhere);
 }
 
 /// A machine's values outside the ranges of a proof: it is not cited.
@@ -472,8 +510,8 @@ fn values_outside_the_ranges_are_not_covered() {
             outside.values[place] = *hi as i32 + 1;
             assert!(*lo <= i64::from(inside.values[place]));
             let count = |bound: &Bound| {
-                let (properties, range) = known.of(bound);
-                properties.len() + usize::from(range)
+                let known = known.of(bound);
+                known.properties.len() + usize::from(known.range)
             };
             let wide = count(&outside);
             // A property that records its bound is no citation.

@@ -37,6 +37,8 @@ pub struct Checked {
     pub product: bool,
     /// Properties that are theorems of the family, by number: their verdict is no exploration's.
     pub cited: Vec<usize>,
+    /// All its verdicts hold for the whole ranges of the parameters, whatever their values are.
+    pub everywhere: bool,
     /// Rules that never fired: (name, why).
     pub unfired: Vec<(String, Unfired)>,
     /// Witnesses that the values of the machine exclude, by property number.
@@ -73,6 +75,7 @@ impl Checked {
                 false => By::Proofs,
             },
             product: true,
+            everywhere: cited.all && cited.everywhere,
             cited: cited.properties,
             unfired: Vec::new(),
             excluded: BTreeMap::new(),
@@ -137,6 +140,7 @@ pub(crate) fn told(
             false => By::Exploration,
         },
         product: false,
+        everywhere: answer.cited.all && answer.cited.everywhere,
         cited: answer.cited.properties,
     })
 }

@@ -91,6 +91,11 @@ impl Proved {
         self.holds.keys().chain(self.fails.keys())
     }
 
+    /// Whether these are all values that are documented.
+    fn is_whole(&self) -> bool {
+        self.within.is_empty() && self.conditions.is_empty()
+    }
+
     /// Whether the values of a system are among these.
     fn covers(&self, bound: &Bound) -> bool {
         let params = bound.system.params.iter().zip(&bound.values);
@@ -127,33 +132,51 @@ impl Theorems {
         toml::from_str(&text).map_err(|e| toml_error(&name, &Arc::from(text), &e).into())
     }
 
-    /// The numbers of the properties of a system that are theorems, and whether it is one too that no value leaves its range.
-    pub fn of(&self, bound: &Bound) -> (Vec<usize>, bool) {
+    /// What of a system with these values is a theorem.
+    pub fn of(&self, bound: &Bound) -> Known {
         let system = &bound.system;
         let Some(known) = self.systems.get(&system.name) else {
-            return (Vec::new(), false);
+            return Known::default();
         };
         if bound.readings().into_iter().collect::<BTreeMap<_, _>>() != known.readings {
-            return (Vec::new(), false);
+            return Known::default();
         }
         let tables = tables(system);
         let covering: Vec<&Proved> = known.proved.iter().filter(|p| p.covers(bound)).collect();
-        let holds = |label: &str, property| {
-            let mut own = covering
-                .iter()
-                .filter_map(|proved| proved.holds.get(label))
+        // Whether it holds whatever the values are, if it is a theorem for these.
+        let holds = |label: &str, property| -> Option<bool> {
+            let own = covering.iter();
+            let mut own = own
+                .filter_map(|proved| Some((proved.is_whole(), proved.holds.get(label)?)))
                 .peekable();
-            own.peek().is_some() && {
-                let print = fingerprint(&tables, system, property);
-                own.any(|own| *own == print)
-            }
+            own.peek()?;
+            let print = fingerprint(&tables, system, property);
+            own.filter_map(|(whole, own)| (*own == print).then_some(whole))
+                .max()
         };
         let properties = system.properties.iter().enumerate();
-        let cited = properties.filter(|(_, property)| {
-            property.stated == Stated::default() && holds(&label(property), Some(property))
-        });
-        (cited.map(|(k, _)| k).collect(), holds(RANGE, None))
+        let cited = properties.filter(|(_, property)| property.stated == Stated::default());
+        let cited: Vec<(usize, bool)> = cited
+            .filter_map(|(k, property)| Some((k, holds(&label(property), Some(property))?)))
+            .collect();
+        let range = holds(RANGE, None);
+        Known {
+            range: range.is_some(),
+            everywhere: range == Some(true) && cited.iter().all(|(_, whole)| *whole),
+            properties: cited.into_iter().map(|(k, _)| k).collect(),
+        }
     }
+}
+
+/// What of a system with its values is a theorem.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Known {
+    /// The numbers of its properties that are.
+    pub properties: Vec<usize>,
+    /// It is one too that no value leaves its range.
+    pub range: bool,
+    /// All of that holds for the whole ranges of the parameters without a condition: what these values are is no matter.
+    pub everywhere: bool,
 }
 
 /// What of a task need not be asked, as it is known.
@@ -162,6 +185,8 @@ pub struct Cited {
     pub properties: Vec<usize>,
     /// Whether there is nothing else to be known about it.
     pub all: bool,
+    /// Whether it holds for the whole ranges of the parameters.
+    pub everywhere: bool,
     /// All properties of the task, while some are taken out.
     whole: Vec<Property>,
 }
@@ -171,7 +196,11 @@ impl Cited {
     pub fn take(theorems: Option<&Theorems>, task: &mut Task) -> Self {
         let own = task.guarantee.is_some() || task.loose.is_some();
         let known = theorems.filter(|_| !own).map(|all| all.of(&task.bound));
-        let (properties, range) = known.unwrap_or_default();
+        let Known {
+            properties,
+            range,
+            everywhere,
+        } = known.unwrap_or_default();
         let list = &mut task.bound.system.properties;
         let all = range && !list.is_empty() && properties.len() == list.len();
         let mut whole = Vec::new();
@@ -184,6 +213,7 @@ impl Cited {
         Cited {
             properties,
             all,
+            everywhere,
             whole,
         }
     }

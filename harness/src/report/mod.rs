@@ -76,11 +76,11 @@ fn cited(subject: &Subject, checked: &[Checked]) -> usize {
     all.into_values().filter(|cited| *cited).count()
 }
 
-/// Where the verdicts about a task are coarser than the machine: a theorem is about every value of the parameters.
+/// Where the verdicts about a task are coarser than the machine. What holds for every value of the parameters holds for those of the machine too.
 fn coarser<'a>(task: &'a Task, done: &Checked) -> impl Iterator<Item = &'a str> {
-    let known = done.by == By::Theorems;
+    let everywhere = done.everywhere;
     let all = task.abstractions.iter();
-    all.filter(move |one| !(known && one.of_values))
+    all.filter(move |one| !(everywhere && one.of_values))
         .map(|one| one.text.as_str())
 }
 
