@@ -474,9 +474,7 @@ fn whole_ranges_are_told_apart() {
             one.conditions.push("t_b >= 0".to_owned());
         }
     };
-    let changes: [&dyn Fn(&mut Vec<Proved>); 2] = [&within, &conditions];
-    for change in changes {
-        let fewer = changed(change);
+    for fewer in [changed(&within), changed(&conditions)] {
         assert!(!fewer.everywhere, "{fewer:?}");
         assert_eq!(fewer.properties, all.of(&bound).properties);
     }
