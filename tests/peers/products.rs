@@ -281,7 +281,7 @@ mod slow {
         every(MACHINE, &Which::All);
     }
 
-    /// Whatever the times are is the matter of the theorems.
+    /// With the default times: for all of them most properties are theorems, but not S840D-STOP-082-D.
     #[test]
     #[ignore = "slow: a step of .ci/run"]
     fn axes_of_every_number_and_setting_keep_it() {
