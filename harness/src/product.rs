@@ -1,4 +1,4 @@
-//! A machine as one product, which is too large to be enumerated: judged by the proof engines beside the exploration of its parts.
+//! Products of parts of a machine, which are too large to be explored: judged by the proof engines beside the exploration of the parts.
 
 use std::time::{Duration, Instant};
 

@@ -3,6 +3,7 @@
 
 mod btor2;
 mod certificates;
+mod cited;
 mod differential;
 mod engines;
 mod evaluators;

@@ -75,7 +75,7 @@ impl Checked {
                 false => By::Proofs,
             },
             product: true,
-            everywhere: cited.all && cited.everywhere,
+            everywhere: cited.everywhere,
             cited: cited.properties,
             unfired: Vec::new(),
             excluded: BTreeMap::new(),
@@ -140,7 +140,7 @@ pub(crate) fn told(
             false => By::Exploration,
         },
         product: false,
-        everywhere: answer.cited.all && answer.cited.everywhere,
+        everywhere: answer.cited.everywhere,
         cited: answer.cited.properties,
     })
 }

@@ -185,7 +185,7 @@ pub struct Cited {
     pub properties: Vec<usize>,
     /// Whether there is nothing else to be known about it.
     pub all: bool,
-    /// Whether it holds for the whole ranges of the parameters.
+    /// Whether there is not, and all of it holds for the whole ranges of the parameters.
     pub everywhere: bool,
     /// All properties of the task, while some are taken out.
     whole: Vec<Property>,
@@ -213,7 +213,7 @@ impl Cited {
         Cited {
             properties,
             all,
-            everywhere,
+            everywhere: all && everywhere,
             whole,
         }
     }

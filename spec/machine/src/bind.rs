@@ -166,21 +166,18 @@ pub(super) fn bind(
     };
     let coarser = times_text(&times, step, cycle).map(Abstraction::of_values);
     run.abstractions.extend(coarser);
+    let mut steps: BTreeMap<String, Vec<i64>> = BTreeMap::new();
     for time in times {
-        let cells = run.params.entry(time.name).or_default();
+        let cells = steps.entry(time.name).or_default();
         cells.push(up(time.cycles, step));
     }
-    if let Some(most) = explore.members.as_ref().map(|members| *members.end()) {
-        // Where there is no member its cells say nothing: those of the first one are in every range.
-        for binding in &explore.params {
-            let (Binding::Value(target, _) | Binding::Time(target, ..)) = binding else {
-                continue;
-            };
-            let cells = run.params.get_mut(&target.name);
-            if let Some(cells) = cells.filter(|_| target.each) {
-                let first = cells.first().copied().unwrap_or_default();
-                cells.resize(most, first);
-            }
+    run.params.extend(steps);
+    let most = explore.members.as_ref().map_or(0, |members| *members.end());
+    for name in explore.params.iter().filter_map(Binding::array) {
+        if let Some(cells) = run.params.get_mut(name) {
+            // Cells beyond the members say nothing: copies of the first one are in its range.
+            let first = cells.first().copied().unwrap_or_default();
+            cells.resize(most, first);
         }
     }
     Ok(planned(run))

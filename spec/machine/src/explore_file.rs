@@ -247,6 +247,7 @@ impl Check {
             params,
         })
     }
+
     /// The parameter of a key: `name`, or `name[]` with a cell for each member.
     fn target(&mut self, key: &str, of_members: bool, span: Range<usize>) -> Target {
         let array = key.strip_suffix("[]");

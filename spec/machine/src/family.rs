@@ -493,3 +493,15 @@ pub(super) enum Binding {
     /// Each of the parameters is the position of one value of a list among its different values, from 0.
     Rank(String, Vec<String>),
 }
+
+impl Binding {
+    /// The parameter that is an array with a cell for each member of the group; none: it is another one.
+    pub fn array(&self) -> Option<&str> {
+        match self {
+            Binding::Value(target, _) | Binding::Time(target, ..) if target.each => {
+                Some(&target.name)
+            }
+            _ => None,
+        }
+    }
+}
